@@ -18,7 +18,7 @@ KineticEnergy kinetic_energy(const World& world);
 /// What all rods have at the world's tick.
 Content content(const World& world);
 
-/// The energy and momentum budget of a run: what the rods had, got, lost and have. What remains unexplained is
+/// The energy and momentum balance of a run: what the rods had, got, lost and have. What remains unexplained is
 /// rounding.
 struct Balance {
   double energy_start = 0;                   ///< [pJ]

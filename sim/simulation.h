@@ -34,7 +34,7 @@ class Simulation {
   static Result<Simulation> resume(const System& system, std::span<const std::byte> checkpoint);
 
   /// Begins with a world made by hand: empty_world(scene), at any tick, with a prepared flight for each of its rods.
-  /// What they have then is what the energy budget begins with.
+  /// What they have then is what the energy balance begins with.
   static Simulation start_from(World world);
 
   Simulation(Simulation&&) noexcept;

@@ -20,7 +20,7 @@ void wait_for_change(const std::atomic<std::uint32_t>& value, std::uint32_t old)
 }  // namespace
 
 ThreadTeam::ThreadTeam(int n_threads) {
-  for (int worker = 1; worker < n_threads; ++worker) threads_.emplace_back([this, worker] { work(worker); });
+  for (int thread = 1; thread < n_threads; ++thread) threads_.emplace_back([this, thread] { work(thread); });
 }
 
 ThreadTeam::~ThreadTeam() {
@@ -43,13 +43,13 @@ void ThreadTeam::run(Call call, const void* context) {
   }
 }
 
-void ThreadTeam::work(int worker) {
+void ThreadTeam::work(int thread) {
   std::uint32_t seen = 0;
   while (true) {
     wait_for_change(round_, seen);
     ++seen;
     if (ending_) return;
-    call_(context_, worker);
+    call_(context_, thread);
     if (busy_.fetch_sub(1, std::memory_order_release) == 1) busy_.notify_one();
   }
 }

@@ -18,18 +18,18 @@ class ThreadTeam {
 
   int size() const { return static_cast<int>(threads_.size()) + 1; }
 
-  /// Calls body(worker) once on each thread, worker in [0, size()), 0 being the caller's, and returns when all are
+  /// Calls body(thread) once on each thread, thread in [0, size()), 0 being the caller's, and returns when all are
   /// done.
   template <class Body>
   void run(const Body& body) {
-    run([](const void* context, int worker) { (*static_cast<const Body*>(context))(worker); }, &body);
+    run([](const void* context, int thread) { (*static_cast<const Body*>(context))(thread); }, &body);
   }
 
  private:
-  using Call = void (*)(const void* context, int worker);
+  using Call = void (*)(const void* context, int thread);
 
   void run(Call call, const void* context);
-  void work(int worker);
+  void work(int thread);
 
   std::vector<std::thread> threads_;
   // the call under way; written before round_ is raised, read after

@@ -34,7 +34,7 @@ const std::vector<std::pair<const char*, std::vector<std::string>>> kFiles{
 
 /// Standard deviation of the speed at the start, three components (sim/initial.cpp) [mm/s].
 constexpr double kStartSpeed = 20.0 * 1.7320508;
-/// The energy budget must close to this, as a fraction of all that changed hands; and to a rounding for each impulse.
+/// The energy balance must close to this, as a fraction of all that changed hands; and to a rounding for each impulse.
 constexpr double kLedgerLimit = 1e-12;
 constexpr double kLedgerPerImpulse = 1e-16;
 /// Rods between plates at rest have come to rest after a tenth of this [s]; a shorter run cannot tell.

@@ -12,26 +12,26 @@
 
 namespace shaken {
 
-/// Threads that share the loops of a tick. Each has a `Worker`: its own rods and pairs, so that what belongs to them
+/// Threads that share the loops of a tick. Each has a `Share`: its own rods and pairs, so that what belongs to them
 /// stays in one thread's caches, and whatever it gathers.
-template <class Worker>
+template <class Share>
 class SharedLoops {
  public:
-  explicit SharedLoops(int n_threads) : team_(n_threads), workers_(static_cast<std::size_t>(n_threads)) {}
+  explicit SharedLoops(int n_threads) : team_(n_threads), shares_(static_cast<std::size_t>(n_threads)) {}
 
-  std::vector<Worker>& workers() { return workers_; }
-  const std::vector<Worker>& workers() const { return workers_; }
+  std::vector<Share>& shares() { return shares_; }
+  const std::vector<Share>& shares() const { return shares_; }
 
   /// Whether loops are shared from now on; if not, the caller's thread does everyone's work.
-  void share(bool shared) { shared_ = shared && team_.size() > 1; }
+  void set_shared(bool shared) { shared_ = shared && team_.size() > 1; }
 
-  /// Calls visit(worker) for each worker, each on its own thread if loops are shared. Returns when all are done.
+  /// Calls visit(share) for each share, each on its own thread if loops are shared. Returns when all are done.
   template <class Visit>
   void run(const Visit& visit) {
     if (shared_) {
-      team_.run([&](int w) { visit(workers_[static_cast<std::size_t>(w)]); });
+      team_.run([&](int k) { visit(shares_[static_cast<std::size_t>(k)]); });
     } else {
-      for (Worker& worker : workers_) visit(worker);
+      for (Share& share : shares_) visit(share);
     }
   }
 
@@ -49,7 +49,7 @@ class SharedLoops {
 
  private:
   ThreadTeam team_;
-  std::vector<Worker> workers_;
+  std::vector<Share> shares_;
   bool shared_ = false;
 };
 

@@ -31,19 +31,19 @@ ScheduledStepper::ScheduledStepper(const World& world, int n_threads, int grain)
   if (rules_.impacts_at_instant) flight_pose_.resize(world.rods.size());
   // rods are numbered along the rows that they start in, so these are bands of the plane
   const std::size_t n = world.rods.size();
-  const auto n_workers = static_cast<std::size_t>(n_threads);
-  for (std::size_t i = 0; i < n; ++i) owners_[i] = static_cast<std::uint8_t>(i * n_workers / n);
-  for (std::size_t w = 0; w < n_workers; ++w) {
-    loops_.workers()[w].number = w;
-    loops_.workers()[w].stored.overspent.resize(n_workers);
+  const auto n_shares = static_cast<std::size_t>(n_threads);
+  for (std::size_t i = 0; i < n; ++i) owners_[i] = static_cast<std::uint8_t>(i * n_shares / n);
+  for (std::size_t w = 0; w < n_shares; ++w) {
+    loops_.shares()[w].number = w;
+    loops_.shares()[w].stored.overspent.resize(n_shares);
   }
 }
 
 std::size_t ScheduledStepper::bytes() const {
   std::size_t bytes = neighbors_.bytes() + wheel_.bytes() + pairs_.bytes();
   bytes += heap_bytes(rods_, flight_pose_, jumps_, skin_budgets_, marks_, flight_bounds_, owners_);
-  bytes += heap_bytes(contacts_, may_change_, gained_, lost_, loops_.workers());
-  for (const Worker& w : loops_.workers()) {
+  bytes += heap_bytes(contacts_, may_change_, gained_, lost_, loops_.shares());
+  for (const Share& w : loops_.shares()) {
     bytes +=
         heap_bytes(w.met.rods, w.met.to_place, w.detected.near, w.detected.near_end, w.met.failed, w.detected.pairs,
                    w.to_pose, w.detected.contacts, w.detected.toggled, w.met.hit, w.stored.to_schedule,
@@ -55,28 +55,28 @@ std::size_t ScheduledStepper::bytes() const {
 
 WorkCounts ScheduledStepper::work_counts() const {
   WorkCounts counts;
-  for (const Worker& worker : loops_.workers()) counts.add(worker.counts);
+  for (const Share& share : loops_.shares()) counts.add(share.counts);
   return counts;
 }
 
 std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
   phase_times.start();
   std::size_t n_visits = 0;  // and bounds, in the tick before
-  for (const Worker& worker : loops_.workers()) {
-    n_visits += worker.met.rods.size() + worker.detected.pairs.size() + worker.stored.to_bound.size();
+  for (const Share& share : loops_.shares()) {
+    n_visits += share.met.rods.size() + share.detected.pairs.size() + share.stored.to_bound.size();
   }
-  loops_.share(n_visits >= grain_ * loops_.workers().size());
+  loops_.set_shared(n_visits >= grain_ * loops_.shares().size());
 
   // 1. surfaces
   const PlateState plates = world.plates.at(now);
-  in_loop([&](Worker& worker) { meet_surfaces_due(world, plates, now, worker); });
+  in_loop([&](Share& share) { meet_surfaces_due(world, plates, now, share); });
   if (auto trouble = gather_surfaces(world)) return trouble;
   phase_times.lap(Phase::kSurfaces);
 
   // 2. detection
   place_rods(now);
   phase_times.lap(Phase::kNeighbors);
-  in_loop([&](Worker& worker) { detect_due(world, now, worker); });
+  in_loop([&](Share& share) { detect_due(world, now, share); });
   gather_contacts(world, now);
   phase_times.lap(Phase::kDetection);
   if (have_placed_) replace_pairs(world, now);
@@ -92,22 +92,20 @@ std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
   // 4. storing
   if (auto trouble = check_changed(now)) return trouble;
   // ... and what was visited, and what flies differently now, gets new bounds
-  in_loop([&](Worker& worker) {
-    store_changed(world, now, worker);
-    lap(worker, Phase::kStoring);
-    spend_budgets(now, worker);
-    lap(worker, Phase::kTightening);
-    schedule_rods(world, now, worker);
+  in_loop([&](Share& share) {
+    store_changed(world, now, share);
+    lap(share, Phase::kStoring);
+    spend_budgets(now, share);
+    lap(share, Phase::kTightening);
+    schedule_rods(world, now, share);
   });
-  const auto has_pairs = [](const Worker& worker) {
-    return !worker.detected.pairs.empty() || worker.stored.has_overspent;
-  };
-  if (std::none_of(loops_.workers().begin(), loops_.workers().end(), has_pairs)) return {};
-  in_loop([&](Worker& worker) {
-    shorten_bounds(now, worker);
-    bound_motions(world, now, worker);
+  const auto has_pairs = [](const Share& share) { return !share.detected.pairs.empty() || share.stored.has_overspent; };
+  if (std::none_of(loops_.shares().begin(), loops_.shares().end(), has_pairs)) return {};
+  in_loop([&](Share& share) {
+    shorten_bounds(now, share);
+    bound_motions(world, now, share);
   });
-  in_loop([&](Worker& worker) { schedule_pairs(now, worker); });
+  in_loop([&](Share& share) { schedule_pairs(now, share); });
   return {};
 }
 
@@ -124,12 +122,12 @@ void ScheduledStepper::pose_if_needed(int i, const World& world, Tick now) {
   pose_rod(i, world, now);
 }
 
-void ScheduledStepper::pose_listed(const World& world, Tick now, Worker& worker) {
+void ScheduledStepper::pose_listed(const World& world, Tick now, Share& share) {
   const auto ask = [&](int i) {
     prefetch(world.rods[i]);
     prefetch(rods_[i]);
   };
-  for_each_prefetched(worker.to_pose, ask, [&](int i) { pose_rod(i, world, now); });
+  for_each_prefetched(share.to_pose, ask, [&](int i) { pose_rod(i, world, now); });
 }
 
 auto ScheduledStepper::groups_of_rods() const {
@@ -138,15 +136,15 @@ auto ScheduledStepper::groups_of_rods() const {
 
 // ---- 1. surfaces
 
-void ScheduledStepper::meet_surfaces_due(World& world, const PlateState& plates, Tick now, Worker& worker) {
-  worker.met.rods.clear();
-  worker.met.hit.clear();
+void ScheduledStepper::meet_surfaces_due(World& world, const PlateState& plates, Tick now, Share& share) {
+  share.met.rods.clear();
+  share.met.hit.clear();
   if (is_new_) {
     for (int i = 0; i < static_cast<int>(world.rods.size()); ++i) {
-      if (owners_[i] == worker.number) worker.met.rods.push_back(i);
+      if (owners_[i] == share.number) share.met.rods.push_back(i);
     }
   } else {
-    wheel_.pop(now, worker.met.rods, static_cast<int>(worker.number));
+    wheel_.pop(now, share.met.rods, static_cast<int>(share.number));
   }
   const auto ask = [&](int i) {
     prefetch(world.rods[i]);
@@ -155,28 +153,28 @@ void ScheduledStepper::meet_surfaces_due(World& world, const PlateState& plates,
     prefetch(skin_budgets_[i]);
   };
   const auto note_trouble = [&](std::optional<NumericalTrouble> trouble) {
-    if (trouble && (!worker.met.trouble || trouble->rods < worker.met.trouble->rods))
-      worker.met.trouble = std::move(trouble);
+    if (trouble && (!share.met.trouble || trouble->rods < share.met.trouble->rods))
+      share.met.trouble = std::move(trouble);
   };
   const auto begin_visit = [&](int i) {  // before a plate displaces the rod
     marks_[i].posed_at = marks_[i].listed_at = now;
     if (skin_budgets_[i].left(now, rules_.dt) >= SkinBudget::kLeast) return;
     skin_budgets_[i].measure(neighbors_, i, rods_[i].pose, now);
-    if (skin_budgets_[i].left(now, rules_.dt) < SkinBudget::kLeast) worker.met.to_place.push_back(i);
+    if (skin_budgets_[i].left(now, rules_.dt) < SkinBudget::kLeast) share.met.to_place.push_back(i);
   };
   const auto meet_all = [&](int i) {
-    note_trouble(meet_surfaces(i, rods_[i], world.rods[i], plates, now, rules_, worker.met.counters));
+    note_trouble(meet_surfaces(i, rods_[i], world.rods[i], plates, now, rules_, share.met.counters));
   };
   const auto end_visit = [&](int i) {
     if (!rods_[i].changed) return;
     RodMarks& marks = marks_[i];
     if (marks.changed_at == now - 1) marks.rests_at = now;
     marks.changed_at = now;
-    worker.met.hit.push_back(i);
-    if (check_motion(i, rods_[i], now, rules_)) worker.met.failed.push_back(i);
+    share.met.hit.push_back(i);
+    if (check_motion(i, rods_[i], now, rules_)) share.met.failed.push_back(i);
   };
   const auto meet_in_lanes = [&](std::span<const int> rods) {
-    std::uint32_t left_over = meet_plates_in_lanes(rods, world.rods, rods_, plates, now, rules_, worker.met.counters);
+    std::uint32_t left_over = meet_plates_in_lanes(rods, world.rods, rods_, plates, now, rules_, share.met.counters);
     for (const int i : rods) {
       const bool is_left_over = (left_over & 1U) != 0;
       left_over >>= 1;
@@ -185,15 +183,15 @@ void ScheduledStepper::meet_surfaces_due(World& world, const PlateState& plates,
       if (is_left_over) {
         meet_all(i);
       } else if (rules_.walls) {
-        note_trouble(meet_side_walls(i, rods_[i], world.rods[i], plates, now, rules_, worker.met.counters));
+        note_trouble(meet_side_walls(i, rods_[i], world.rods[i], plates, now, rules_, share.met.counters));
       }
       end_visit(i);
     }
   };
-  if (meets_in_lanes_ && worker.met.rods.size() > 1) {
+  if (meets_in_lanes_ && share.met.rods.size() > 1) {
     const auto groups = groups_of_rods();
-    groups.sort(worker.met.rods);
-    const std::span<const int> due = worker.met.rods;
+    groups.sort(share.met.rods);
+    const std::span<const int> due = share.met.rods;
     const auto ask_for_eight = [&](std::size_t first) {
       for (std::size_t k = first; k < std::min(due.size(), first + lanes::kDoubleLanes); ++k) ask(due[k]);
     };
@@ -204,25 +202,25 @@ void ScheduledStepper::meet_surfaces_due(World& world, const PlateState& plates,
     };
     groups.in_lanes(due, meet_and_ask, lanes::kDoubleLanes);
   } else {
-    for_each_prefetched(worker.met.rods, ask, [&](int i) {
+    for_each_prefetched(share.met.rods, ask, [&](int i) {
       pose_rod(i, world, now);
       begin_visit(i);
       meet_all(i);
       end_visit(i);
     });
   }
-  worker.counts.count(WorkKind::kRodsVisited, std::ssize(worker.met.rods));
-  worker.counts.count(WorkKind::kRodsHit, std::ssize(worker.met.hit));
-  worker.counts.count(WorkKind::kRodsPlaced, std::ssize(worker.met.to_place));
+  share.counts.count(WorkKind::kRodsVisited, std::ssize(share.met.rods));
+  share.counts.count(WorkKind::kRodsHit, std::ssize(share.met.hit));
+  share.counts.count(WorkKind::kRodsPlaced, std::ssize(share.met.to_place));
 }
 
 std::optional<NumericalTrouble> ScheduledStepper::gather_surfaces(World& world) {
   std::optional<NumericalTrouble> first;
-  for (Worker& worker : loops_.workers()) {
-    if (worker.met.rods.empty()) continue;
-    world.counters.add(worker.met.counters);
-    worker.met.counters = {};
-    if (worker.met.trouble && (!first || worker.met.trouble->rods < first->rods)) first = worker.met.trouble;
+  for (Share& share : loops_.shares()) {
+    if (share.met.rods.empty()) continue;
+    world.counters.add(share.met.counters);
+    share.met.counters = {};
+    if (share.met.trouble && (!first || share.met.trouble->rods < first->rods)) first = share.met.trouble;
   }
   return first;
 }
@@ -248,78 +246,78 @@ void ScheduledStepper::add_gained() {
     const NeighborList::Pair& pair = neighbors_.pairs()[p];
     if (pair.i < 0 || pairs_.is_used(p)) continue;  // lost again, or met twice
     pairs_.add(p, {pair.i, pair.j}, owners_[pair.i]);
-    worker_of(pair.i).detected.pairs.push_back(p);
+    share_of(pair.i).detected.pairs.push_back(p);
   }
 }
 
 void ScheduledStepper::place_rods(Tick now) {
   was_complete_ = true;
   have_placed_ = false;
-  for (Worker& worker : loops_.workers()) worker.detected.pairs.clear();
+  for (Share& share : loops_.shares()) share.detected.pairs.clear();
   if (is_new_) build_neighbors(now);
-  for (Worker& worker : loops_.workers()) {
-    if (!worker.met.to_place.empty()) have_placed_ = true;
-    for (const int i : worker.met.to_place) {
+  for (Share& share : loops_.shares()) {
+    if (!share.met.to_place.empty()) have_placed_ = true;
+    for (const int i : share.met.to_place) {
       if (!(skin_budgets_[i].left(now, rules_.dt) >= 0)) was_complete_ = false;
       neighbors_.place(i, flight_pose(i));
     }
   }
 }
 
-void ScheduledStepper::detect_due(const World& world, Tick now, Worker& worker) {
-  for (const int i : worker.met.to_place) {
+void ScheduledStepper::detect_due(const World& world, Tick now, Share& share) {
+  for (const int i : share.met.to_place) {
     skin_budgets_[i].measure(neighbors_, i, rods_[i].pose, now);
-    neighbors_.find_near(i, worker.detected.near);
-    worker.detected.near_end.push_back(worker.detected.near.size());
+    neighbors_.find_near(i, share.detected.near);
+    share.detected.near_end.push_back(share.detected.near.size());
   }
-  lap(worker, Phase::kNeighbors);
-  const std::size_t n_gained = worker.detected.pairs.size();
-  pairs_.wheel().pop(now, worker.detected.pairs, static_cast<int>(worker.number));
-  const auto up = worker.detected.pairs.begin() + static_cast<std::ptrdiff_t>(n_gained);
-  for (auto p = up; p != worker.detected.pairs.end(); ++p) pairs_.prefetch(*p);
-  for (auto p = up; p != worker.detected.pairs.end(); ++p) pairs_.prefetch_bound(*p);
-  const auto due = std::remove_if(up, worker.detected.pairs.end(), [&](int p) { return pairs_.defer(p, now); });
-  worker.counts.count(WorkKind::kPairsDeferred, worker.detected.pairs.end() - due);
-  worker.detected.pairs.erase(due, worker.detected.pairs.end());
-  for (const int p : worker.detected.pairs) pairs_.set_detected(p, now);
-  for (const int i : worker.met.hit) {  // as in detect_touching, which finds the rest
+  lap(share, Phase::kNeighbors);
+  const std::size_t n_gained = share.detected.pairs.size();
+  pairs_.wheel().pop(now, share.detected.pairs, static_cast<int>(share.number));
+  const auto up = share.detected.pairs.begin() + static_cast<std::ptrdiff_t>(n_gained);
+  for (auto p = up; p != share.detected.pairs.end(); ++p) pairs_.prefetch(*p);
+  for (auto p = up; p != share.detected.pairs.end(); ++p) pairs_.prefetch_bound(*p);
+  const auto due = std::remove_if(up, share.detected.pairs.end(), [&](int p) { return pairs_.defer(p, now); });
+  share.counts.count(WorkKind::kPairsDeferred, share.detected.pairs.end() - due);
+  share.detected.pairs.erase(due, share.detected.pairs.end());
+  for (const int p : share.detected.pairs) pairs_.set_detected(p, now);
+  for (const int i : share.met.hit) {  // as in detect_touching, which finds the rest
     if (pairs_.n_touching(i) == 0) continue;
     for (const int p : neighbors_.pairs_of(i)) {
-      if (static_cast<std::size_t>(pairs_.owner(p)) != worker.number) continue;
+      if (static_cast<std::size_t>(pairs_.owner(p)) != share.number) continue;
       if (!pairs_.is_touching(p) || pairs_.detected_at(p) == now) continue;
       pairs_.set_detected(p, now);
-      worker.detected.pairs.push_back(p);
+      share.detected.pairs.push_back(p);
     }
   }
-  worker.to_pose.clear();
-  for (const int p : worker.detected.pairs) {
+  share.to_pose.clear();
+  for (const int p : share.detected.pairs) {
     for (const int i : pairs_.rods(p)) {
-      if (owners_[i] != worker.number || marks_[i].posed_at == now) continue;
+      if (owners_[i] != share.number || marks_[i].posed_at == now) continue;
       marks_[i].posed_at = now;
-      worker.to_pose.push_back(i);
+      share.to_pose.push_back(i);
     }
   }
-  pose_listed(world, now, worker);
-  for (const int p : worker.detected.pairs) {
+  pose_listed(world, now, share);
+  for (const int p : share.detected.pairs) {
     const auto& [i, j] = pairs_.rods(p);
     // its owner may be posing it right now
-    const bool is_other = owners_[j] != worker.number;
-    if (is_other) worker.other_pose = rod_at_tick(world.rods[j], now, rules_).pose;
-    const bool touching = search_.find(pairs_.rods(p), flight_pose(i), is_other ? worker.other_pose : flight_pose(j),
-                                       pairs_.direction(p), worker.bead_contacts, worker.detected.contacts);
-    if (touching != pairs_.is_touching(p)) worker.detected.toggled.push_back(p);
-    worker.counts.count(WorkKind::kPairsTouching, touching ? 1 : 0);
+    const bool is_other = owners_[j] != share.number;
+    if (is_other) share.other_pose = rod_at_tick(world.rods[j], now, rules_).pose;
+    const bool touching = search_.find(pairs_.rods(p), flight_pose(i), is_other ? share.other_pose : flight_pose(j),
+                                       pairs_.direction(p), share.bead_contacts, share.detected.contacts);
+    if (touching != pairs_.is_touching(p)) share.detected.toggled.push_back(p);
+    share.counts.count(WorkKind::kPairsTouching, touching ? 1 : 0);
   }
-  worker.counts.count(WorkKind::kPairsSearched, std::ssize(worker.detected.pairs));
+  share.counts.count(WorkKind::kPairsSearched, std::ssize(share.detected.pairs));
 }
 
 void ScheduledStepper::gather_contacts(const World& world, Tick now) {
   contacts_.clear();
-  for (Worker& worker : loops_.workers()) {
-    contacts_.insert(contacts_.end(), worker.detected.contacts.begin(), worker.detected.contacts.end());
-    worker.detected.contacts.clear();
-    for (const int p : worker.detected.toggled) pairs_.toggle_touching(p);
-    worker.detected.toggled.clear();
+  for (Share& share : loops_.shares()) {
+    contacts_.insert(contacts_.end(), share.detected.contacts.begin(), share.detected.contacts.end());
+    share.detected.contacts.clear();
+    for (const int p : share.detected.toggled) pairs_.toggle_touching(p);
+    share.detected.toggled.clear();
   }
   for (const PairContact& contact : contacts_) pose_if_needed(contact.j, world, now);
 }
@@ -328,16 +326,16 @@ void ScheduledStepper::gather_contacts(const World& world, Tick now) {
 void ScheduledStepper::replace_pairs(const World& world, Tick now) {
   gained_.clear();
   lost_.clear();
-  for (Worker& worker : loops_.workers()) {
+  for (Share& share : loops_.shares()) {
     std::size_t begin = 0;
-    for (std::size_t k = 0; k < worker.met.to_place.size(); ++k) {
-      const auto near = std::span(worker.detected.near).subspan(begin, worker.detected.near_end[k] - begin);
-      neighbors_.replace_pairs(worker.met.to_place[k], near, gained_, lost_);
-      begin = worker.detected.near_end[k];
+    for (std::size_t k = 0; k < share.met.to_place.size(); ++k) {
+      const auto near = std::span(share.detected.near).subspan(begin, share.detected.near_end[k] - begin);
+      neighbors_.replace_pairs(share.met.to_place[k], near, gained_, lost_);
+      begin = share.detected.near_end[k];
     }
-    worker.met.to_place.clear();
-    worker.detected.near.clear();
-    worker.detected.near_end.clear();
+    share.met.to_place.clear();
+    share.detected.near.clear();
+    share.detected.near_end.clear();
   }
   pairs_.make_room(neighbors_.pairs().size());  // a pair may be gained and lost by the same tick
   for (const int p : lost_) pairs_.remove(p);
@@ -354,11 +352,11 @@ void ScheduledStepper::detect(int p, const World& world, Tick now) {
   const auto& [i, j] = pairs_.rods(p);
   pose_if_needed(i, world, now);
   pose_if_needed(j, world, now);
-  std::vector<BeadContact>& bead_contacts = loops_.workers().front().bead_contacts;
+  std::vector<BeadContact>& bead_contacts = loops_.shares().front().bead_contacts;
   if (search_.find(pairs_.rods(p), flight_pose(i), flight_pose(j), pairs_.direction(p), bead_contacts, contacts_) !=
       pairs_.is_touching(p))
     pairs_.toggle_touching(p);
-  Worker& first = loops_.workers().front();
+  Share& first = loops_.shares().front();
   first.counts.count(WorkKind::kPairsSearched);
   first.counts.count(WorkKind::kPairsTouching, pairs_.is_touching(p) ? 1 : 0);
 }
@@ -367,8 +365,8 @@ void ScheduledStepper::detect(int p, const World& world, Tick now) {
 // the very tick, though, so wherever a rod may be hit, its touching pairs take part in that tick's response.
 void ScheduledStepper::detect_touching(const World& world, Tick now) {
   may_change_.clear();
-  for (const Worker& worker : loops_.workers()) {
-    for (const int i : worker.met.hit) {
+  for (const Share& share : loops_.shares()) {
+    for (const int i : share.met.hit) {
       if (pairs_.n_touching(i) > 0) may_change_.push_back(i);
     }
   }
@@ -384,7 +382,7 @@ void ScheduledStepper::detect_touching(const World& world, Tick now) {
   for (std::size_t m = 0; m < may_change_.size(); ++m) {
     for (const int p : neighbors_.pairs_of(may_change_[m])) {
       if (!pairs_.is_touching(p) || pairs_.detected_at(p) == now) continue;
-      loops_.workers()[pairs_.owner(p)].detected.pairs.push_back(p);
+      loops_.shares()[pairs_.owner(p)].detected.pairs.push_back(p);
       detect(p, world, now);
     }
     note_contacts();
@@ -400,27 +398,27 @@ std::optional<NumericalTrouble> ScheduledStepper::check_changed(Tick now) {
     if (first && first->rods.front() <= i) return;
     if (auto trouble = check_motion(i, rods_[i], now, rules_)) first = std::move(trouble);
   };
-  for (Worker& worker : loops_.workers()) {
-    worker.stored.to_schedule.clear();
-    for (const int i : worker.met.failed) check(i);
-    worker.met.failed.clear();
+  for (Share& share : loops_.shares()) {
+    share.stored.to_schedule.clear();
+    for (const int i : share.met.failed) check(i);
+    share.met.failed.clear();
   }
   for (const PairContact& contact : contacts_) {
     for (const int i : {contact.i, contact.j}) {
       if (!rods_[i].changed) continue;
       check(i);
-      if (marks_[i].changed_at != now) worker_of(i).met.hit.push_back(i);
+      if (marks_[i].changed_at != now) share_of(i).met.hit.push_back(i);
       marks_[i].changed_at = now;
-      if (marks_[i].listed_at != now) worker_of(i).stored.to_schedule.push_back(i);
+      if (marks_[i].listed_at != now) share_of(i).stored.to_schedule.push_back(i);
       marks_[i].listed_at = now;
     }
   }
   return first;
 }
 
-void ScheduledStepper::store_changed(World& world, Tick now, Worker& worker) {
+void ScheduledStepper::store_changed(World& world, Tick now, Share& share) {
   const auto slow = static_cast<double>(search_.slow());
-  for (const int i : worker.met.hit) {
+  for (const int i : share.met.hit) {
     Flight& flight = world.rods[i];
     const Vec3 velocity = velocity_at(flight, now, rules_);
     const Vec3 precession = flight.precession;
@@ -442,132 +440,132 @@ void ScheduledStepper::store_changed(World& world, Tick now, Worker& worker) {
 
 // ---- schedules
 
-void ScheduledStepper::schedule_rods(const World& world, Tick now, Worker& worker) {
+void ScheduledStepper::schedule_rods(const World& world, Tick now, Share& share) {
   // A rod that a surface hits, and that was hit in the tick before, rests on it as a rule: it is as good as sure to be
   // hit in the next tick, too (four of five visits, 99 % of the time), and needs no bound to know it.
-  for (const int i : worker.met.rods) {
+  for (const int i : share.met.rods) {
     if (marks_[i].rests_at == now) {
-      worker.counts.count(WorkKind::kRodsResting);
-      wheel_.set(i, now + 1, static_cast<int>(worker.number));
+      share.counts.count(WorkKind::kRodsResting);
+      wheel_.set(i, now + 1, static_cast<int>(share.number));
     } else {
-      worker.stored.to_schedule.push_back(i);
+      share.stored.to_schedule.push_back(i);
     }
   }
   constexpr Tick kHorizon = TimingWheel::horizon() - 1;
   const auto groups = groups_of_rods();
-  groups.sort(worker.stored.to_schedule);
-  worker.counts.count(WorkKind::kRodsBounded, std::ssize(worker.stored.to_schedule));
-  groups.in_lanes(worker.stored.to_schedule, [&](std::span<const int> rods) {
+  groups.sort(share.stored.to_schedule);
+  share.counts.count(WorkKind::kRodsBounded, std::ssize(share.stored.to_schedule));
+  groups.in_lanes(share.stored.to_schedule, [&](std::span<const int> rods) {
     Tick ticks[kLanes];
-    off_surface_ticks(rods, world, rods_, now, kHorizon, rules_, worker.plate_lanes, ticks);
+    off_surface_ticks(rods, world, rods_, now, kHorizon, rules_, share.plate_lanes, ticks);
     for (std::size_t lane = 0; lane < rods.size(); ++lane) {
       const int i = rods[lane];
       const Tick covered = skin_budgets_[i].covered_ticks(neighbors_, i, world.rods[i], rods_[i].pose,
                                                           rules_.species_of(i).half_length, now, rules_.dt, kHorizon);
-      wheel_.set(i, now + 1 + std::min(ticks[lane], covered), static_cast<int>(worker.number));
+      wheel_.set(i, now + 1 + std::min(ticks[lane], covered), static_cast<int>(share.number));
     }
   });
-  lap(worker, Phase::kRodBounds);
+  lap(share, Phase::kRodBounds);
 }
 
 /// Has hits take what they take of the gaps to neighbours.
-[[gnu::flatten]] void ScheduledStepper::spend_budgets(Tick now, Worker& worker) {
-  worker.counts.count(WorkKind::kVelocityJumps, std::ssize(worker.met.hit));
-  worker.stored.to_bound.clear();
-  worker.stored.has_overspent = false;
-  const bool alone = loops_.workers().size() == 1;
+[[gnu::flatten]] void ScheduledStepper::spend_budgets(Tick now, Share& share) {
+  share.counts.count(WorkKind::kVelocityJumps, std::ssize(share.met.hit));
+  share.stored.to_bound.clear();
+  share.stored.has_overspent = false;
+  const bool alone = loops_.shares().size() == 1;
   const auto ask = [&](int i) { pairs_.prefetch_rod(i); };
-  for_each_prefetched(worker.met.hit, ask, [&](int i) {
+  for_each_prefetched(share.met.hit, ask, [&](int i) {
     pairs_.spend(i, jumps_[i], now, [&](int p) {
       pairs_.prefetch(p);
-      worker.stored.overspent[alone ? 0 : static_cast<std::size_t>(pairs_.owner(p))].push_back(p);
-      worker.stored.has_overspent = true;
+      share.stored.overspent[alone ? 0 : static_cast<std::size_t>(pairs_.owner(p))].push_back(p);
+      share.stored.has_overspent = true;
     });
   });
 }
 
 /// Lists the pairs that were due, and brings up sooner, or lists, those of whose gaps hits took more than they may.
 /// Not in the loop that spends budgets: that one writes rod by rod, this one pair by pair, whose other rod may be
-/// another worker's.
-void ScheduledStepper::shorten_bounds(Tick now, Worker& worker) {
-  worker.stored.polled.clear();
-  for (const int p : worker.detected.pairs) {
+/// another share's.
+void ScheduledStepper::shorten_bounds(Tick now, Share& share) {
+  share.stored.polled.clear();
+  for (const int p : share.detected.pairs) {
     // one that has been lost, or is another's by now, is not listed
-    if (!pairs_.is_used(p) || static_cast<std::size_t>(pairs_.owner(p)) != worker.number) continue;
+    if (!pairs_.is_used(p) || static_cast<std::size_t>(pairs_.owner(p)) != share.number) continue;
     if (rules_.rest.matters() && pairs_.keeps_touching(p)) {
       pairs_.poll(p, now);  // rods at rest touch in every tick: a bound would be of no use
-      pairs_.list(p, worker.stored.polled);
+      pairs_.list(p, share.stored.polled);
     } else {
-      pairs_.list(p, worker.stored.to_bound);
+      pairs_.list(p, share.stored.to_bound);
     }
   }
-  worker.counts.count(WorkKind::kBoundsWhenDue, std::ssize(worker.stored.to_bound));
+  share.counts.count(WorkKind::kBoundsWhenDue, std::ssize(share.stored.to_bound));
   std::int64_t n_shortened = 0;
-  for (Worker& from : loops_.workers()) {
-    std::vector<int>& overspent = from.stored.overspent[worker.number];
+  for (Share& from : loops_.shares()) {
+    std::vector<int>& overspent = from.stored.overspent[share.number];
     const auto ask = [&](int p) { pairs_.prefetch_bound(p); };
     for_each_prefetched(overspent, ask, [&](int p) {
       if (pairs_.is_listed(p)) return;
       if (pairs_.shorten_bound(p, now)) {
         ++n_shortened;
       } else {
-        pairs_.list(p, worker.stored.to_bound);
+        pairs_.list(p, share.stored.to_bound);
       }
     });
     overspent.clear();
   }
-  for (const int p : worker.stored.polled) pairs_.unlist(p);
-  worker.counts.count(WorkKind::kBoundsShortened, n_shortened);
-  lap(worker, Phase::kTightening);
+  for (const int p : share.stored.polled) pairs_.unlist(p);
+  share.counts.count(WorkKind::kBoundsShortened, n_shortened);
+  lap(share, Phase::kTightening);
 }
 
-void ScheduledStepper::bound_motions(const World& world, Tick now, Worker& worker) {
-  worker.to_pose.clear();
-  worker.stored.to_bound_motion.clear();
-  for (const int p : worker.stored.to_bound) {
+void ScheduledStepper::bound_motions(const World& world, Tick now, Share& share) {
+  share.to_pose.clear();
+  share.stored.to_bound_motion.clear();
+  for (const int p : share.stored.to_bound) {
     pairs_.prefetch_bound(p);
     for (const int i : pairs_.rods(p)) {
       if (!loops_.claim(marks_[i].bounded_at, now)) continue;
-      worker.stored.to_bound_motion.push_back(i);
+      share.stored.to_bound_motion.push_back(i);
       if (marks_[i].posed_at == now) continue;
       marks_[i].posed_at = now;
-      worker.to_pose.push_back(i);
+      share.to_pose.push_back(i);
     }
   }
-  worker.counts.count(WorkKind::kPairsBounded, std::ssize(worker.stored.to_bound));
-  pose_listed(world, now, worker);
+  share.counts.count(WorkKind::kPairsBounded, std::ssize(share.stored.to_bound));
+  pose_listed(world, now, share);
   const auto ask = [&](int i) { prefetch(flight_bounds_[i]); };
-  for_each_prefetched(worker.stored.to_bound_motion, ask, [&](int i) {
+  for_each_prefetched(share.stored.to_bound_motion, ask, [&](int i) {
     const Flight& flight = world.rods[i];
     flight_bounds_[i] = flight_bound(flight, velocity_at(flight, now, rules_), rods_[i].pose.director, search_.slow());
   });
-  lap(worker, Phase::kPairBounds);
+  lap(share, Phase::kPairBounds);
 }
 
-void ScheduledStepper::schedule_pairs(Tick now, Worker& worker) {
+void ScheduledStepper::schedule_pairs(Tick now, Share& share) {
   const auto n_species = static_cast<int>(rules_.species.size());
   const Groups groups(n_species > 1, [this, n_species](int p) {
     const auto& [i, j] = pairs_.rods(p);
     return species_index(i) * n_species + species_index(j);
   });
-  groups.sort(worker.stored.to_bound);
-  groups.in_lanes(worker.stored.to_bound, [&](std::span<const int> pairs) { bound_pairs(pairs, now, worker); });
-  lap(worker, Phase::kPairBounds);
+  groups.sort(share.stored.to_bound);
+  groups.in_lanes(share.stored.to_bound, [&](std::span<const int> pairs) { bound_pairs(pairs, now, share); });
+  lap(share, Phase::kPairBounds);
 }
 
 /// For up to kLanes pairs.
-void ScheduledStepper::bound_pairs(std::span<const int> pairs, Tick now, Worker& worker) {
+void ScheduledStepper::bound_pairs(std::span<const int> pairs, Tick now, Share& share) {
   PairRods rods[kLanes];
   for (std::size_t lane = 0; lane < pairs.size(); ++lane) rods[lane] = pairs_.rods(pairs[lane]);
   PairBounds bounds;
-  search_.bound({rods, pairs.size()}, rods_, flight_bounds_, worker.pair_lanes, bounds);
+  search_.bound({rods, pairs.size()}, rods_, flight_bounds_, share.pair_lanes, bounds);
   for (std::size_t lane = 0; lane < pairs.size(); ++lane) {
     // Whether a pair is touching was found where free flight had brought its rods. Displaced since, they may overlap
     // and recede without being marked, if their hulls do: to be visited again at once.
     const auto& [i, j] = rods[lane];
     const bool unmarked = bounds.hulls_overlap[lane] && (rods_[i].displaced || rods_[j].displaced);
-    worker.counts.count(WorkKind::kBoundsByBeads, bounds.by_beads[lane] ? 1 : 0);
-    worker.counts.count(WorkKind::kBoundsOfNoTick, bounds.ticks[lane] == 0 ? 1 : 0);
+    share.counts.count(WorkKind::kBoundsByBeads, bounds.by_beads[lane] ? 1 : 0);
+    share.counts.count(WorkKind::kBoundsOfNoTick, bounds.ticks[lane] == 0 ? 1 : 0);
     pairs_.unlist(pairs[lane]);
     pairs_.set_bound(pairs[lane], now, unmarked ? 0 : bounds.ticks[lane], bounds.direction[lane],
                      unmarked ? GapBound{} : bounds.gap[lane]);

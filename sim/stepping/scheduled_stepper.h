@@ -42,9 +42,9 @@ namespace shaken {
 ///  3. Beads that overlap but recede are left alone, unless a rod of theirs may be hit in this very tick.
 ///  4. Rods meet plates several at a time (tick/plate_impacts.h).
 ///
-/// Every rod and every pair belongs to a worker, and each worker may be a thread of its own (SharedLoops). A tick is
-/// five loops in which each worker handles what belongs to it; in between the first thread alone does what concerns
-/// several workers: places in the neighbour list, and the impulses between rods.
+/// Every rod and every pair belongs to a share, and each share may have a thread of its own (SharedLoops). A tick is
+/// five loops in which each share handles what belongs to it; in between the first thread alone does what concerns
+/// several shares: places in the neighbour list, and the impulses between rods.
 class ScheduledStepper final : public Stepper {
  public:
   /// A tick is shared among the threads if the one before it had at least `grain` visits and bounds for each.
@@ -80,14 +80,14 @@ class ScheduledStepper final : public Stepper {
   /// What storing and the loops that make bounds hand on to each other.
   struct Stored {
     std::vector<int> to_schedule;             ///< rods that need a bound on the time to the next surface
-    std::vector<std::vector<int>> overspent;  ///< (n_workers) pairs of each worker whose budgets hits overspent
+    std::vector<std::vector<int>> overspent;  ///< (n_shares) pairs of each share whose budgets hits overspent
     bool has_overspent = false;
     std::vector<int> polled;           ///< pairs of rods at rest: to be searched at the next tick without a bound
     std::vector<int> to_bound;         ///< pairs that need a bound
-    std::vector<int> to_bound_motion;  ///< rods of such pairs, of whatever worker
+    std::vector<int> to_bound_motion;  ///< rods of such pairs, of whatever share
   };
   /// One thread's share: the rods and pairs that belong to it, and its lists of one tick.
-  struct alignas(64) Worker {
+  struct alignas(64) Share {
     std::size_t number = 0;
     Met met;
     Detected detected;
@@ -103,21 +103,21 @@ class ScheduledStepper final : public Stepper {
 
   std::optional<NumericalTrouble> step(World& world, Tick now) override;
 
-  // parts of a tick, in this order; of those without a worker the first thread does all
-  void meet_surfaces_due(World& world, const PlateState& plates, Tick now, Worker& worker);
+  // parts of a tick, in this order; of those without a share the first thread does all
+  void meet_surfaces_due(World& world, const PlateState& plates, Tick now, Share& share);
   std::optional<NumericalTrouble> gather_surfaces(World& world);
   void place_rods(Tick now);
-  void detect_due(const World& world, Tick now, Worker& worker);
+  void detect_due(const World& world, Tick now, Share& share);
   void gather_contacts(const World& world, Tick now);
   void replace_pairs(const World& world, Tick now);
   void detect_touching(const World& world, Tick now);
   std::optional<NumericalTrouble> check_changed(Tick now);
-  void store_changed(World& world, Tick now, Worker& worker);
-  void schedule_rods(const World& world, Tick now, Worker& worker);
-  void spend_budgets(Tick now, Worker& worker);
-  void shorten_bounds(Tick now, Worker& worker);
-  void bound_motions(const World& world, Tick now, Worker& worker);
-  void schedule_pairs(Tick now, Worker& worker);
+  void store_changed(World& world, Tick now, Share& share);
+  void schedule_rods(const World& world, Tick now, Share& share);
+  void spend_budgets(Tick now, Share& share);
+  void shorten_bounds(Tick now, Share& share);
+  void bound_motions(const World& world, Tick now, Share& share);
+  void schedule_pairs(Tick now, Share& share);
 
   template <class Visit>
   void in_loop(const Visit& visit) {
@@ -125,17 +125,17 @@ class ScheduledStepper final : public Stepper {
     loops_.run(visit);
     phase_times.end_loop();
   }
-  Worker& worker_of(int i) { return loops_.workers()[owners_[i]]; }
-  void lap(const Worker& worker, Phase phase) {
-    if (worker.number == 0) phase_times.lap(phase);
+  Share& share_of(int i) { return loops_.shares()[owners_[i]]; }
+  void lap(const Share& share, Phase phase) {
+    if (share.number == 0) phase_times.lap(phase);
   }
   void pose_rod(int i, const World& world, Tick now);
   void pose_if_needed(int i, const World& world, Tick now);
   void build_neighbors(Tick now);
   void add_gained();
   void detect(int p, const World& world, Tick now);
-  void pose_listed(const World& world, Tick now, Worker& worker);
-  void bound_pairs(std::span<const int> pairs, Tick now, Worker& worker);
+  void pose_listed(const World& world, Tick now, Share& share);
+  void bound_pairs(std::span<const int> pairs, Tick now, Share& share);
   /// Where free flight brought the rod; impacts at their instant may have displaced it since.
   const Pose& flight_pose(int i) const { return flight_pose_.empty() ? rods_[i].pose : flight_pose_[i]; }
   auto groups_of_rods() const;
@@ -145,7 +145,7 @@ class ScheduledStepper final : public Stepper {
   PairSearch search_;
   bool meets_in_lanes_;  ///< plates are met by several rods at a time
   NeighborList neighbors_;
-  SharedLoops<Worker> loops_;
+  SharedLoops<Share> loops_;
   std::size_t grain_;
 
   // of each rod
@@ -155,7 +155,7 @@ class ScheduledStepper final : public Stepper {
   std::vector<SkinBudget> skin_budgets_;
   std::vector<RodMarks> marks_;
   std::vector<FlightBound> flight_bounds_;
-  std::vector<std::uint8_t> owners_;  ///< the worker of each rod
+  std::vector<std::uint8_t> owners_;  ///< the share of each rod
   TimingWheel wheel_;
 
   PairSchedule pairs_;

@@ -95,7 +95,7 @@ TEST(MovingPlate, ThrowsABodyBackAsNewtonSays) {
   EXPECT_LT(fastest_down, -50);
 }
 
-// The work that a moving plate does is what the energy budget says that it gave.
+// The work that a moving plate does is what the energy balance says that it gave.
 TEST(MovingPlate, GivesTheEnergyThatTheBudgetSays) {
   System system;
   system.rod = kSphere;

@@ -15,9 +15,9 @@ TEST(ThreadTeam, CallsEachThreadOnce) {
     for (int round = 0; round < 300; ++round) {
       std::vector<int> calls(n_threads, 0);
       std::vector<std::thread::id> threads(n_threads);
-      team.run([&](int worker) {
-        ++calls.at(worker);
-        threads.at(worker) = std::this_thread::get_id();
+      team.run([&](int thread) {
+        ++calls.at(thread);
+        threads.at(thread) = std::this_thread::get_id();
       });
       EXPECT_EQ(calls, std::vector<int>(n_threads, 1));
       EXPECT_EQ(threads[0], std::this_thread::get_id());
@@ -31,8 +31,8 @@ TEST(ThreadTeam, WhatACallWritesIsSeenByTheNext) {
   std::iota(values.begin(), values.end(), 0);
   for (int round = 0; round < 200; ++round) {
     std::vector<std::int64_t> next(values.size());
-    team.run([&](int worker) {
-      for (std::size_t k = worker; k < values.size(); k += 4) next[k] = values[values.size() - 1 - k] + 1;
+    team.run([&](int thread) {
+      for (std::size_t k = thread; k < values.size(); k += 4) next[k] = values[values.size() - 1 - k] + 1;
     });
     values = next;
   }
