@@ -171,7 +171,7 @@ def use(page, address, live, downloads):
 
     find("#map-pictures").click()
     eventually(lambda: page.execute_script("""return [...document.querySelectorAll("#pictures .picture")].filter(
-        (one) => one.querySelector("canvas").width > 20 && one.innerText === "").length""") == 4, "and in pictures of the rods")
+        (one) => one.querySelector("canvas").width > 20 && one.innerText === "").length""") == 2, "and in pictures of the rods")
     find("#map-pictures").click()
     for row in (0, 3):
         page.execute_script("document.querySelectorAll('#jobs tr')[arguments[0]].dispatchEvent("
