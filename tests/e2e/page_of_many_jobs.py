@@ -459,7 +459,7 @@ def use_by_everybody(page, daemon, pictures):
             page.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
                                  {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False})
             time.sleep(0.3)
-            for tab in page.find_elements(By.CSS_SELECTOR, "#tabs button") if width < 700 else [None]:
+            for tab in page.find_elements(By.CSS_SELECTOR, "#tabs button:not([hidden])") if width < 700 else [None]:
                 if tab:
                     tab.click()
                     time.sleep(0.2)
