@@ -379,7 +379,8 @@ def use(page, address, daemon):
     time.sleep(1)
     check(len(set(daemon.newest)) == renewed[0] and len(daemon.newest) - renewed[1] <= 1,
           "what is done is loaded once, what is at work every three seconds")
-    cell = find(f"#pictures [data-job='{page.execute_script(drawn)[0]}']")
+    of_jobs = [find(f"#pictures [data-job='{job}']") for job in page.execute_script(drawn)]
+    cell = next(one for one in of_jobs if one.text == "")  # done
     ActionChains(page).move_to_element(cell).perform()
     eventually(lambda: "t = 3.000 s" in find("#picture").text and "order.mean" in find("#picture").text and page.execute_script(
         "return document.getElementById('picture-large').width") > 200, "the picture under the pointer is shown large, with its numbers")
@@ -458,7 +459,7 @@ def use_by_everybody(page, daemon, pictures):
             page.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
                                  {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False})
             time.sleep(0.3)
-            for tab in page.find_elements(By.CSS_SELECTOR, "#tabs button") if width < 700 else [None]:
+            for tab in page.find_elements(By.CSS_SELECTOR, "#tabs button:not([hidden])") if width < 700 else [None]:
                 if tab:
                     tab.click()
                     time.sleep(0.2)
@@ -483,6 +484,14 @@ def use_by_everybody(page, daemon, pictures):
         check(least["text"][0] >= 4.5, f"{theme}: every text is legible: {least['text']}")
         check(least["edge"][0] >= 3, f"{theme}: every control has an edge: {least['edge']}")
 
+    find("#marks").send_keys("r")
+    eventually(lambda: "° to the director, n_z = " in find("#rod-facts").text, "the rod in the middle says its numbers by a key")
+    lines = "return Chart.getChart('rod-chart').data.datasets[0].data.length"
+    eventually(lambda: find("#rod-chart").is_displayed() and page.execute_script(lines) == N_FRAMES, "its n_z(t) is drawn")
+    check(page.execute_script("return window.shakenRods.path.x_mm.length") == N_FRAMES, "and its path")
+    page.save_screenshot(f"{pictures}-path.png")
+    page.execute_script("const time = document.getElementById('time'); time.value = 9; time.dispatchEvent(new Event('input'))")
+    eventually(lambda: page.execute_script(lines) == 10, "up to the frame that is shown")
     before = page.execute_script("return window.shakenRods.view.zoom")
     find("#marks").send_keys("+")
     find("#marks").send_keys(Keys.ARROW_RIGHT)

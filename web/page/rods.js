@@ -24,8 +24,11 @@ export function angleToDirector(frame, i) {
   return angle - 180 * Math.round(angle / 180);
 }
 
-/** The rod at (x, y) [mm from the middle of the view], the nearest of those that cover it; -1 where there is none. */
-export function rodAt(frame, view, x, y) {
+/**
+ * The rod at (x, y) [mm from the middle of the view], the nearest of those that cover it, or are no further than `reach`
+ * [mm] from that; -1 where there is none.
+ */
+export function rodAt(frame, view, x, y, reach = 0) {
   let best = -1, least = Infinity;
   const side = frame.box_side_mm;
   for (let i = 0; i < frame.n_rods; ++i) {
@@ -38,7 +41,7 @@ export function rodAt(frame, view, x, y) {
     const along = dx * Math.cos(theta) + dy * Math.sin(theta), across = -dx * Math.sin(theta) + dy * Math.cos(theta);
     const flat = length * Math.sqrt(Math.max(0, 1 - (frame.n_z[i] / 32768) ** 2));
     const beyond = Math.hypot(Math.max(0, Math.abs(along) - flat), across);
-    if (beyond <= Math.max(middle, end) && beyond < least) [best, least] = [i, beyond];
+    if (beyond <= Math.max(middle, end) + reach && beyond < least) [best, least] = [i, beyond];
   }
   return best;
 }
@@ -49,6 +52,7 @@ export class RodCanvas {
     this.marks = marks;
     this.palettes = palettes;
     this.frame = null;
+    this.path = null;  // of one rod: {x_mm, y_mm}
     this.defects = [];
     this.showsDefects = true;
     this.colouring = "auto";
@@ -125,6 +129,7 @@ export class RodCanvas {
         context.stroke();
       }
     }
+    if (this.path) this.drawPath(context, toPixel, side, perMm);
     if (this.showsDefects) for (const one of this.defects) this.drawDefect(context, one, toPixel, size);
     const bar = [1, 2, 5, 10, 20, 50, 100, 200].filter((mm) => mm * perMm < size / 3).at(-1) ?? 1;
     context.fillStyle = cssColour("ink");
@@ -134,6 +139,22 @@ export class RodCanvas {
     context.fillRect(size * 0.03, size * 0.965, bar * perMm, Math.max(2, size / 250));
     context.strokeText(`${bar} mm`, size * 0.03, size * 0.955);
     context.fillText(`${bar} mm`, size * 0.03, size * 0.955);
+  }
+
+  /** A line for each step, the short way round. */
+  drawPath(context, toPixel, side, perMm) {
+    const {x_mm: x, y_mm: y} = this.path, short = (d) => (this.frame.walls ? d : d - side * Math.round(d / side));
+    for (const [colour, width] of [[cssColour("panel"), 5], [cssColour("warm"), 2.5]]) {
+      context.strokeStyle = colour;
+      context.lineWidth = width;
+      context.beginPath();
+      for (let k = 1; k < x.length; ++k) {
+        const [px, py] = toPixel(x[k], y[k]);
+        context.moveTo(px, py);
+        context.lineTo(px - short(x[k] - x[k - 1]) * perMm, py + short(y[k] - y[k - 1]) * perMm);
+      }
+      context.stroke();
+    }
   }
 
   /** +1/2: a comet with its tail; -1/2: three arms. */
@@ -158,12 +179,18 @@ export class RodCanvas {
   /** What there is to say of the rod under the pointer, if there is one. */
   describe(event) {
     const {frame, view, marks} = this;
-    if (!frame || !this.onRod) return;
-    const width = frame.box_side_mm / view.zoom, place = (at) => ((at / 65536 + 0.5) * frame.box_side_mm).toFixed(2);
-    const i = rodAt(frame, view, (event.offsetX / marks.clientWidth - 0.5) * width, (0.5 - event.offsetY / marks.clientHeight) * width);
+    if (!frame) return;
+    const width = frame.box_side_mm / view.zoom;
+    this.tell(rodAt(frame, view, (event.offsetX / marks.clientWidth - 0.5) * width, (0.5 - event.offsetY / marks.clientHeight) * width));
+  }
+
+  /** What there is to say of rod i; nothing at -1. */
+  tell(i) {
+    const {frame} = this, place = (at) => ((at / 65536 + 0.5) * frame.box_side_mm).toFixed(2);
+    if (!this.onRod) return;
     this.onRod(i < 0 ? "" : `Rod ${i}: x = ${place(frame.x[i])} mm, y = ${place(frame.y[i])} mm, ` +
       (frame.order === null ? "" : `${angleToDirector(frame, i).toFixed(1)}° to the director, `) +
-      `n_z = ${(frame.n_z[i] / 32768).toFixed(3)}`);
+      `n_z = ${(frame.n_z[i] / 32768).toFixed(3)}`, i);
   }
 
   reset() {
@@ -192,6 +219,7 @@ export class RodCanvas {
       if (event.key === "+" || event.key === "=") this.zoomTo(this.view.zoom * 1.25);
       else if (event.key === "-") this.zoomTo(this.view.zoom / 1.25);
       else if (event.key === "0") this.reset();
+      else if (event.key === "r") { if (this.frame) this.tell(rodAt(this.frame, this.view, 0, 0, Infinity)); }
       else if (event.key in moves) this.move(...moves[event.key]);
       else return;
       event.preventDefault();
@@ -209,7 +237,7 @@ export class RodCanvas {
       last = [event.clientX, event.clientY];
       this.marks.setPointerCapture(event.pointerId);
     });
-    this.marks.addEventListener("pointerleave", () => this.onRod?.(""));
+    this.marks.addEventListener("pointerleave", () => this.onRod?.("", -1));
     this.marks.addEventListener("pointermove", (event) => {
       if (!last) return this.describe(event);
       this.move((last[0] - event.clientX) / this.marks.clientWidth, (event.clientY - last[1]) / this.marks.clientHeight);

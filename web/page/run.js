@@ -3,6 +3,7 @@
 import {ask, byId, bytes, complain, duration, fetched, make, number, replaceIfOther, save} from "/page/dom.js";
 import {actionButtons} from "/page/queue.js";
 import {Curve, strip} from "/page/charts.js";
+import {RodPath} from "/page/path.js";
 import {ShownFile} from "/page/shown.js";
 import {RodCanvas, angleToDirector, unpack, unpackText} from "/page/rods.js";
 
@@ -42,7 +43,11 @@ export class RunPanel {
     try {
       const canvas = new RodCanvas(byId("rods"), byId("marks"), await ask("/palettes.json"));
       window.shakenRods = canvas;  // for whoever looks at it with the browser's tools
-      canvas.onRod = (words) => { byId("rod-facts").textContent = words; };
+      this.path = new RodPath(canvas, () => ({run: this.id, frame: this.isLive ? "last" : Math.max(0, this.index)}));
+      canvas.onRod = (words, rod) => {
+        byId("rod-facts").textContent = words;
+        this.path.follow(rod);
+      };
       return canvas;
     } catch (problem) {
       complain(problem.message);
@@ -69,6 +74,8 @@ export class RunPanel {
     byId("run-title").textContent = id ? `Run ${id}` : "Choose a run";
     byId("run").classList.toggle("without-run", !id);
     (await this.canvas)?.clear();
+    this.path?.clear();
+    byId("rod-facts").textContent = "";
     if (id && id === this.id) await this.load();
   }
 
@@ -249,6 +256,7 @@ export class RunPanel {
     this.orderChart.mark(frame.time_s);
     if (!canvas) return;
     canvas.set(frame);
+    this.path.renew();
     this.showLegend(canvas);
     if (this.hasMeanAngles || frame.order === null) return;
     const counts = new Array(kBins).fill(0), width = 180 / kBins;
@@ -310,9 +318,10 @@ export class RunPanel {
         if (!response.ok) throw new Error(bytesOf);
         const canvas = await this.canvas;
         if (canvas) canvas.defects = [];
-        await this.showFrame(unpack(bytesOf), id);
         if (id !== this.id) continue;
         this.index = wanted;
+        await this.showFrame(unpack(bytesOf), id);
+        if (id !== this.id) continue;
         byId("time").value = wanted;
       }
     } catch (problem) {
