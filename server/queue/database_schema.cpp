@@ -100,11 +100,11 @@ std::string damage(Database& database) {
 
 std::span<const Migration> migrations() { return {}; }
 
-void prepare_schema(Database& database, std::span<const Migration> migrations) {
+void prepare_schema(Database& database, std::span<const Migration> upgrades) {
   const std::string found = damage(database);
   if (found != "ok") throw StorageError("queue.db is damaged: " + found);
 
-  const std::int64_t known = kFirstVersion + std::ssize(migrations), stored = version(database);
+  const std::int64_t known = kFirstVersion + std::ssize(upgrades), stored = version(database);
   if (stored == known) return;
   if (stored != 0 && (stored < kFirstVersion || stored > known)) {
     throw StorageError("queue.db has schema version " + std::to_string(stored) + ", this shakend knows version " +
@@ -113,7 +113,7 @@ void prepare_schema(Database& database, std::span<const Migration> migrations) {
   Transaction transaction(database);
   if (stored == 0) database.execute(kTables);  // an empty file
   const std::int64_t done = stored == 0 ? 0 : stored - kFirstVersion;
-  for (const Migration migrate : migrations.subspan(static_cast<std::size_t>(done))) migrate(database);
+  for (const Migration migrate : upgrades.subspan(static_cast<std::size_t>(done))) migrate(database);
   database.execute(("PRAGMA user_version = " + std::to_string(known)).c_str());
   transaction.commit();
 }

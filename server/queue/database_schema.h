@@ -15,6 +15,6 @@ std::span<const Migration> migrations();
 
 /// Creates the queue's tables in an empty file, and brings those of an older version up to this program's. Throws
 /// StorageError if the file is damaged, or of a version that this program cannot read.
-void prepare_schema(Database& database, std::span<const Migration> migrations = migrations());
+void prepare_schema(Database& database, std::span<const Migration> upgrades = migrations());
 
 }  // namespace shaken::server
