@@ -189,7 +189,7 @@ class Daemon:
                 return {"rows": [self.row(k) for k in range(N_JOBS) if self.job(k)["finished_utime"] >= since]}
             return {"/v1/sweeps": {"name": "<b>many</b>", "n_jobs": 12, "n_done": 3, "n_rods": [98, 433], "simulated_s": 240.0},
                     "/examples": {"examples": [{"name": "a small box", "text": "{}"}]},
-                    "/cost": {"n_distinct": 12, "n_probed": 5, "levels": [
+                    "/cost": {"levels": [
                         {"name": name, "cpu_seconds": cpu, "disk_bytes": 3.4e7}
                         for name, cpu in (("as written", 1234.5), ("draft", 160), ("desk", 740.7), ("paper", 1234.5))]}}.get(path)
         finally:

@@ -82,6 +82,7 @@ export class BesidePanel {
     };
     byId("beside-play").onclick = () => (this.playing ? this.stop() : this.play());
     byId("beside-live").onclick = () => this.listen();
+    byId("beside-colouring").append(...[...byId("colouring").options].map((one) => one.cloneNode(true)));
     byId("beside-colouring").onchange = () => this.colour();
     byId("beside-close").onclick = () => this.change([]);
     setInterval(() => this.refresh(), 1000);

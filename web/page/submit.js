@@ -126,10 +126,9 @@ export class SubmitForm {
     }
   }
 
-  costTable({levels, n_distinct: kinds, n_probed: probed}) {
+  costTable({levels}) {
     const row = (tag, ...texts) => make("tr", {}, ...texts.map((text) => make(tag, {}, text)));
-    const note = probed < kinds ? `, from ${probed} of its ${kinds} points` : "";
-    return make("table", {}, make("caption", {className: "note"}, `On this machine, on one core${note}`),
+    return make("table", {}, make("caption", {className: "note"}, "On this machine, on one core; of a sweep by the run in its middle"),
       make("thead", {}, row("th", "Accuracy", "CPU time", "Disk")),
       make("tbody", {}, ...levels.map((level) => row("td", level.name, cpuText(level.cpu_seconds), bytes(Math.round(level.disk_bytes))))));
   }
