@@ -15,16 +15,18 @@ namespace {
 constexpr double kNumberBytes = 8;  ///< bytes of a double or a count
 constexpr double kBlocks = 64;      ///< stretches of time that sums are kept for, at most (analysis/blocked.h)
 constexpr double kSeries = 65536;   ///< points of a series against time, at most (analysis/bounded_series.h)
-/// Arrays that grow with the run double when they are full too: between 1 and 2 times what is in them.
-constexpr double kGrowing = 1.5;
+/// Arrays that grow with the run double when they are full too: they have room for 1 to 2 times what is in them.
+constexpr double kSpare = 0.5;
 
 }  // namespace
 
 double Sizes::in_blocks(double bytes) const { return std::min(kBlocks, samples) * bytes; }
 
-double Sizes::series(double columns) const { return std::min(kSeries, samples) * columns * kNumberBytes; }
+double Sizes::spare_series(double columns) const {
+  return std::min(kSeries, samples) * columns * kNumberBytes - series(columns);
+}
 
-double Sizes::series_in_file(double columns) const {
+double Sizes::series(double columns) const {
   double points = samples;
   while (points >= kSeries) points /= 2;
   return std::floor(points) * columns * kNumberBytes;
@@ -53,8 +55,8 @@ MeasureMemory of_defects(const Sizes& sizes) {
   constexpr double kTrack = 1200;  // with its last 17 places
   const double list = defects.list ? 6 * kNumberBytes * found * sizes.samples : 0;
   // Q, the density of rods and that of the nodes, each node's sum by rows and in all
-  return {"", sizes.series(3) + found * kTrack + kGrowing * list, 5 * kNumberBytes * side * side,
-          sizes.series_in_file(3) + list};
+  return {"", sizes.series(3) + found * kTrack + list, 5 * kNumberBytes * side * side, sizes.series(3) + list,
+          sizes.spare_series(3) + kSpare * list};
 }
 
 MeasureMemory of_velocity(const Sizes& sizes) {
@@ -67,7 +69,7 @@ MeasureMemory of_rods(const Sizes& sizes) {
   const MeasureRods& rods = *sizes.plan.rods;
   const double kept = std::min(sizes.samples, std::floor(rods.duration / rods.every * (1 + 1e-12)) + 1);
   const double bytes = kept * kNumberBytes * (4 * std::min<double>(rods.count, sizes.rods) + 1);
-  return {"", kGrowing * bytes, 0, bytes};
+  return {"", bytes, 0, bytes, kSpare * bytes};
 }
 
 MeasureMemory of_pairs(const Sizes& sizes) {
@@ -95,9 +97,10 @@ Observable order() {
     .doc = "Nematic order parameter S(t) in the plane.",
     .is_usual = true,
     .axis = AxisUse::kNeeded,
-    // its reduction looks for correlations, in copies of the series
+    // t, S, and S times cosine and sine of twice the director's angle, which the file holds as one angle; its reduction
+    // looks for correlations, in copies of the series
     .memory = [](const Sizes& s) -> MeasureMemory {
-      return {"", s.series(3) + s.in_blocks(1000), s.series(6), s.series_in_file(3)}; },
+      return {"", s.series(4), s.series(6), s.series(3), s.spare_series(4)}; },
     .remedy = "a longer `every`"};
 }
 
@@ -326,12 +329,13 @@ std::vector<MeasureMemory> measure_memory(const RunPlan& plan) {
 }
 
 double peak_of(const std::vector<MeasureMemory>& memory) {
-  double states = 0, scratch = 0;
+  double states = 0, spare = 0, scratch = 0;
   for (const MeasureMemory& one : memory) {
     states += one.state;
+    spare += one.spare;
     scratch = std::max(scratch, one.scratch);
   }
-  return states + std::max(states, scratch);
+  return states + spare + std::max(states, scratch);
 }
 
 }  // namespace shaken::scene

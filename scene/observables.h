@@ -23,6 +23,7 @@ struct MeasureMemory {
   double state = 0;    ///< what it has gathered at the end of the run; all of it goes into each checkpoint
   double scratch = 0;  ///< what it needs besides while it takes a sample
   double file = 0;     ///< what it adds to observables.h5 beyond what a few samples make of it
+  double spare = 0;    ///< room that its growing arrays hold at most and do not fill at the end
 };
 
 /// What formulas of memory are made of.
@@ -32,9 +33,10 @@ struct Sizes {
   double rods = 0;     ///< that are measured
 
   double in_blocks(double bytes) const;
+  /// Columns of a BoundedSeries, that of times among them, at the end of the run, when neighbouring points may have
+  /// been averaged in pairs; and the room that it holds beyond that.
   double series(double columns) const;
-  /// The same at the end of the run, when neighbouring points have been averaged in pairs.
-  double series_in_file(double columns) const;
+  double spare_series(double columns) const;
   /// Kept for lags to come: of each of 16 levels the last 8 of every 2^k-th sample (analysis/lag_average.h), and sums
   /// over so many quantities at 69 lags.
   double for_lags(double columns, double quantities) const;
@@ -72,8 +74,8 @@ const Observable& observable(std::string_view name);
 /// where it depends on what the rods do (`defects.list`), that of disordered rods, which have the most defects.
 std::vector<MeasureMemory> measure_memory(const RunPlan& plan);
 
-/// Bytes that all measurements hold together when they hold most: their states, and on top either the copy of them
-/// that a checkpoint is written from, or the scratch of one.
+/// Bytes that all measurements hold together when they hold most: their states with their spare room, and on top
+/// either the copy of the states that a checkpoint is written from, or the scratch of one.
 double peak_of(const std::vector<MeasureMemory>& memory);
 
 }  // namespace shaken::scene

@@ -25,8 +25,8 @@ namespace shaken::run {
 namespace {
 
 constexpr double kCpu = 0.02;    ///< for timing one kind of work, at most about [s]
-constexpr double kPart = 0.1;    ///< of the run's own time, that its probe may take
-constexpr double kPilot = 2e-3;  ///< for the steps by which that is judged, about [s]
+constexpr double kPart = 0.04;   ///< of the run's own time, for the steps of its probe; its samples take as much
+constexpr double kPilot = 2e-3;  ///< for the first steps by which that is judged, about [s]
 constexpr int kFrames = 8;       ///< recorded to see what a frame costs
 constexpr double kCheckpointEvery =
     30;  ///< the worker's default; wall-clock time, which is CPU time if it runs alone [s]
@@ -77,16 +77,23 @@ class Prober {
   }
 
   Result<void> time_ticks() {
-    const auto pilot = step_for(kPilot);
-    if (!pilot) return pilot.error();
-    cpu_ = std::min(cpu_, std::max(kPilot, kPart * pilot->cpu / static_cast<double>(pilot->ticks) * cost_.run_ticks));
-    each_ = std::min(kCpu, cpu_ / 8);
-    // From a checkpoint too: lists and schedules have to be built.
-    const auto warm_up = step_for(simulation_.tick() == 0 ? cpu_ / 2 : cpu_ / 16);
-    if (!warm_up) return warm_up.error();
+    // Lists and schedules have to be built, and rods in rows are quick; so what the run will take is judged anew after
+    // each stretch, twice as long as those before.
+    const double part = simulation_.tick() == 0 ? 0.5 : 1.0 / 16;
+    const double most = cpu_;
+    Stretch warm_up;
+    do {
+      const auto stretch = step_for(std::max(kPilot, warm_up.cpu));
+      if (!stretch) return stretch.error();
+      warm_up.ticks += stretch->ticks;
+      warm_up.cpu += stretch->cpu;
+      cpu_ = kPart * stretch->cpu / static_cast<double>(stretch->ticks) * cost_.run_ticks;
+      cpu_ = std::clamp(cpu_, kPilot, most);
+    } while (warm_up.cpu < part * cpu_);
+    each_ = std::min(kCpu, cpu_ / 16);
     const auto timed = step_for(cpu_ / 2);
     if (!timed) return timed.error();
-    cost_.warm_up = static_cast<double>(warm_up->ticks) * dt_;
+    cost_.warm_up = static_cast<double>(warm_up.ticks) * dt_;
     cost_.simulated = static_cast<double>(timed->ticks) * dt_;
     cost_.cpu = timed->cpu;
     cost_.tick_cpu = timed->cpu / static_cast<double>(timed->ticks);
