@@ -163,6 +163,10 @@ struct SafeTimeKernel {
   template <int W>
   SHAKEN_INLINE BeadSafeTime run() const {
     BeadSafeTime safe{horizon, 1e3F};
+    if (i.n_lanes() <= W) {  // a single vector: none can be left out
+      const BeadSafeTime all = bound<W>(0);
+      return {std::min(safe.time, all.time), std::min(safe.gap, all.gap)};
+    }
     float away[kMostBeads / W + 1];
     int n_vectors = 0;
     for (int l = 0; l < i.n_lanes(); l += W) away[n_vectors++] = least_gap_to_hull<W>(l);

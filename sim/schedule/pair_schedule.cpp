@@ -13,8 +13,11 @@ namespace {
 /// A pair comes up this part of its bound's time before the bound ends.
 constexpr int kPartKept = 8;
 
+/// A part of fewer ticks than this is not kept: it buys too few hits for a visit that much sooner.
+constexpr int kLeastKept = 3;
+
 /// A pair with less time left than this is searched when it comes up [ticks].
-constexpr int kWorthDeferring = 8;
+constexpr int kWorthDeferring = 3;
 
 void count(std::vector<std::int16_t>& counts, const PairRods& rods, bool up) {
   for (const int i : rods) counts[i] = static_cast<std::int16_t>(counts[i] + (up ? 1 : -1));
@@ -91,7 +94,8 @@ void PairSchedule::poll(int p, Tick now) {
 
 void PairSchedule::set_budgets(int p, Tick now, const Remaining& bound) {
   Pair& pair = pairs_[p];
-  const int waits = bound.ticks - std::min(bound.ticks / kPartKept, GapBudgets::kMostBeyond);
+  const int kept = std::min(bound.ticks / kPartKept, GapBudgets::kMostBeyond);
+  const int waits = bound.ticks - (kept < kLeastKept ? 0 : kept);
   const Tick until = now + waits;
   const float left = bound.gap - bound.rate * (static_cast<float>(waits) * dt_) - margins::rounding_of_gap(bound.gap);
   pair.rate = bound.rate;
@@ -130,6 +134,7 @@ bool PairSchedule::shorten_bound(int p, Tick now) {
 }
 
 bool PairSchedule::defer(int p, Tick now) {
+  if ((pairs_[p].marks & kSurvivesHits) == 0 || ticks_to(pairs_[p].end, now) < kWorthDeferring) return false;  // most
   const Remaining bound = remaining(p, now);
   if (bound.ticks < kWorthDeferring) return false;
   set_budgets(p, now, bound);

@@ -11,7 +11,7 @@ namespace shaken {
 namespace {
 
 /// Where the hull's bound is shorter than this, the beads' own may be longer: rods interlock [ticks].
-constexpr float kShortBound = 30;
+constexpr float kShortBound = 150;
 
 }  // namespace
 

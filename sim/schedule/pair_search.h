@@ -12,7 +12,7 @@
 namespace shaken {
 
 /// Bounds for which beads were looked at hold for so long at most: further ahead they are not worth the work [ticks].
-inline constexpr float kBeadHorizon = 200;
+inline constexpr float kBeadHorizon = 250;
 
 /// For up to kLanes pairs: ticks for which nothing can happen, and what the bound rests on.
 struct PairBounds {

@@ -62,7 +62,7 @@ std::optional<NumericalTrouble> ReferenceStepper::step(World& world, Tick now) {
   // 4. storing
   for (int i = 0; i < n; ++i) {
     if (!rods_[i].changed) continue;
-    if (auto trouble = check_motion(i, rods_[i], now, rules_)) return trouble;
+    if (!has_sound_motion(rods_[i], rules_)) return motion_trouble(i, rods_[i], now, rules_);
   }
   for (int i = 0; i < n; ++i) {
     if (rods_[i].changed) store(i, world.rods[i], rods_[i], now, rules_);

@@ -44,10 +44,10 @@ std::size_t ScheduledStepper::bytes() const {
   bytes += heap_bytes(rods_, flight_pose_, jumps_, skin_budgets_, marks_, flight_bounds_, owners_);
   bytes += heap_bytes(contacts_, may_change_, gained_, lost_, loops_.shares());
   for (const Share& w : loops_.shares()) {
-    bytes +=
-        heap_bytes(w.met.rods, w.met.to_place, w.detected.near, w.detected.near_end, w.met.failed, w.detected.pairs,
-                   w.to_pose, w.detected.contacts, w.detected.toggled, w.met.hit, w.stored.to_schedule,
-                   w.stored.overspent, w.stored.polled, w.stored.to_bound, w.stored.to_bound_motion, w.bead_contacts);
+    bytes += heap_bytes(w.met.rods, w.met.to_place, w.detected.near, w.detected.near_end, w.met.failed,
+                        w.detected.pairs, w.to_pose, w.detected.contacts, w.detected.toggled, w.met.hit,
+                        w.stored.to_schedule, w.stored.resting, w.stored.overspent, w.stored.polled, w.stored.to_bound,
+                        w.stored.to_bound_motion, w.bead_contacts);
     for (const auto& of_another : w.stored.overspent) bytes += heap_bytes(of_another);
   }
   return bytes;
@@ -144,8 +144,10 @@ void ScheduledStepper::meet_surfaces_due(World& world, const PlateState& plates,
       if (owners_[i] == share.number) share.met.rods.push_back(i);
     }
   } else {
+    share.met.rods.swap(share.stored.resting);
     wheel_.pop(now, share.met.rods, static_cast<int>(share.number));
   }
+  share.stored.resting.clear();
   const auto ask = [&](int i) {
     prefetch(world.rods[i]);
     prefetch(rods_[i]);
@@ -171,7 +173,7 @@ void ScheduledStepper::meet_surfaces_due(World& world, const PlateState& plates,
     if (marks.changed_at == now - 1) marks.rests_at = now;
     marks.changed_at = now;
     share.met.hit.push_back(i);
-    if (check_motion(i, rods_[i], now, rules_)) share.met.failed.push_back(i);
+    if (!has_sound_motion(rods_[i], rules_)) share.met.failed.push_back(i);
   };
   const auto meet_in_lanes = [&](std::span<const int> rods) {
     std::uint32_t left_over = meet_plates_in_lanes(rods, world.rods, rods_, plates, now, rules_, share.met.counters);
@@ -395,8 +397,8 @@ void ScheduledStepper::detect_touching(const World& world, Tick now) {
 std::optional<NumericalTrouble> ScheduledStepper::check_changed(Tick now) {
   std::optional<NumericalTrouble> first;
   const auto check = [&](int i) {
-    if (first && first->rods.front() <= i) return;
-    if (auto trouble = check_motion(i, rods_[i], now, rules_)) first = std::move(trouble);
+    if (has_sound_motion(rods_[i], rules_) || (first && first->rods.front() <= i)) return;
+    first = motion_trouble(i, rods_[i], now, rules_);
   };
   for (Share& share : loops_.shares()) {
     share.stored.to_schedule.clear();
@@ -446,7 +448,7 @@ void ScheduledStepper::schedule_rods(const World& world, Tick now, Share& share)
   for (const int i : share.met.rods) {
     if (marks_[i].rests_at == now) {
       share.counts.count(WorkKind::kRodsResting);
-      wheel_.set(i, now + 1, static_cast<int>(share.number));
+      share.stored.resting.push_back(i);
     } else {
       share.stored.to_schedule.push_back(i);
     }

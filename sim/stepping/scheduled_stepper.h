@@ -79,6 +79,7 @@ class ScheduledStepper final : public Stepper {
   };
   /// What storing and the loops that make bounds hand on to each other.
   struct Stored {
+    std::vector<int> resting;                 ///< rods that are due at the next tick, without a bound
     std::vector<int> to_schedule;             ///< rods that need a bound on the time to the next surface
     std::vector<std::vector<int>> overspent;  ///< (n_shares) pairs of each share whose budgets hits overspent
     bool has_overspent = false;

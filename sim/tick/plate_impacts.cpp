@@ -32,26 +32,6 @@ constexpr std::string_view kKnownEffects[] = {"gravity",
 using lanes::Doubles;
 using lanes::kDoubleLanes;
 using lanes::Triple;
-using lanes::TripleLanes;
-
-/// Flights of the rods of one species, as they go in.
-struct FlightLanes {
-  TripleLanes position, velocity, along, across, turned, precession;
-  alignas(64) double spin[kDoubleLanes];
-  alignas(64) double rate[kDoubleLanes];
-  alignas(64) double tau[kDoubleLanes];  ///< since the flight began [s]
-};
-/// Poses and motions at the tick, as they come out.
-struct RodLanes {
-  TripleLanes position, director, velocity, angular_velocity;
-};
-/// Of one plate.
-struct HitLanes {
-  TripleLanes impulse;
-  alignas(64) double lost[kDoubleLanes];
-  alignas(64) double overlap[kDoubleLanes];  ///< of the bead in the plate; 0: none
-  alignas(64) double is_hit[kDoubleLanes];   ///< > 0: yes
-};
 
 /// A symmetric matrix, as point_compliance (contact/impulse.h) makes it.
 template <class D>
@@ -91,10 +71,9 @@ struct PlateHitKernel {
   const TickRules& rules;
   const PlateState& plates;
   const FlightLanes& flights;
-  RodLanes& rods;
-  HitLanes (&hits)[2];  ///< base, lid
-  double* is_other;     ///< >= 0: what happens is not known here
+  const double* since;  ///< how long each has flown [s]
   int n;
+  PlateHits& hits;
 
   template <int W>
   SHAKEN_INLINE void run() const {
@@ -104,7 +83,7 @@ struct PlateHitKernel {
   template <int W>
   SHAKEN_INLINE void meet(int l) const {
     using D = Doubles<W>;
-    const D tau = lanes::load<W>(flights.tau + l);
+    const D tau = lanes::load<W>(since + l);
     const D angle = lanes::load<W>(flights.rate + l) * tau;
     const SinCosOf<D> turn = sincos_of_small(angle);
     const Triple<D> start_velocity = flights.velocity.load<W>(l);
@@ -112,8 +91,8 @@ struct PlateHitKernel {
     position.z -= 0.5 * rules.gravity * tau * tau;
     const Triple<D> director =
         flights.along.load<W>(l) + turn.cos * flights.across.load<W>(l) + turn.sin * flights.turned.load<W>(l);
-    rods.position.store(l, position);
-    rods.director.store(l, director);
+    hits.rods.position.store(l, position);
+    hits.rods.director.store(l, director);
 
     Triple<D> velocity = start_velocity;
     velocity.z -= rules.gravity * tau;
@@ -123,7 +102,7 @@ struct PlateHitKernel {
     // Not known here: a large turn, or several beads in one plate. Of a rod that the base hits in a way that is not
     // known, what comes next is no number, which `larger` passes over where it stands first.
     D other = lanes::absolute(angle) - kLargestSmallAngle;
-    const auto meet_plate = [&](const PlateMet& plate, HitLanes& hit) __attribute__((always_inline)) {
+    const auto meet_plate = [&](const PlateMet& plate, PlateHits::OfPlate& hit) __attribute__((always_inline)) {
       // as meet_plates passes over rods that are out of reach
       const D at_ends = species.end_radius + species.half_length * lanes::absolute(director.z);
       const D extent = lanes::larger(lanes::all<W>(species.mid_radius), at_ends);
@@ -143,6 +122,9 @@ struct PlateHitKernel {
       other = lanes::larger(n_overlapping - 1.5, other);
       other = lanes::larger(overlap - kMaxOverlapFraction * radius, other);
       lanes::store(hit.overlap + l, overlap);
+      double sum = 0;
+      for (int lane = 0; lane < W; ++lane) sum += overlap[lane];
+      if (!(sum > 0)) return;  // as a rule a vector of rods meets one plate, where they rest
 
       const D zero{};
       const Triple<D> normal{zero, zero, lanes::all<W>(plate.side)};
@@ -198,11 +180,11 @@ struct PlateHitKernel {
       angular_velocity = {add(angular_velocity.x, turns.x), add(angular_velocity.y, turns.y),
                           add(angular_velocity.z, turns.z)};
     };
-    if (rules.has_base) meet_plate({1.0, plates.base, plates.velocity, rules.rod_base}, hits[0]);
-    if (rules.has_lid) meet_plate({-1.0, plates.lid, plates.velocity, rules.rod_lid}, hits[1]);
-    rods.velocity.store(l, velocity);
-    rods.angular_velocity.store(l, angular_velocity);
-    lanes::store(is_other + l, other);
+    if (rules.has_base) meet_plate({1.0, plates.base, plates.velocity, rules.rod_base}, hits.of_plate[0]);
+    if (rules.has_lid) meet_plate({-1.0, plates.lid, plates.velocity, rules.rod_lid}, hits.of_plate[1]);
+    hits.rods.velocity.store(l, velocity);
+    hits.rods.angular_velocity.store(l, angular_velocity);
+    lanes::store(hits.is_other + l, other);
   }
 };
 
@@ -218,56 +200,62 @@ bool lanes_know(const System& system, const TickRules& rules, std::span<const Ef
   return has_friction && rules.impulse == &newton_coulomb_impulse && !rules.rest.matters();
 }
 
+void PlateHits::count(int lane, const PlateState& plates, Counters& counters) const {
+  for (int plate = 0; plate < 2; ++plate) {
+    if (!meets(lane, plate)) continue;
+    const OfPlate& hit = of_plate[plate];
+    counters.max_overlap_rod_plate = std::max(counters.max_overlap_rod_plate, hit.overlap[lane]);
+    if (!is_hit(lane, plate)) continue;
+    ++(plate == 0 ? counters.impulses_rod_base : counters.impulses_rod_lid);
+    counters.ledger.lost_surfaces.add(hit.lost[lane]);
+    counters.ledger.given.add(hit.impulse.z[lane] * plates.velocity);
+    counters.ledger.momentum[0].add(hit.impulse.x[lane]);
+    counters.ledger.momentum[1].add(hit.impulse.y[lane]);
+    counters.ledger.momentum[2].add(hit.impulse.z[lane]);
+  }
+}
+
+void PlateHits::get(int lane, RodAtTick& rod) const {
+  rod.has_motion = rod.changed = rod.displaced = rod.hit_again = false;
+  rods.position.get(lane, rod.pose.position);
+  rods.director.get(lane, rod.pose.director);
+  for (int plate = 0; plate < 2; ++plate) {
+    if (!meets(lane, plate)) continue;
+    rod.has_motion = true;
+    if (is_hit(lane, plate)) rod.note_hit();
+  }
+  if (!rod.has_motion) return;
+  rods.velocity.get(lane, rod.motion.velocity);
+  rods.angular_velocity.get(lane, rod.motion.angular_velocity);
+}
+
+void hit_plates(const SpeciesMechanics& species, const FlightLanes& flights, const double* since, int n,
+                const PlateState& plates, const TickRules& rules, PlateHits& hits) {
+  for (PlateHits::OfPlate& of_plate : hits.of_plate) std::fill_n(of_plate.overlap, kDoubleLanes, 0.0);
+  lanes::with_widest_doubles(PlateHitKernel{species, rules, plates, flights, since, n, hits});
+}
+
 std::uint32_t meet_plates_in_lanes(std::span<const int> rods, const std::vector<Flight>& flights,
                                    std::vector<RodAtTick>& at_tick, const PlateState& plates, Tick now,
                                    const TickRules& rules, Counters& counters) {
   const int n = static_cast<int>(rods.size());
-  FlightLanes in;
-  for (int lane = 0; lane < kDoubleLanes; ++lane) {
-    const Flight& flight = flights[rods[std::min(lane, n - 1)]];
-    in.position.set(lane, flight.position);
-    in.velocity.set(lane, flight.velocity);
-    in.along.set(lane, flight.along);
-    in.across.set(lane, flight.across);
-    in.turned.set(lane, flight.turned);
-    in.precession.set(lane, flight.precession);
-    in.spin[lane] = flight.spin;
-    in.rate[lane] = flight.rate;
-    in.tau[lane] = static_cast<double>(now - flight.since) * rules.dt;
+  thread_local FlightLanes in{};  // lanes beyond n hold rods of before, which count for nothing
+  alignas(64) double since[kDoubleLanes]{};
+  for (int lane = 0; lane < n; ++lane) {
+    const Flight& flight = flights[rods[lane]];
+    in.set(lane, flight);
+    since[lane] = static_cast<double>(now - flight.since) * rules.dt;
   }
-  RodLanes out;
-  HitLanes hits[2];
-  alignas(64) double is_other[kDoubleLanes];
-  for (HitLanes& of_plate : hits) std::fill_n(of_plate.overlap, kDoubleLanes, 0.0);
-  lanes::with_widest_doubles(PlateHitKernel{rules.species_of(rods.front()), rules, plates, in, out, hits, is_other, n});
-
+  PlateHits hits;
+  hit_plates(rules.species_of(rods.front()), in, since, n, plates, rules, hits);
   std::uint32_t left_over = 0;
   for (int lane = 0; lane < n; ++lane) {
-    if (is_other[lane] >= 0) {
+    if (hits.is_known(lane)) {
+      hits.get(lane, at_tick[rods[lane]]);
+      hits.count(lane, plates, counters);
+    } else {
       left_over |= 1U << lane;
-      continue;
     }
-    RodAtTick& rod = at_tick[rods[lane]];
-    rod.has_motion = rod.changed = rod.displaced = rod.hit_again = false;
-    out.position.get(lane, rod.pose.position);
-    out.director.get(lane, rod.pose.director);
-    for (int side = 0; side < 2; ++side) {
-      const HitLanes& of_plate = hits[side];
-      if (!(of_plate.overlap[lane] > 0)) continue;
-      rod.has_motion = true;
-      counters.max_overlap_rod_plate = std::max(counters.max_overlap_rod_plate, of_plate.overlap[lane]);
-      if (!(of_plate.is_hit[lane] > 0)) continue;
-      rod.note_hit();
-      ++(side == 0 ? counters.impulses_rod_base : counters.impulses_rod_lid);
-      counters.ledger.lost_surfaces.add(of_plate.lost[lane]);
-      counters.ledger.given.add(of_plate.impulse.z[lane] * plates.velocity);
-      counters.ledger.momentum[0].add(of_plate.impulse.x[lane]);
-      counters.ledger.momentum[1].add(of_plate.impulse.y[lane]);
-      counters.ledger.momentum[2].add(of_plate.impulse.z[lane]);
-    }
-    if (!rod.has_motion) continue;
-    out.velocity.get(lane, rod.motion.velocity);
-    out.angular_velocity.get(lane, rod.motion.angular_velocity);
   }
   return left_over;
 }

@@ -2,7 +2,9 @@
 #include "sim/tick/tick.h"
 
 #include <algorithm>
+#include <cmath>
 #include <compare>
+#include <string>
 
 #include "sim/initial.h"
 
@@ -38,6 +40,19 @@ TickRules::TickRules(const World& world)
   for (const Species& one : world.species) species.emplace_back(one);
   max_speed2 = max_speed(world) * max_speed(world);
   if (plates.peak_acceleration() < gravity) rest = {0.5 * gravity * dt, kRiseRate};
+}
+
+NumericalTrouble motion_trouble(int index, const RodAtTick& rod, Tick now, const TickRules& rules) {
+  const double speed2 = rod.motion.velocity.squaredNorm();
+  if (std::isfinite(speed2) && speed2 > rules.max_speed2) {
+    return {now,
+            {index},
+            "a speed of " + std::to_string(std::sqrt(speed2)) + " mm/s, where at most " +
+                std::to_string(std::sqrt(rules.max_speed2)) + " can be meant"};
+  }
+  return {now,
+          {index},
+          std::isfinite(speed2) ? "velocity or position is not a finite number" : "velocity is not a finite number"};
 }
 
 void sort_contacts(std::vector<PairContact>& contacts, const std::vector<RodAtTick>& rods, const TickRules& rules) {

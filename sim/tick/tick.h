@@ -128,22 +128,14 @@ struct PairContact {
 /// where they lie, so that no bead order has a say. `rods` holds those concerned.
 void sort_contacts(std::vector<PairContact>& contacts, const std::vector<RodAtTick>& rods, const TickRules& rules);
 
-/// Trouble if the motion of a changed rod is no longer a number, or out of all proportion. To be asked of every one
-/// before phase 4: as long as there is trouble, the world stays what it was one tick before.
-inline std::optional<NumericalTrouble> check_motion(int index, const RodAtTick& rod, Tick now, const TickRules& rules) {
-  const double speed2 = rod.motion.velocity.squaredNorm();
-  if (!(speed2 <= rules.max_speed2)) {
-    return NumericalTrouble{now,
-                            {index},
-                            std::isfinite(speed2)
-                                ? "a speed of " + std::to_string(std::sqrt(speed2)) + " mm/s, where at most " +
-                                      std::to_string(std::sqrt(rules.max_speed2)) + " can be meant"
-                                : "velocity is not a finite number"};
-  }
-  if (!std::isfinite(rod.motion.angular_velocity.sum() + rod.pose.position.sum()))
-    return NumericalTrouble{now, {index}, "velocity or position is not a finite number"};
-  return {};
+/// Whether the motion of a changed rod is still a number, and in proportion. To be asked of every one before phase 4:
+/// if it is not, there is trouble, and the world stays what it was one tick before.
+inline bool has_sound_motion(const RodAtTick& rod, const TickRules& rules) {
+  return rod.motion.velocity.squaredNorm() <= rules.max_speed2 &&
+         std::isfinite(rod.motion.angular_velocity.sum() + rod.pose.position.sum());
 }
+/// What is wrong with a motion that is not sound.
+NumericalTrouble motion_trouble(int index, const RodAtTick& rod, Tick now, const TickRules& rules);
 
 /// Phase 4 for one changed rod.
 inline void store(int index, Flight& flight, const RodAtTick& rod, Tick now, const TickRules& rules) {
