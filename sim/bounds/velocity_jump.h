@@ -25,15 +25,6 @@ class VelocityJump {
   /// and is `rate` now [rad/s]. `displaced_for`: how long ago the hit may have been [s], where it displaced the rod.
   VelocityJump(const Vec3& velocity, const Vec3& precession, const Vec3& director, double rate_before, double rate,
                double half_length, double displaced_for);
-  /// One that is known already: velocity and tip [mm/s], then what the functions below give.
-  VelocityJump(const std::array<float, 3>& velocity, const std::array<float, 3>& tip, float rounding,
-               float any_direction, float curvature)
-      : velocity_{velocity[0], velocity[1], velocity[2]},
-        tip_{tip[0], tip[1], tip[2]},
-        rounding_(rounding),
-        any_direction_(any_direction),
-        curvature_(curvature),
-        displaced_for_(0) {}
   /// A jump of unknown size, after which every bound must be made anew.
   static VelocityJump unknown();
 

@@ -23,14 +23,6 @@ class SkinBudget {
   /// speed from then on.
   Tick covered_ticks(const NeighborList& list, int rod, const Flight& flight, const Pose& pose, double half_length,
                      Tick now, double dt, Tick horizon);
-  /// So much is left at `at` [mm], and counted down at this speed [mm/s].
-  void count_down(float left, float speed, Tick at) {
-    left_ = left;
-    speed_ = speed;
-    at_ = at;
-  }
-  float speed() const { return speed_; }  ///< at which it is counted down [mm/s]
-
   /// Counts down at what the flight can take at most, for less work than covered_ticks and less exactly: for a rod that
   /// is visited at the next tick whatever comes.
   void cover_tick(const Flight& flight, double half_length, Tick now, double dt);
