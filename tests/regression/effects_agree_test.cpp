@@ -45,6 +45,8 @@ struct Case {
   void (*set)(System&);
   double area_fraction = 0.5;
   Tick ticks = 12000;
+
+  friend void PrintTo(const Case& one, std::ostream* out) { *out << one.name; }
 };
 
 std::string name_of(const testing::TestParamInfo<Case>& info) { return info.param.name; }

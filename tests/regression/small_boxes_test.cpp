@@ -91,6 +91,8 @@ struct Case {
   const char* name;
   const RodShape* rod;
   int n_rods;
+
+  friend void PrintTo(const Case& one, std::ostream* out) { *out << one.name; }
 };
 
 class SmallBoxesOf : public testing::TestWithParam<Case> {};

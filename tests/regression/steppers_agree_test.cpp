@@ -37,6 +37,11 @@ struct Case {
   int n_beads = 0;  ///< 0: pitch 0.3 mm
   ImpulseLaw law = ImpulseLaw::kNewton;
   ContactOrder order = ContactOrder::kSorted;
+
+  friend void PrintTo(const Case& one, std::ostream* out) {
+    *out << one.n_rods << " rods of " << one.length << " mm, area fraction " << one.area_fraction << ", gamma "
+         << one.gamma << ", step " << one.dt_us << " us";
+  }
 };
 
 System scene_of(const Case& c, std::uint64_t seed) {

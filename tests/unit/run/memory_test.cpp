@@ -69,6 +69,8 @@ double peak_of_run(const scene::RunPlan& plan) {
 struct Case {
   const char* name;
   std::vector<std::string> settings;
+
+  friend void PrintTo(const Case& one, std::ostream* out) { *out << one.name; }
 };
 
 class MemoryOfARun : public ::testing::TestWithParam<Case> {};
