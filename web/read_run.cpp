@@ -64,7 +64,7 @@ Result<std::string> frames(const RecordedRun& run) {
 Result<std::string> order(const RecordedRun& run) {
   const auto order = run.order(kMostOrders);
   if (!order) return order.error();
-  return line_of({{"time_s", order->times}, {"order", order->values}});
+  return line_of({{"time_s", order->times}, {"order", order->orders}});
 }
 
 /// Frame "7", or the "last".

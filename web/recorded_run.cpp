@@ -59,20 +59,10 @@ Result<client::RodFrame> RecordedRun::frame(std::size_t index) const {
   return frame;
 }
 
-Result<RecordedRun::Order> RecordedRun::order(std::size_t most) const {
+Result<run::OrderCurve> RecordedRun::order(std::size_t most) const {
   const auto reader = this->reader();
   if (!reader) return reader.error();
-  const std::size_t last = reader->n_frames() - 1, steps = std::min(last, most - 1);
-  Order order;
-  for (std::size_t k = 0; k <= steps; ++k) {
-    const Result<Snapshot> recorded = reader->frame(steps == 0 ? 0 : k * last / steps);
-    if (!recorded) return recorded.error();
-    const double value = analysis::nematic_order(reader->header().cell, recorded->director).order;
-    if (!std::isfinite(value)) continue;
-    order.times.push_back(recorded->time);
-    order.values.push_back(value);
-  }
-  return order;
+  return run::order_of_frames(*reader, most);
 }
 
 Result<RecordedRun::Path> RecordedRun::path(std::size_t rod, std::size_t first, std::size_t last) const {

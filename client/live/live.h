@@ -33,6 +33,8 @@ class History {
  public:
   /// A time before the last point starts the curve again: the run went back to a checkpoint.
   void add(double time, double value);
+  /// Adds those points of an older curve that are earlier than the first one here. `times` increase.
+  void begin_with(const std::vector<double>& times, const std::vector<double>& values);
   const std::vector<double>& times() const { return times_; }
   const std::vector<double>& values() const { return values_; }
 
@@ -57,6 +59,7 @@ struct LiveJob {
   std::optional<MeanOrder> result;  ///< of a run that is done
   double max_overlap = 0;           ///< [mm]
   History order_history;
+  std::optional<double> history_begin;  ///< of `order_history` when the run's files were asked for what was before [s]
   std::optional<observables_t> observables;  ///< the newest
   std::optional<int> n_plus;                 ///< defects +1/2
   std::optional<int> n_minus;                ///< defects -1/2
@@ -76,7 +79,8 @@ struct LiveJob {
 /// The jobs that are watched.
 class LiveJobs {
  public:
-  /// A JOB object of the API. While messages of a job arrive, its numbers come from them.
+  /// A JOB object of the API. While messages of a job arrive, its numbers come from them. S(t) of a run at work from
+  /// before it was watched comes from the files in its directory, if it has any and they can be read.
   void note_api(const Json& job);
   /// Messages; those of jobs that the API has not named are ignored. Anybody can send them: they change what is shown
   /// of a job, but not its state, which is the daemon's to tell.

@@ -81,11 +81,7 @@ std::vector<std::string> watch_screen(const LiveJobs& jobs, const std::string& t
     lines.push_back(bar_line(job, console));
     lines.push_back(numbers_line(job, console));
     if (i >= n_charts) continue;
-    const ChartFrame frame{.width = std::min(console.width, 110),
-                           .height = chart_lines,
-                           .x_max = std::max(job.sim_time, 1e-3),
-                           .x_unit = "s   S(t)"};
-    for (std::string& line : line_chart(job.order_history.times(), job.order_history.values(), frame)) {
+    for (std::string& line : order_chart(job, std::min(console.width, 110), chart_lines)) {
       lines.push_back(std::move(line));
     }
   }
@@ -96,6 +92,18 @@ std::vector<std::string> watch_screen(const LiveJobs& jobs, const std::string& t
   if (static_cast<int>(lines.size()) > console.height)
     lines.resize(static_cast<std::size_t>(std::max(1, console.height)));
   return lines;
+}
+
+std::vector<std::string> order_chart(const LiveJob& job, int width, int height) {
+  const History& history = job.order_history;
+  const double end = std::max(job.sim_time, 1e-3), begin = history.times().empty() ? 0 : history.times().front();
+  const bool is_whole = begin < end / 20;
+  const ChartFrame frame{.width = width,
+                         .height = height,
+                         .x_min = is_whole ? 0 : std::min(begin, 0.99 * end),
+                         .x_max = end,
+                         .x_unit = is_whole ? "s   S(t)" : "s   S(t), live only"};
+  return line_chart(history.times(), history.values(), frame);
 }
 
 std::string film_text(const LiveJob& job) {

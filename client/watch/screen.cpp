@@ -12,7 +12,6 @@
 #include "base/clock.h"
 #include "base/text.h"
 #include "client/live/target.h"
-#include "client/watch/chart.h"
 #include "client/watch/overview.h"
 #include "client/watch/rod_samples.h"
 #include "client/watch/screen_layout.h"
@@ -173,15 +172,12 @@ void put_numbers(const LiveJob& job, const Console& console, const Area& area, C
   for (const std::string& line : lines) {
     if (n < area.lines) put(n++, line);
   }
-  const ChartFrame frame{.width = has_side_chart ? area.columns - 36 : area.columns,
-                         .height = std::min(kTallestChart, has_side_chart ? area.lines : area.lines - n - 1),
-                         .x_max = std::max(job.sim_time, 1e-3),
-                         .x_unit = "s   S(t)"};
-  if (frame.height < kLeastChartLines) return;
+  const int height = std::min(kTallestChart, has_side_chart ? area.lines : area.lines - n - 1);
+  if (height < kLeastChartLines) return;
   const int first = has_side_chart ? 0 : n + 1;
   const int indent = has_side_chart ? 36 : 0;
   int i = 0;
-  for (const std::string& line : line_chart(job.order_history.times(), job.order_history.values(), frame)) {
+  for (const std::string& line : order_chart(job, area.columns - indent, height)) {
     grid.put(area.column + indent, area.line + first + i++, line, area.columns - indent);
   }
 }

@@ -69,27 +69,6 @@ TEST_F(RecordedRunTest, FramesAreThoseOfTheTrajectory) {
   EXPECT_FALSE(run_.frame(3)) << "there are three";
 }
 
-TEST_F(RecordedRunTest, OrderIsThatOfEvenlyChosenFrames) {
-  record(9);
-  const auto all = run_.order(100);
-  ASSERT_TRUE(all) << all.error().message;
-  EXPECT_EQ(all->times.size(), 9u);
-  EXPECT_NEAR(all->values.front(), 1, 1e-6);
-  EXPECT_NEAR(all->values.back(), 0, 1e-6);
-  const auto some = run_.order(3);
-  ASSERT_TRUE(some);
-  ASSERT_EQ(some->times.size(), 3u);
-  EXPECT_NEAR(some->times[1], 0.4, 1e-12);
-  EXPECT_NEAR(some->times[2], 0.8, 1e-12);
-  record(1);
-  EXPECT_EQ(run_.order(3)->times.size(), 1u);
-}
-
-TEST_F(RecordedRunTest, SpheresHaveNoCurveOfOrder) {
-  record(3, {{0}, {0.4}});
-  EXPECT_TRUE(run_.order(10)->times.empty());
-}
-
 TEST_F(RecordedRunTest, ARodHasItsPath) {
   record(4);
   const auto path = run_.path(1, 1, 3);
