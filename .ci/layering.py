@@ -58,6 +58,8 @@ ALLOWED = {
     "server": ["proto", "proto/relay", "base/http", "base", "scene", "run/files"],
     # the options of pictures are the keys of styles
     "client/picture_options.cpp": ["client", "base", "render/style_keys.h"],
+    # where rods are too thin for the terminal, their director is drawn
+    "client/watch/director_cells.cpp": ["client", "analysis/director_field.h", "scene/measure_plan.h"],
     "client/verbs/schema.cpp": ["client", "scene", "render/style_file.h"],
     "client": ["proto", "base", "scene", "run/files", "run/export", "sim/rod", "sim/cell.h", "sim/system.h"],
     # the page in a browser: what the terminal's live view makes of messages, the daemon's way of HTTP, a run's files

@@ -55,6 +55,24 @@ void SequenceCounter::note(std::int64_t sequence) {
   ++received_;
 }
 
+void HitCounter::note(const observables_t& message) {
+  constexpr double kFewest = 10'000;
+  const bool goes_back = begin_ && begin_->sim_time_s >= message.sim_time_s;  // to a checkpoint
+  if (goes_back) begin_ = message;
+  const observables_t from = begin_.value_or(observables_t{});
+  const double time = message.sim_time_s - from.sim_time_s;
+  // Counts are what anybody has sent: differences of doubles cannot overflow.
+  const auto n = [&](std::int64_t observables_t::*count) {
+    return std::max(0.0, static_cast<double>(message.*count) - static_cast<double>(from.*count));
+  };
+  const double rod = 2 * n(&observables_t::collisions_rod_rod);  // each hits two rods
+  const double base = n(&observables_t::collisions_rod_base), lid = n(&observables_t::collisions_rod_lid);
+  if (!(time > 0) || message.n_rods <= 0 || (begin_ && rod + base + lid < kFewest)) return;
+  const double scale = 1 / (time * message.n_rods);
+  rates_ = {scale * rod, scale * base, scale * lid};
+  begin_ = message;
+}
+
 void History::add(double time, double value) {
   static constexpr std::size_t kMostPoints = 4096;
   if (!times_.empty() && time < times_.back()) {
@@ -120,6 +138,7 @@ void LiveJobs::note(const observables_t& message) {
   if (job == nullptr) return;
   job->observables_counter.note(message.sequence);
   job->observables = message;
+  job->hits.note(message);
   job->sim_time = message.sim_time_s;
   job->sim_time_total = message.sim_time_total_s;
   job->sim_rate = message.sim_rate;

@@ -43,6 +43,24 @@ class History {
   std::vector<double> values_;
 };
 
+/// How often one rod is hit, on average [1/s of simulated time].
+struct HitRates {
+  double rod = 0;  ///< by other rods
+  double base = 0;
+  double lid = 0;
+};
+
+/// Hit rates from the counts that messages carry, over stretches with at least 10,000 hits, so that the figure is calm.
+class HitCounter {
+ public:
+  void note(const observables_t& message);
+  const HitRates& rates() const { return rates_; }
+
+ private:
+  std::optional<observables_t> begin_;  ///< of the stretch; none at the start of the run
+  HitRates rates_;
+};
+
 /// What is known of one job from the API and from the bus.
 struct LiveJob {
   std::string id;
@@ -64,6 +82,7 @@ struct LiveJob {
   std::optional<int> n_plus;                 ///< defects +1/2
   std::optional<int> n_minus;                ///< defects -1/2
   std::optional<defects_t> defects;          ///< the newest
+  HitCounter hits;
   SequenceCounter observables_counter;
   SequenceCounter defects_counter;
 

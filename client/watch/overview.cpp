@@ -41,10 +41,8 @@ std::string numbers_line(const LiveJob& job, const Console& console) {
   if (job.n_plus) line += fmt::format("  defects +{} −{}", *job.n_plus, *job.n_minus);
   if (job.observables) {
     const observables_t& o = *job.observables;
-    line += fmt::format("  v_xy {:.2f}  v_z {:.2f} mm/s  n_z {:.3f}  hits rod {} base {} lid {}", o.rms_speed_xy_mm_s,
-                        o.rms_speed_z_mm_s, o.rms_n_z, number_text(static_cast<double>(o.collisions_rod_rod)),
-                        number_text(static_cast<double>(o.collisions_rod_base)),
-                        number_text(static_cast<double>(o.collisions_rod_lid)));
+    line += fmt::format("  v_xy {:.2f}  v_z {:.2f} mm/s  n_z {:.3f}  hits/s of a rod: {}", o.rms_speed_xy_mm_s,
+                        o.rms_speed_z_mm_s, o.rms_n_z, hits_text(job.hits.rates()));
   }
   return line;
 }
@@ -104,6 +102,10 @@ std::vector<std::string> order_chart(const LiveJob& job, int width, int height) 
                          .x_max = end,
                          .x_unit = is_whole ? "s   S(t)" : "s   S(t), live only"};
   return line_chart(history.times(), history.values(), frame);
+}
+
+std::string hits_text(const HitRates& rates) {
+  return fmt::format("rods {} base {} lid {}", number_text(rates.rod), number_text(rates.base), number_text(rates.lid));
 }
 
 std::string film_text(const LiveJob& job) {

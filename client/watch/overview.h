@@ -19,6 +19,9 @@ std::vector<std::string> watch_screen(const LiveJobs& jobs, const std::string& t
 /// begins where S(t) does, and says "live only".
 std::vector<std::string> order_chart(const LiveJob& job, int width, int height);
 
+/// "rods 143.9 base 4383 lid 610.4".
+std::string hits_text(const HitRates& rates);
+
 /// How far a job that draws its film is with it: "drawing the film 42 %, ETA 12 s".
 std::string film_text(const LiveJob& job);
 

@@ -56,6 +56,24 @@ TEST(SequenceCounter, NumbersThatNoSenderReachesAreNoLosses) {
   }
 }
 
+TEST(HitCounter, IsOfOneRodAndOfTheTimeJustPast) {
+  HitCounter counter;
+  observables_t now{};
+  now.n_rods = 100;
+  const auto hits = [&](double time, std::int64_t rods, std::int64_t base) {
+    now.sim_time_s = time;
+    now.collisions_rod_rod = rods;
+    now.collisions_rod_base = base;
+    counter.note(now);
+    return std::pair(counter.rates().rod, counter.rates().base);
+  };
+  EXPECT_EQ(hits(10, 5'000, 200'000), std::pair(10.0, 200.0)) << "since the start; each hits two rods";
+  EXPECT_EQ(hits(10.1, 5'050, 202'000), std::pair(10.0, 200.0)) << "too few to count";
+  EXPECT_EQ(hits(11, 6'000, 240'000), std::pair(20.0, 400.0));
+  EXPECT_EQ(hits(5, 2'500, 100'000), std::pair(20.0, 400.0)) << "back to a checkpoint";
+  EXPECT_EQ(hits(6, 3'000, 150'000), std::pair(10.0, 500.0));
+}
+
 TEST(History, KeepsTheWholeCurveInBoundedMemory) {
   History history;
   for (int i = 0; i < 100000; ++i) history.add(i, 2.0 * i);
