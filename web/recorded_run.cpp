@@ -51,6 +51,7 @@ Result<client::RodFrame> RecordedRun::frame(std::size_t index) const {
   frame->time = recorded->time;
   for (std::size_t i = 0; i < recorded->position.size(); ++i) {
     const Vec3 &x = recorded->position[i], &n = recorded->director[i];
+    frame->heights.push_back(x.z());
     frame->rods.push_back(proto::make_pose(x.x(), x.y(), {n.x(), n.y(), n.z()}));
   }
   const analysis::NematicOrder mean = analysis::nematic_order(frame->cell, recorded->director);

@@ -80,9 +80,10 @@ def frame(k, f):
     angles = [spread * math.sin(7.3 * i + 0.02 * f) for i in range(N_RODS)]
     order = math.hypot(sum(math.cos(2 * a) for a in angles), sum(math.sin(2 * a) for a in angles)) / N_RODS
     head = json.dumps({"time_s": EVERY_S * f, "box_side_mm": BOX_MM, "order": order, "director_rad": 0.0, "n_rods": N_RODS,
-                       "outlines": [[1.1, 0.4, 0.25]], "walls": None}).encode()
+                       "outlines": [[1.1, 0.4, 0.25]], "gap_mm": 1.2, "has_heights": True, "walls": None}).encode()
     head += b" " * (-len(head) % 4)
     values = x + y + [round(a / math.pi * 32768) for a in angles] + [1000 * (i % 5) for i in range(N_RODS)]
+    values += [4000 * (i % 5 - 2) for i in range(N_RODS)]  # heights around the middle of the gap
     return struct.pack("<I", len(head)) + head + struct.pack(f"<{len(values)}h", *values)
 
 
@@ -500,6 +501,7 @@ def use_by_everybody(page, daemon, pictures):
     check(view["zoom"] > before and view["x"] > 0.5, f"rods are zoomed and moved by keys: {view}")
     find("#marks").send_keys("0")
     check(page.execute_script("return window.shakenRods.view.zoom") == 1, "and seen as a whole again")
+    from_the_side(page, pictures)
     find("#marks").send_keys("?")
     eventually(lambda: find("#keys").is_displayed(), "? shows the keys")
     find("#keys button").click()
@@ -518,6 +520,70 @@ def use_by_everybody(page, daemon, pictures):
     eventually(lambda: "shaken submit" in find("#no-sweeps").text and not find("#sweep").is_displayed(),
                "without a sweep the page says how to make one, and shows no empty charts")
     page.save_screenshot(f"{pictures}-empty.png")
+
+
+ORBIT = """
+  const done = arguments[arguments.length - 1];
+  import("/page/orbit.js").then(({cameraOf, matrixOf}) => {
+    const eyes = [[0, 30], [90, 30], [0, 90]].map((orbit) => cameraOf({box_side_mm: 10, gap_mm: 2}, {x: 0.5, y: 0.5, zoom: 1, orbit}));
+    // how far the corners of the box are from the middle of the picture, in halves of it
+    const outermost = (orbit) => {
+      const look = matrixOf(cameraOf({box_side_mm: 10, gap_mm: 2}, {x: 0.5, y: 0.5, zoom: 1, orbit}));
+      const seen = [0, 1, 2, 3, 4, 5, 6, 7].map((k) => [0, 1, 2, 3].map((row) =>
+        look[row] * 10 * (k & 1) + look[4 + row] * 10 * (k >> 1 & 1) + look[8 + row] * 2 * (k >> 2) + look[12 + row]));
+      return [Math.max(...seen.map(([x, y, , w]) => Math.max(Math.abs(x), Math.abs(y)) / w)),
+              Math.max(...seen.map(([, , z, w]) => Math.abs(z) / w))];
+    };
+    done([eyes.map(({eye}) => eye), eyes[2].up, [[-30, 35], [77, 1], [200, 90]].map(outermost)]);
+  });"""
+
+
+def from_the_side(page, pictures):
+    """The rods between their plates, seen from where `shaken picture --view orbit:AZ,EL` sees them (camera_test.cpp)."""
+    def find(css):
+        return page.find_element(By.CSS_SELECTOR, css)
+
+    def view():
+        return page.execute_script("return window.shakenRods.view")
+
+    def drawn():
+        return page.execute_script("return document.getElementById('rods').toDataURL()")
+
+    (front, right, above), up, reach = page.execute_async_script(ORBIT)
+    check(front[1] < 0 and abs(front[0] - 5) < 1e-9 and right[0] > 10 and abs(right[1] - 5) < 1e-9,
+          "azimuth 0 is from below the picture from above, 90 from its right")
+    check(abs(above[0] - 5) + abs(above[1] - 5) < 1e-9 and abs(up[1] - 1) < 1e-9, "elevation 90 is from above")
+    check(all(0.9 < side <= 1 and depth < 1 for side, depth in reach), f"the box just fits: {reach}")
+    from_above = drawn()
+    find("#orbit").click()
+    eventually(lambda: find("#orbit").get_attribute("aria-pressed") == "true" and drawn() != from_above, "rods are seen from the side")
+    check("azimuth -30°, elevation 35°" in find("#marks").get_attribute("aria-label"), "which the name of the canvas says")
+    rods = find("#marks")
+    ActionChains(page).move_to_element(rods).click_and_hold().move_by_offset(40, 20).release().perform()
+    turned = view()["orbit"]
+    check(turned[0] < -30 and turned[1] > 35 and view()["x"] == 0.5, f"drawing turns them: {turned}")
+    rods.send_keys(Keys.ARROW_UP)
+    check(view()["orbit"][1] > turned[1] and view()["orbit"][0] == turned[0], "so do arrows")
+    for colouring in ("layers", "wheel", "tilt", "species"):
+        before = drawn()
+        Select(find("#colouring")).select_by_value(colouring)
+        if colouring != "layers":  # which may be what there was
+            eventually(lambda: drawn() != before, f"coloured by {colouring}")
+    rods.send_keys("+")
+    check(view()["zoom"] > 1, "+ enlarges")
+    page.save_screenshot(f"{pictures}-orbit.png")
+    ActionChains(page).double_click(rods).perform()
+    eventually(lambda: view()["orbit"] is None and find("#orbit").get_attribute("aria-pressed") == "false", "a double click is from above again")
+    rods.send_keys("o")
+    check(view()["orbit"] is not None, "o goes there, too")
+    rods.send_keys("0")
+    check(view() == {"x": 0.5, "y": 0.5, "zoom": 1, "orbit": None}, "0 shows the whole box from above")
+    Select(find("#colouring")).select_by_value("auto")
+    found = False
+    for k in range(20):
+        ActionChains(page).move_to_element_with_offset(rods, 5 * k - 100, 3 * k - 60).perform()
+        found = found or "n_z = " in find("#rod-facts").text
+    check(found, "where a rod under the pointer says its numbers")
 
 
 def main(folder, screenshot):

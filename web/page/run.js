@@ -32,6 +32,7 @@ export class RunPanel {
     byId("colouring").onchange = () => this.redraw();
     byId("defects").onchange = () => this.redraw();
     byId("reset-view").onclick = async () => (await this.canvas)?.reset();
+    byId("orbit").onclick = async () => (await this.canvas)?.toggleOrbit();
     byId("time").oninput = () => { this.stopPlaying(); this.listen(false); this.showRecorded(Number(byId("time").value)); };
     byId("play").onclick = () => (this.playing ? this.stopPlaying() : this.play());
     byId("live").onclick = () => this.listen(true);
@@ -44,6 +45,11 @@ export class RunPanel {
       const canvas = new RodCanvas(byId("rods"), byId("marks"), await ask("/palettes.json"));
       window.shakenRods = canvas;  // for whoever looks at it with the browser's tools
       this.path = new RodPath(canvas, () => ({run: this.id, frame: this.isLive ? "last" : Math.max(0, this.index)}));
+      canvas.onView = () => {
+        canvas.draw();
+        byId("orbit").setAttribute("aria-pressed", Boolean(canvas.view.orbit));
+        this.nameRods(canvas);
+      };
       canvas.onRod = (words, rod) => {
         byId("rod-facts").textContent = words;
         this.path.follow(rod);
@@ -252,9 +258,9 @@ export class RunPanel {
     if (id !== this.id) return;
     byId("run-facts").textContent = `t = ${frame.time_s.toFixed(3)} s, ${frame.n_rods} rods in ${number(frame.box_side_mm)} mm` +
       (frame.order === null ? "" : `, S = ${frame.order.toFixed(3)}`);
-    byId("marks").setAttribute("aria-label", `Rods: ${byId("run-facts").textContent}`);
     this.orderChart.mark(frame.time_s);
     if (!canvas) return;
+    this.nameRods(canvas);
     canvas.set(frame);
     this.path.renew();
     this.showLegend(canvas);
@@ -265,6 +271,11 @@ export class RunPanel {
     }
     const total = counts.reduce((sum, n) => sum + n, 0) || 1;
     this.angleChart.set(counts.map((n, k) => -90 + (k + 0.5) * width), counts.map((n) => n / total / width));
+  }
+
+  nameRods(canvas) {
+    const words = [`Rods: ${byId("run-facts").textContent}`, canvas.viewWords()].filter(Boolean);
+    byId("marks").setAttribute("aria-label", words.join("; "));
   }
 
   showLegend(canvas) {

@@ -63,6 +63,7 @@ TEST_F(RecordedRunTest, FramesAreThoseOfTheTrajectory) {
   EXPECT_NEAR(last->order, 0, 1e-6) << "rods across each other";
   ASSERT_EQ(last->rods.size(), 2u);
   EXPECT_NEAR(last->rods[1].x, 7, 1e-6);
+  EXPECT_NEAR(last->heights.at(1), 0.6, 1e-6);
   EXPECT_NEAR(std::abs(last->rods[1].theta), 1.5708, 1e-3);
   ASSERT_EQ(last->outlines.size(), 1u);
   EXPECT_DOUBLE_EQ(last->outlines[0].half_length, 2);
