@@ -14,6 +14,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kRecordsNone = "this run records no rods: its scene has no \"trajectory\" or \"movie\" block";
+
+bool is_there(const fs::path& file) {
+  std::error_code error;
+  return fs::exists(file, error);
+}
+
 }  // namespace
 
 bool RecordedRun::is_id(const std::string& text) {
@@ -22,19 +29,16 @@ bool RecordedRun::is_id(const std::string& text) {
 
 Result<run::TrajectoryReader> RecordedRun::reader() const {
   const fs::path file = directory_.recorded();
-  std::error_code error;
-  if (!fs::exists(file, error)) {
-    return Error{"this run records no rods: its scene has no \"trajectory\" or \"movie\" block"};
-  }
-  Result<run::TrajectoryReader> opened = run::TrajectoryReader::open(file);
-  if (opened && opened->n_frames() == 0) return Error{"no whole frame is recorded yet"};
-  return opened;
+  if (!is_there(file)) return Error{kRecordsNone};
+  return run::TrajectoryReader::open(file);
 }
 
 Result<RecordedRun::Frames> RecordedRun::frames() const {
+  if (!is_there(directory_.recorded())) return Frames{.reason = kRecordsNone};
   const auto reader = this->reader();
   if (!reader) return reader.error();
   const std::size_t n = reader->n_frames();
+  if (n == 0) return Frames{.reason = "no whole frame is recorded yet"};
   const auto first = reader->recorded().frame(0), last = reader->recorded().frame(n - 1);
   if (!first) return first.error();
   if (!last) return last.error();
@@ -83,8 +87,7 @@ Result<RecordedRun::Path> RecordedRun::path(std::size_t rod, std::size_t first, 
 }
 
 Result<run::Observables> RecordedRun::curves() const {
-  std::error_code error;
-  if (!fs::exists(directory_.observables(), error)) return Error{"there are no curves before the end of the run"};
+  if (!is_there(directory_.observables())) return Error{"there are no curves before the end of the run"};
   return run::read_observables(directory_.observables());
 }
 

@@ -27,10 +27,11 @@ class RecordedRun {
  public:
   explicit RecordedRun(std::filesystem::path directory) : directory_{std::move(directory)} {}
 
-  /// Number of frames that are recorded so far; times of the first and of the last one [s].
+  /// Number of frames that are recorded so far; times of the first and of the last one [s]; why there are none.
   struct Frames {
     std::size_t n = 0;
     double first = 0, last = 0;
+    std::string reason{};
   };
   Result<Frames> frames() const;
   Result<client::RodFrame> frame(std::size_t index) const;

@@ -289,6 +289,19 @@ def use(page, address, daemon):
           f"with their samples and lengths: {words}")
     check(any(line.startswith("order.mean = ~0.4") and "±" in line for line in words), f"and a mark and an error: {words}")
 
+    click = "Chart.getChart('map').options.onClick({native: {}}, [{index: 0}]); return location.hash"
+    seen = set()
+    for _ in range(2):
+        before = page.current_url
+        page.execute_script(click)
+        eventually(lambda: page.current_url != before, "a click on a point chooses a run")
+        time.sleep(0.2)
+        seen.add(page.current_url.split("run=")[1][:16])
+    check(seen == {daemon.job(0)["id"], daemon.job(1)["id"]}, f"another click the next replica: {seen}")
+    ticks = page.execute_script("return Chart.getChart('map').scales.x.ticks.map(({value}) => value)")
+    swept = {daemon.job(k)["parameters"]["rods.area_fraction"] for k in range(N_JOBS)}
+    check(len(ticks) > 3 and set(ticks) <= swept, f"ticks are at values that were swept: {ticks}")
+
     find("#jobs-search").send_keys("running")
     eventually(lambda: count() == f"1 of {N_JOBS} jobs", "words filter the table")
     find("#jobs-search").clear()
@@ -313,8 +326,9 @@ def use(page, address, daemon):
     find("#sort-value").click()
     eventually(lambda: find("th:nth-child(3)").get_attribute("aria-sort") == "none", "a third one leaves the order as it was")
 
-    daemon.stands = True
-    running = daemon.job(daemon.n_done)["id"]
+    with daemon.lock:  # no job ends between
+        daemon.stands = True
+        running = daemon.job(daemon.n_done)["id"]
     page.execute_script("location.hash = arguments[0]", f"sweep=s1&run={running}")
     eventually(lambda: page.execute_script("""return Chart.getChart("order-chart").data.datasets[0].data.map(({x, y}) => `${x} ${y}`)""")
                == ["0 0.9", "1 0.8", "1.5 0.5", "2 0.4", "2.5 0.3"], "S(t) of a run at work begins with what it has recorded")
@@ -396,7 +410,7 @@ def use(page, address, daemon):
     eventually(lambda: f"run={other.get_attribute('data-job')}" in page.current_url, "Enter chooses its run")
     side_by_side(page, daemon, other.get_attribute("data-job"))
     find("#map-pictures").click()
-    check(find("#map-frame").is_displayed() and not find("#pictures").is_displayed(), "and the numbers are there again")
+    eventually(lambda: find("#map-frame").is_displayed() and not find("#pictures").is_displayed(), "and the numbers are there again")
     daemon.stands = False
     errors = [line["message"] for line in page.get_log("browser") if line["level"] == "SEVERE" and "404" not in line["message"]]
     check(not errors, f"the browser complains of nothing: {errors}")
@@ -424,6 +438,17 @@ def side_by_side(page, daemon, chosen):
                f"each headline says what differs: {heads()}")
     page.refresh()
     eventually(lambda: len(notes()) == 2 and all("t = 3.000 s" in note for note in notes()), "the address keeps them")
+    check(find("#pictures").is_displayed() and "pictures=1" in page.current_url, "and that the diagram is in pictures")
+    for theme in ("light", "dark"):
+        page.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": theme}]})
+        time.sleep(0.3)
+        least = page.execute_script(CONTRASTS)
+        check(least["text"][0] >= 4.5 and least["edge"][0] >= 3, f"{theme}: pictures and runs side by side are legible: {least}")
+    page.find_elements(By.CSS_SELECTOR, ".pane .marks")[1].send_keys("+", "o")
+    seen = page.execute_script("return window.shakenBeside.panes.map(({canvas}) => canvas.view)")
+    check(seen[0] == seen[1] and seen[0]["zoom"] > 1 and seen[0]["orbit"], f"runs side by side have one view: {seen}")
+    check(find("#beside-orbit").get_attribute("aria-pressed") == "true", "of which a button tells")
+    page.find_elements(By.CSS_SELECTOR, ".pane .marks")[0].send_keys("0")
     find("#beside-time").send_keys(Keys.HOME)
     eventually(lambda: all("t = 0.000 s" in note for note in notes()), "one slider moves all, by keys too")
     find("#beside-time").send_keys(Keys.ARROW_RIGHT)
@@ -435,7 +460,7 @@ def side_by_side(page, daemon, chosen):
     Select(find("#beside-colouring")).select_by_value("tilt")
     check(page.execute_script(kinds) == ["tilt", "tilt"], "whichever are chosen")
     running = daemon.job(daemon.n_done)["id"]
-    page.execute_script("location.hash += '.' + arguments[0]", running)
+    page.execute_script("location.hash = location.hash.replace(/beside=[^&]*/, `$&.${arguments[0]}`)", running)
     eventually(lambda: len(heads()) == 3 and "(running)" in heads()[2], "a run at work is put beside them")
     before = notes()[2] if len(notes()) > 2 else ""
     eventually(lambda: len(notes()) == 3 and notes()[2] not in ("", before), "and is live")
@@ -447,7 +472,6 @@ def side_by_side(page, daemon, chosen):
     eventually(lambda: f"beside={chosen}" not in page.current_url, "one is taken away")
     find("#beside-close").click()
     eventually(lambda: "beside" not in page.current_url and not find("#beside").is_displayed(), "then all")
-    find("#map-pictures").click()  # as they were before the page was loaded anew
 
 
 def use_by_everybody(page, daemon, pictures):
@@ -494,6 +518,10 @@ def use_by_everybody(page, daemon, pictures):
     page.save_screenshot(f"{pictures}-path.png")
     page.execute_script("const time = document.getElementById('time'); time.value = 9; time.dispatchEvent(new Event('input'))")
     eventually(lambda: page.execute_script(lines) == 10, "up to the frame that is shown")
+    ActionChains(page).move_to_element(find("#rod-chart")).perform()
+    eventually(lambda: page.execute_script("const {opacity, body} = Chart.getChart('rod-chart').tooltip;"
+                                           "return opacity > 0 && body[0].lines.join(' ')").startswith("t (s): "),
+               "the curve under the pointer says its numbers")
     before = page.execute_script("return window.shakenRods.view.zoom")
     find("#marks").send_keys("+")
     find("#marks").send_keys(Keys.ARROW_RIGHT)

@@ -46,7 +46,7 @@ export function rodAt(frame, view, x, y, reach = 0) {
   return best;
 }
 
-const kWhole = {x: 0.5, y: 0.5, zoom: 1, orbit: null};
+export const kWhole = {x: 0.5, y: 0.5, zoom: 1, orbit: null};
 const kRest = 400;  // ms after which a picture from the side is drawn smoothly
 const kFirstOrbit = [-30, 35];  // degrees, as `shaken picture --view orbit` has them
 

@@ -91,7 +91,9 @@ TEST_F(RecordedRunTest, SeeFramesThatComeLater) {
 }
 
 TEST_F(RecordedRunTest, SayWhatIsNotThere) {
-  EXPECT_THAT(run_.frames().error().message, testing::HasSubstr("records no rods"));
+  EXPECT_EQ(run_.frames()->n, 0u);
+  EXPECT_THAT(run_.frames()->reason, testing::HasSubstr("records no rods"));
+  EXPECT_THAT(run_.frame(0).error().message, testing::HasSubstr("records no rods"));
   EXPECT_THAT(run_.curves().error().message, testing::HasSubstr("before the end"));
   EXPECT_TRUE(RecordedRun(folder_ / "ffffffffffffffff").files().empty());
   std::ofstream(directory().trajectory()) << "no HDF5";
