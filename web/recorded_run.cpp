@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kRecordsNone = "this run records no rods: its scene has no \"trajectory\" or \"movie\" block";
 
-bool is_there(const fs::path& file) {
+bool has_file(const fs::path& file) {
   std::error_code error;
   return fs::exists(file, error);
 }
@@ -29,12 +29,12 @@ bool RecordedRun::is_id(const std::string& text) {
 
 Result<run::TrajectoryReader> RecordedRun::reader() const {
   const fs::path file = directory_.recorded();
-  if (!is_there(file)) return Error{kRecordsNone};
+  if (!has_file(file)) return Error{kRecordsNone};
   return run::TrajectoryReader::open(file);
 }
 
 Result<RecordedRun::Frames> RecordedRun::frames() const {
-  if (!is_there(directory_.recorded())) return Frames{.reason = kRecordsNone};
+  if (!has_file(directory_.recorded())) return Frames{.reason = kRecordsNone};
   const auto reader = this->reader();
   if (!reader) return reader.error();
   const std::size_t n = reader->n_frames();
@@ -87,7 +87,7 @@ Result<RecordedRun::Path> RecordedRun::path(std::size_t rod, std::size_t first, 
 }
 
 Result<run::Observables> RecordedRun::curves() const {
-  if (!is_there(directory_.observables())) return Error{"there are no curves before the end of the run"};
+  if (!has_file(directory_.observables())) return Error{"there are no curves before the end of the run"};
   return run::read_observables(directory_.observables());
 }
 
