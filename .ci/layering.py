@@ -33,6 +33,8 @@ ALLOWED = {
     "run/files/done.cpp": ["run/files", "base", "scene"],
     # what comes from a file is held against what a scene allows
     "run/files/frame_log.cpp": ["run/files", "base", "scene/cell_limits.h"],
+    # S of a frame is that of the measurement
+    "run/files/order_curve.cpp": ["run/files", "base", "analysis/order.h"],
     "run/files": ["base", "sim/cell.h", "sim/snapshot.h"],
     "run/export": ["base", "run/files", "sim/system.h"],
     "run": ["proto", "base", "scene", "analysis", "run/files", "sim/rod", "sim/cell.h", "sim/system.h",
@@ -56,6 +58,8 @@ ALLOWED = {
     "server": ["proto", "proto/relay", "base/http", "base", "scene", "run/files"],
     # the options of pictures are the keys of styles
     "client/picture_options.cpp": ["client", "base", "render/style_keys.h"],
+    # where rods are too thin for the terminal, their director is drawn
+    "client/watch/director_cells.cpp": ["client", "analysis/director_field.h", "scene/measure_plan.h"],
     "client/verbs/schema.cpp": ["client", "scene", "render/style_file.h"],
     "client": ["proto", "base", "scene", "run/files", "run/export", "sim/rod", "sim/cell.h", "sim/system.h"],
     # the page in a browser: what the terminal's live view makes of messages, the daemon's way of HTTP, a run's files

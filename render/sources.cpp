@@ -21,6 +21,7 @@
 #include "render/headline.h"
 #include "render/interpolation.h"
 #include "run/files/directory.h"
+#include "run/files/order_curve.h"
 #include "run/files/version.h"
 #include "scene/cell_limits.h"
 #include "scene/derived.h"
@@ -131,20 +132,12 @@ Result<std::size_t> TrajectorySource::recorded_frame(double time) const {
 std::optional<scene::Movie> TrajectorySource::movie_request() const { return plan_ ? plan_->movie : std::nullopt; }
 
 Result<void> TrajectorySource::read_history() {
-  const Cell& cell = reader_.header().cell;
-  if (!cell.has_axes()) return {};  // spheres have no S
   constexpr std::size_t kMostPoints = 400;
-  const std::size_t last = n_frames() - 1, points = std::min(kMostPoints, last + 1);
-  OrderHistory history;
-  for (std::size_t k = 0; k < points; ++k) {
-    const Result<Snapshot> frame = reader_.frame(points == 1 ? last : k * last / (points - 1));
-    if (!frame) return frame.error();
-    history.time.push_back(frame->time);
-    history.order.push_back(analysis::nematic_order(cell, frame->director).order);
-  }
-  history.start = history.time.front();
-  history.end = history.time.back();
-  history_ = std::move(history);
+  Result<run::OrderCurve> curve = run::order_of_frames(reader_, kMostPoints);
+  if (!curve) return curve.error();
+  if (curve->times.empty()) return {};  // spheres have no S
+  const double start = curve->times.front(), end = curve->times.back();
+  history_ = {std::move(curve->times), std::move(curve->orders), start, end};
   return {};
 }
 

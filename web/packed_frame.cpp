@@ -2,6 +2,7 @@
 #include "web/packed_frame.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -18,6 +19,12 @@ void append(std::string& bytes, const std::vector<std::int16_t>& values) {
   for (const std::int16_t value : values) append(bytes, static_cast<std::uint16_t>(value));
 }
 
+/// From half a gap below the base to half a gap above the lid; what is beyond is put there.
+std::uint16_t packed_height(double height, double gap) {
+  const double part = std::clamp(height / gap - 0.5, -1.0, 1.0);
+  return static_cast<std::uint16_t>(static_cast<std::int16_t>(std::lround(32767 * part)));
+}
+
 nlohmann::ordered_json head_of(const client::RodFrame& frame) {
   nlohmann::ordered_json outlines = nlohmann::ordered_json::array();
   for (const client::RodOutline& outline : frame.outlines) {
@@ -29,13 +36,9 @@ nlohmann::ordered_json head_of(const client::RodFrame& frame) {
              {"size_mm", frame.cell.walls->size},
              {"inner_mm", frame.cell.walls->inner}};
   }
-  return {{"time_s", frame.time},
-          {"box_side_mm", frame.cell.box_side},
-          {"order", frame.order},
-          {"director_rad", frame.director},
-          {"n_rods", frame.rods.size()},
-          {"outlines", outlines},
-          {"walls", walls}};
+  return {{"time_s", frame.time},           {"box_side_mm", frame.cell.box_side},    {"order", frame.order},
+          {"director_rad", frame.director}, {"n_rods", frame.rods.size()},           {"outlines", outlines},
+          {"gap_mm", frame.cell.gap},       {"has_heights", !frame.heights.empty()}, {"walls", walls}};
 }
 
 }  // namespace
@@ -56,6 +59,7 @@ std::string packed(const client::RodFrame& frame) {
   for (const auto array : {&frame_t::x, &frame_t::y, &frame_t::heading, &frame_t::n_z}) {
     for (const frame_t& chunk : chunks) append(bytes, chunk.*array);
   }
+  for (const double height : frame.heights) append(bytes, packed_height(height, frame.cell.gap));
   bytes.append(frame.cell.species_of_rod.begin(), frame.cell.species_of_rod.end());
   return bytes;
 }

@@ -58,13 +58,14 @@ std::optional<std::size_t> number(const std::string& text) {
 Result<std::string> frames(const RecordedRun& run) {
   const auto frames = run.frames();
   if (!frames) return frames.error();
+  if (frames->n == 0) return line_of({{"n", 0}, {"reason", frames->reason}});
   return line_of({{"n", frames->n}, {"first_s", frames->first}, {"last_s", frames->last}});
 }
 
 Result<std::string> order(const RecordedRun& run) {
   const auto order = run.order(kMostOrders);
   if (!order) return order.error();
-  return line_of({{"time_s", order->times}, {"order", order->values}});
+  return line_of({{"time_s", order->times}, {"order", order->orders}});
 }
 
 /// Frame "7", or the "last".
@@ -72,6 +73,7 @@ Result<std::size_t> index_in(const RecordedRun& run, const std::string& word) {
   if (word == "last") {
     const auto frames = run.frames();
     if (!frames) return frames.error();
+    if (frames->n == 0) return Error{frames->reason};
     return frames->n - 1;
   }
   if (const auto index = number(word)) return *index;

@@ -14,6 +14,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kRecordsNone = "this run records no rods: its scene has no \"trajectory\" or \"movie\" block";
+
+bool has_file(const fs::path& file) {
+  std::error_code error;
+  return fs::exists(file, error);
+}
+
 }  // namespace
 
 bool RecordedRun::is_id(const std::string& text) {
@@ -22,19 +29,16 @@ bool RecordedRun::is_id(const std::string& text) {
 
 Result<run::TrajectoryReader> RecordedRun::reader() const {
   const fs::path file = directory_.recorded();
-  std::error_code error;
-  if (!fs::exists(file, error)) {
-    return Error{"this run records no rods: its scene has no \"trajectory\" or \"movie\" block"};
-  }
-  Result<run::TrajectoryReader> opened = run::TrajectoryReader::open(file);
-  if (opened && opened->n_frames() == 0) return Error{"no whole frame is recorded yet"};
-  return opened;
+  if (!has_file(file)) return Error{kRecordsNone};
+  return run::TrajectoryReader::open(file);
 }
 
 Result<RecordedRun::Frames> RecordedRun::frames() const {
+  if (!has_file(directory_.recorded())) return Frames{.reason = kRecordsNone};
   const auto reader = this->reader();
   if (!reader) return reader.error();
   const std::size_t n = reader->n_frames();
+  if (n == 0) return Frames{.reason = "no whole frame is recorded yet"};
   const auto first = reader->recorded().frame(0), last = reader->recorded().frame(n - 1);
   if (!first) return first.error();
   if (!last) return last.error();
@@ -51,6 +55,7 @@ Result<client::RodFrame> RecordedRun::frame(std::size_t index) const {
   frame->time = recorded->time;
   for (std::size_t i = 0; i < recorded->position.size(); ++i) {
     const Vec3 &x = recorded->position[i], &n = recorded->director[i];
+    frame->heights.push_back(x.z());
     frame->rods.push_back(proto::make_pose(x.x(), x.y(), {n.x(), n.y(), n.z()}));
   }
   const analysis::NematicOrder mean = analysis::nematic_order(frame->cell, recorded->director);
@@ -59,20 +64,10 @@ Result<client::RodFrame> RecordedRun::frame(std::size_t index) const {
   return frame;
 }
 
-Result<RecordedRun::Order> RecordedRun::order(std::size_t most) const {
+Result<run::OrderCurve> RecordedRun::order(std::size_t most) const {
   const auto reader = this->reader();
   if (!reader) return reader.error();
-  const std::size_t last = reader->n_frames() - 1, steps = std::min(last, most - 1);
-  Order order;
-  for (std::size_t k = 0; k <= steps; ++k) {
-    const Result<Snapshot> recorded = reader->frame(steps == 0 ? 0 : k * last / steps);
-    if (!recorded) return recorded.error();
-    const double value = analysis::nematic_order(reader->header().cell, recorded->director).order;
-    if (!std::isfinite(value)) continue;
-    order.times.push_back(recorded->time);
-    order.values.push_back(value);
-  }
-  return order;
+  return run::order_of_frames(*reader, most);
 }
 
 Result<RecordedRun::Path> RecordedRun::path(std::size_t rod, std::size_t first, std::size_t last) const {
@@ -92,8 +87,7 @@ Result<RecordedRun::Path> RecordedRun::path(std::size_t rod, std::size_t first, 
 }
 
 Result<run::Observables> RecordedRun::curves() const {
-  std::error_code error;
-  if (!fs::exists(directory_.observables(), error)) return Error{"there are no curves before the end of the run"};
+  if (!has_file(directory_.observables())) return Error{"there are no curves before the end of the run"};
   return run::read_observables(directory_.observables());
 }
 

@@ -11,6 +11,7 @@
 #include "client/live/rod_frame.h"
 #include "run/files/directory.h"
 #include "run/files/observables_file.h"
+#include "run/files/order_curve.h"
 #include "run/files/trajectory.h"
 
 namespace shaken::web {
@@ -26,18 +27,16 @@ class RecordedRun {
  public:
   explicit RecordedRun(std::filesystem::path directory) : directory_{std::move(directory)} {}
 
-  /// Number of frames that are recorded so far; times of the first and of the last one [s].
+  /// Number of frames that are recorded so far; times of the first and of the last one [s]; why there are none.
   struct Frames {
     std::size_t n = 0;
     double first = 0, last = 0;
+    std::string reason{};
   };
   Result<Frames> frames() const;
   Result<client::RodFrame> frame(std::size_t index) const;
-  /// S(t) of recorded frames from the first to the last, evenly; of all if they are at most `most`. Empty of spheres.
-  struct Order {
-    std::vector<double> times, values;
-  };
-  Result<Order> order(std::size_t most) const;
+  /// S(t) of at most `most` of the recorded frames (run/files/order_curve.h).
+  Result<run::OrderCurve> order(std::size_t most) const;
   /// One rod in the frames from `first` to `last`, both included: times [s], places in the box [mm], and n_z.
   struct Path {
     std::vector<double> times, x, y, n_z;

@@ -41,10 +41,10 @@ constexpr std::chrono::milliseconds kFrame{50};
 constexpr std::chrono::milliseconds kNextFrame{250};
 constexpr std::size_t kPiece = std::size_t{1} << 20;  // of a file
 /// What the page consists of.
-constexpr std::array kPageFiles{"icon.svg",   "page.css",    "main.js",    "queue.js",  "sweep.js",
-                                "map.js",     "jobs.js",     "results.js", "loader.js", "run.js",
-                                "rods.js",    "charts.js",   "shown.js",   "dom.js",    "submit.js",
-                                "painter.js", "pictures.js", "beside.js",  "path.js"};
+constexpr std::array kPageFiles{"icon.svg",    "page.css",   "main.js",   "queue.js",   "sweep.js", "map.js",
+                                "jobs.js",     "results.js", "loader.js", "run.js",     "rods.js",  "charts.js",
+                                "shown.js",    "dom.js",     "submit.js", "painter.js", "gl.js",    "orbit.js",
+                                "pictures.js", "beside.js",  "path.js"};
 
 std::string type_of(const fs::path& file) {
   const std::string suffix = file.extension().string();
@@ -300,8 +300,8 @@ Reply Site::picture(const std::string& run, const Request& request) {
   const auto frames = reader_.ask(run, {"frames"});
   if (!frames) return refusal(404, frames.error().message);
   const std::optional<std::size_t> index = index_of(frame);
-  if (!index || *index >= Json::parse(*frames).at("n").get<std::size_t>())
-    return refusal(404, "no frame '" + frame + "'");
+  if (const Json told = Json::parse(*frames); !index || *index >= told.at("n").get<std::size_t>())
+    return refusal(404, told.value("reason", "no frame '" + frame + "'"));
   const std::unique_lock lock(drawing_, std::try_to_lock);
   if (!lock) return refusal(429, "another picture is being drawn: try again");
   const ScratchFolder folder;

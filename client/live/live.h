@@ -33,12 +33,32 @@ class History {
  public:
   /// A time before the last point starts the curve again: the run went back to a checkpoint.
   void add(double time, double value);
+  /// Adds those points of an older curve that are earlier than the first one here. `times` increase.
+  void begin_with(const std::vector<double>& times, const std::vector<double>& values);
   const std::vector<double>& times() const { return times_; }
   const std::vector<double>& values() const { return values_; }
 
  private:
   std::vector<double> times_;
   std::vector<double> values_;
+};
+
+/// How often one rod is hit, on average [1/s of simulated time].
+struct HitRates {
+  double rod = 0;  ///< by other rods
+  double base = 0;
+  double lid = 0;
+};
+
+/// Hit rates from the counts that messages carry, over stretches with at least 10,000 hits, so that the figure is calm.
+class HitCounter {
+ public:
+  void note(const observables_t& message);
+  const HitRates& rates() const { return rates_; }
+
+ private:
+  std::optional<observables_t> begin_;  ///< of the stretch; none at the start of the run
+  HitRates rates_;
 };
 
 /// What is known of one job from the API and from the bus.
@@ -57,10 +77,12 @@ struct LiveJob {
   std::optional<MeanOrder> result;  ///< of a run that is done
   double max_overlap = 0;           ///< [mm]
   History order_history;
+  std::optional<double> history_begin;  ///< of `order_history` when the run's files were asked for what was before [s]
   std::optional<observables_t> observables;  ///< the newest
   std::optional<int> n_plus;                 ///< defects +1/2
   std::optional<int> n_minus;                ///< defects -1/2
   std::optional<defects_t> defects;          ///< the newest
+  HitCounter hits;
   SequenceCounter observables_counter;
   SequenceCounter defects_counter;
 
@@ -76,7 +98,8 @@ struct LiveJob {
 /// The jobs that are watched.
 class LiveJobs {
  public:
-  /// A JOB object of the API. While messages of a job arrive, its numbers come from them.
+  /// A JOB object of the API. While messages of a job arrive, its numbers come from them. S(t) of a run at work from
+  /// before it was watched comes from the files in its directory, if it has any and they can be read.
   void note_api(const Json& job);
   /// Messages; those of jobs that the API has not named are ignored. Anybody can send them: they change what is shown
   /// of a job, but not its state, which is the daemon's to tell.

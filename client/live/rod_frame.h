@@ -29,6 +29,7 @@ struct RodFrame {
   double order = 0;     ///< S of the first species; NaN where there are no axes
   double director = 0;  ///< its angle [rad]
   std::vector<proto::RodPose> rods{};
+  std::vector<double> heights{};       ///< of the rods' centres (n_rods) [mm]; empty where unknown, as of live rods
   Cell cell{};                         ///< periodic unless there are walls
   std::vector<RodOutline> outlines{};  ///< one per species, at least one
 };

@@ -19,6 +19,9 @@ namespace {
 
 using Align = Table::Align;
 
+/// Columns of a sweep's name in the list of sweeps: one long name would move all others apart.
+constexpr std::size_t kLongestName = 40;
+
 Colour colour_of(std::string_view state) {
   if (state == "done") return Colour::kGreen;
   if (state == "failed" || state == "timed out") return Colour::kRed;
@@ -130,7 +133,8 @@ class Status : public Verb {
       const double progress = sweep.value("progress", 0.0);
       const int failed = sweep.at("counts").value("failed", 0) + sweep.at("counts").value("timed out", 0);
       table.add_row(
-          {sweep.at("id").get<std::string>(), text_of(sweep, "name"), std::to_string(sweep.value("n_jobs", 0)),
+          {sweep.at("id").get<std::string>(), fitted(text_of(sweep, "name"), kLongestName),
+           std::to_string(sweep.value("n_jobs", 0)),
            fmt::format("{} {:3.0f} %", console.painted(Colour::kBlue, bar_text(progress, 12)), 100 * progress),
            console.painted(failed > 0 ? Colour::kRed : Colour::kPlain, counts_text(sweep.at("counts"))),
            sweep_eta_text(sweep)});

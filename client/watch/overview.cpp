@@ -41,10 +41,8 @@ std::string numbers_line(const LiveJob& job, const Console& console) {
   if (job.n_plus) line += fmt::format("  defects +{} −{}", *job.n_plus, *job.n_minus);
   if (job.observables) {
     const observables_t& o = *job.observables;
-    line += fmt::format("  v_xy {:.2f}  v_z {:.2f} mm/s  n_z {:.3f}  hits rod {} base {} lid {}", o.rms_speed_xy_mm_s,
-                        o.rms_speed_z_mm_s, o.rms_n_z, number_text(static_cast<double>(o.collisions_rod_rod)),
-                        number_text(static_cast<double>(o.collisions_rod_base)),
-                        number_text(static_cast<double>(o.collisions_rod_lid)));
+    line += fmt::format("  v_xy {:.2f}  v_z {:.2f} mm/s  n_z {:.3f}  hits/s of a rod: {}", o.rms_speed_xy_mm_s,
+                        o.rms_speed_z_mm_s, o.rms_n_z, hits_text(job.hits.rates()));
   }
   return line;
 }
@@ -81,11 +79,7 @@ std::vector<std::string> watch_screen(const LiveJobs& jobs, const std::string& t
     lines.push_back(bar_line(job, console));
     lines.push_back(numbers_line(job, console));
     if (i >= n_charts) continue;
-    const ChartFrame frame{.width = std::min(console.width, 110),
-                           .height = chart_lines,
-                           .x_max = std::max(job.sim_time, 1e-3),
-                           .x_unit = "s   S(t)"};
-    for (std::string& line : line_chart(job.order_history.times(), job.order_history.values(), frame)) {
+    for (std::string& line : order_chart(job, std::min(console.width, 110), chart_lines)) {
       lines.push_back(std::move(line));
     }
   }
@@ -96,6 +90,22 @@ std::vector<std::string> watch_screen(const LiveJobs& jobs, const std::string& t
   if (static_cast<int>(lines.size()) > console.height)
     lines.resize(static_cast<std::size_t>(std::max(1, console.height)));
   return lines;
+}
+
+std::vector<std::string> order_chart(const LiveJob& job, int width, int height) {
+  const History& history = job.order_history;
+  const double end = std::max(job.sim_time, 1e-3), begin = history.times().empty() ? 0 : history.times().front();
+  const bool is_whole = begin < end / 20;
+  const ChartFrame frame{.width = width,
+                         .height = height,
+                         .x_min = is_whole ? 0 : std::min(begin, 0.99 * end),
+                         .x_max = end,
+                         .x_unit = is_whole ? "s   S(t)" : "s   S(t), live only"};
+  return line_chart(history.times(), history.values(), frame);
+}
+
+std::string hits_text(const HitRates& rates) {
+  return fmt::format("rods {} base {} lid {}", number_text(rates.rod), number_text(rates.base), number_text(rates.lid));
 }
 
 std::string film_text(const LiveJob& job) {

@@ -91,7 +91,11 @@ void draw_rods(const RodFrame& frame, const std::vector<DefectMark>& defects, co
                      : braille_cell(samples, 2 * column, 4 * line, style.in_colour);
     }
   }
-  if (!style.shows_defects) return;
+  if (style.shows_defects) mark_defects(samples, defects, style, area, grid);
+}
+
+void mark_defects(const RodSamples& samples, const std::vector<DefectMark>& defects, const RodStyle& style,
+                  const Area& area, CellGrid& grid) {
   for (const DefectMark& defect : defects) {
     const auto [column, row] = samples.place(defect.x, defect.y);
     if (!samples.is_in_box(column, row)) continue;

@@ -5,6 +5,7 @@
 
 #include "client/live/rod_frame.h"
 #include "client/watch/cells.h"
+#include "client/watch/rod_samples.h"
 
 namespace shaken::client {
 
@@ -27,5 +28,9 @@ struct RodStyle {
 /// Draws `frame` into `area` of `grid` from 2 x 4 samples in each cell, as RodSamples says.
 void draw_rods(const RodFrame& frame, const std::vector<DefectMark>& defects, const RodView& view,
                const RodStyle& style, const Area& area, CellGrid& grid);
+
+/// Marks defects, those that lie in the box, over what is drawn of `samples`.
+void mark_defects(const RodSamples& samples, const std::vector<DefectMark>& defects, const RodStyle& style,
+                  const Area& area, CellGrid& grid);
 
 }  // namespace shaken::client

@@ -25,6 +25,10 @@ class RodSamples {
     return column >= column_begin_ && column < column_end_ && row >= row_begin_ && row < row_end_;
   }
   Tone tone(int column, int row) const { return tones_[index(column, row)]; }
+  /// The point under (column, row) of the picture, which may lie between samples [mm]; a periodic box goes on there.
+  std::pair<double, double> point(double column, double row) const {
+    return {x_ + (column - width_ / 2.0) / per_mm_, y_ + (height_ / 2.0 - row) / per_mm_};
+  }
   /// The sample at a point of the box [mm], of its image nearest to the middle of the view.
   std::pair<int, int> place(double x, double y) const;
 

@@ -12,7 +12,7 @@
 #include "base/clock.h"
 #include "base/text.h"
 #include "client/live/target.h"
-#include "client/watch/chart.h"
+#include "client/watch/director_cells.h"
 #include "client/watch/overview.h"
 #include "client/watch/rod_samples.h"
 #include "client/watch/screen_layout.h"
@@ -20,7 +20,19 @@
 namespace shaken::client {
 namespace {
 
-constexpr const char* kShortHelp = "q leave  Tab run  space hold  +/- zoom  c colours  o numbers  ? keys";
+/// The last line: as many of the keys as there is room for, of which "? keys" has the others, and then `note`.
+std::string status_line(const std::string& note, int columns) {
+  constexpr std::string_view kAllKeys = "? keys";
+  constexpr std::size_t kShortestNote = 12;
+  const auto width = static_cast<std::size_t>(columns);
+  std::string line;
+  for (const std::string_view key : {"q leave", "Tab run", "space hold", "+/- zoom", "c colours", "o numbers"}) {
+    if (line.size() + key.size() + 2 + kAllKeys.size() > width) break;
+    line.append(key).append("  ");
+  }
+  line += kAllKeys;
+  return line.size() + 2 + kShortestNote <= width ? line + "  " + note : line;
+}
 
 /// Paints text for a screen; nothing is written to its streams.
 Console painter(const WatchContent& content, int columns, int lines) {
@@ -56,9 +68,9 @@ double round_length(double most) {
   return power;
 }
 
-/// "├────┤ 5 mm", at most half as wide as the picture.
-std::string scale_bar(double columns_per_mm, int columns) {
-  const double length = round_length(columns / 3.0 / columns_per_mm);
+/// "├────┤ 5 mm", with a bar of at most so many columns.
+std::string scale_bar(double columns_per_mm, double columns) {
+  const double length = round_length(columns / columns_per_mm);
   const int width = std::max(2, static_cast<int>(std::lround(length * columns_per_mm)));
   std::string bar = "├";
   for (int i = 2; i < width; ++i) bar += "─";
@@ -78,6 +90,12 @@ bool has_image(const WatchContent& content) {
   return content.cell && content.rods != nullptr && content.steering.grain == Grain::kAuto && !content.steering.help;
 }
 
+/// Whether the director is drawn in place of rods, which would be too thin to be told apart.
+bool has_director(const WatchContent& content, const Area& picture) {
+  return !has_image(content) &&
+         draws_director(*content.rods, content.steering.view, content.steering.shown_colouring(), picture);
+}
+
 double columns_per_mm(const WatchContent& content, const Area& picture) {
   const RodView& view = content.steering.view;
   if (!has_image(content)) return samples_per_mm(*content.rods, view, 2 * picture.columns, 4 * picture.lines) / 2;
@@ -92,15 +110,20 @@ void put_legend(const WatchContent& content, const Area& area, const Area& pictu
   const auto put_colours = [&](std::initializer_list<Tone> tones) {
     if (column + static_cast<int>(tones.size()) <= end) column = put_tones(grid, column, area.line, tones);
   };
-  put(scale_bar(columns_per_mm(content, picture), picture.columns) + " ");
-  if (content.depth == ColourDepth::kNone) return;
+  const bool is_director = has_director(content, picture);
+  put(scale_bar(columns_per_mm(content, picture), picture.columns / (is_director ? 5.0 : 3.0)) + " ");
+  const bool has_strokes = rod_style(content).grain == Grain::kBraille;
+  const bool in_colour = content.depth != ColourDepth::kNone;
+  if (is_director) put(!has_strokes ? "director, S: " : in_colour ? "director ─╱│╲ " : "director ─╱│╲  · low S");
+  if (!in_colour) return;
   constexpr double kStep = std::numbers::pi / 6;
   switch (content.steering.shown_colouring()) {
     case Colouring::kAuto:
     case Colouring::kLayers:
       put("−15° ");
       put_colours({layer_tone(-1), layer_tone(-0.13), layer_tone(0), layer_tone(0.13), layer_tone(1)});
-      put(" +15° to the director");
+      put(" +15°");
+      if (constexpr std::string_view kOf = " to the director"; column + std::ssize(kOf) <= end) put(std::string(kOf));
       break;
     case Colouring::kWheel:
       put("0° ");
@@ -153,9 +176,8 @@ std::vector<std::string> number_lines(const LiveJob& job, const Console& console
     const observables_t& o = *job.observables;
     lines.push_back(fmt::format("v_xy {:.2f}  v_z {:.2f} mm/s", o.rms_speed_xy_mm_s, o.rms_speed_z_mm_s));
     lines.push_back(fmt::format("n_z {:.3f} (rms)", o.rms_n_z));
-    lines.push_back(fmt::format("hits rod {} base {} lid {}", number_text(static_cast<double>(o.collisions_rod_rod)),
-                                number_text(static_cast<double>(o.collisions_rod_base)),
-                                number_text(static_cast<double>(o.collisions_rod_lid))));
+    lines.emplace_back("hits of a rod per second:");
+    lines.push_back("  " + hits_text(job.hits.rates()));
   }
   return lines;
 }
@@ -173,15 +195,12 @@ void put_numbers(const LiveJob& job, const Console& console, const Area& area, C
   for (const std::string& line : lines) {
     if (n < area.lines) put(n++, line);
   }
-  const ChartFrame frame{.width = has_side_chart ? area.columns - 36 : area.columns,
-                         .height = std::min(kTallestChart, has_side_chart ? area.lines : area.lines - n - 1),
-                         .x_max = std::max(job.sim_time, 1e-3),
-                         .x_unit = "s   S(t)"};
-  if (frame.height < kLeastChartLines) return;
+  const int height = std::min(kTallestChart, has_side_chart ? area.lines : area.lines - n - 1);
+  if (height < kLeastChartLines) return;
   const int first = has_side_chart ? 0 : n + 1;
   const int indent = has_side_chart ? 36 : 0;
   int i = 0;
-  for (const std::string& line : line_chart(job.order_history.times(), job.order_history.values(), frame)) {
+  for (const std::string& line : order_chart(job, area.columns - indent, height)) {
     grid.put(area.column + indent, area.line + first + i++, line, area.columns - indent);
   }
 }
@@ -203,7 +222,9 @@ void put_picture(const WatchContent& content, const LiveJob* job, const WatchLay
     grid.put(area.column + (area.columns - width) / 2, area.line + area.lines / 2, text, width);
     return;
   }
-  if (!has_image(content)) {
+  if (has_director(content, area)) {
+    draw_director(*content.rods, content.defects, content.steering.view, rod_style(content), area, grid);
+  } else if (!has_image(content)) {
     draw_rods(*content.rods, content.defects, content.steering.view, rod_style(content), area, grid);
   }
   put_legend(content, layout.legend, area, grid);
@@ -255,7 +276,7 @@ CellGrid run_cells(const WatchContent& content, const WatchLayout& layout, const
   put_picture(content, job, layout, grid);
   if (job != nullptr) put_numbers(*job, console, layout.numbers, grid);
   grid.put(0, grid.lines() - 1,
-           fitted(console.painted(Colour::kDim, std::string(kShortHelp) + "  " + content.note), width));
+           fitted(console.painted(Colour::kDim, status_line(content.note, grid.columns())), width));
   return grid;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "base/core/result.h"
@@ -20,7 +21,10 @@ struct RunDirectory {
   /// Frames as they are recorded, until the run is done (run/files/frame_log.h).
   std::filesystem::path frames() const { return root / "trajectory.part"; }
   /// Where all frames are that there are so far: the one or the other.
-  std::filesystem::path recorded() const { return std::filesystem::exists(frames()) ? frames() : trajectory(); }
+  std::filesystem::path recorded() const {
+    std::error_code hidden;  // a folder of somebody else's
+    return std::filesystem::exists(frames(), hidden) ? frames() : trajectory();
+  }
   std::filesystem::path observables() const { return root / "observables.h5"; }
   std::filesystem::path summary() const { return root / "summary.json"; }
   std::filesystem::path progress() const { return root / "progress.json"; }

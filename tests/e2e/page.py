@@ -261,10 +261,12 @@ def use(page, address, live, downloads):
     page.switch_to.alert.accept()
     eventually(lambda: rows("cancelled"), "it is cancelled by a click")
     eventually(lambda: "records no rods" in text("#run-note"), "what it has not is said")
+    eventually(lambda: not find("button.sweep[aria-current=true] progress").is_displayed(), "a sweep that is over has no empty bar")
+    check(text("#run-actions") == "Try run again" and text("#sweep-actions") == "Try all again", "two buttons for two things")
     check(not find("#scrub").is_displayed() and not find("#map-frame").is_displayed(), "and not offered")
 
     errors = [line["message"] for line in page.get_log("browser") if line["level"] == "SEVERE"
-              and "/curves" not in line["message"] and "/frames" not in line["message"] and "/v1/sweeps" not in line["message"]]
+              and "/curves" not in line["message"] and "/v1/sweeps" not in line["message"]]
     check(not errors, f"the browser complains of nothing: {errors}")
 
 

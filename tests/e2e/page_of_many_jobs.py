@@ -80,9 +80,10 @@ def frame(k, f):
     angles = [spread * math.sin(7.3 * i + 0.02 * f) for i in range(N_RODS)]
     order = math.hypot(sum(math.cos(2 * a) for a in angles), sum(math.sin(2 * a) for a in angles)) / N_RODS
     head = json.dumps({"time_s": EVERY_S * f, "box_side_mm": BOX_MM, "order": order, "director_rad": 0.0, "n_rods": N_RODS,
-                       "outlines": [[1.1, 0.4, 0.25]], "walls": None}).encode()
+                       "outlines": [[1.1, 0.4, 0.25]], "gap_mm": 1.2, "has_heights": True, "walls": None}).encode()
     head += b" " * (-len(head) % 4)
     values = x + y + [round(a / math.pi * 32768) for a in angles] + [1000 * (i % 5) for i in range(N_RODS)]
+    values += [4000 * (i % 5 - 2) for i in range(N_RODS)]  # heights around the middle of the gap
     return struct.pack("<I", len(head)) + head + struct.pack(f"<{len(values)}h", *values)
 
 
@@ -288,6 +289,19 @@ def use(page, address, daemon):
           f"with their samples and lengths: {words}")
     check(any(line.startswith("order.mean = ~0.4") and "±" in line for line in words), f"and a mark and an error: {words}")
 
+    click = "Chart.getChart('map').options.onClick({native: {}}, [{index: 0}]); return location.hash"
+    seen = set()
+    for _ in range(2):
+        before = page.current_url
+        page.execute_script(click)
+        eventually(lambda: page.current_url != before, "a click on a point chooses a run")
+        time.sleep(0.2)
+        seen.add(page.current_url.split("run=")[1][:16])
+    check(seen == {daemon.job(0)["id"], daemon.job(1)["id"]}, f"another click the next replica: {seen}")
+    ticks = page.execute_script("return Chart.getChart('map').scales.x.ticks.map(({value}) => value)")
+    swept = {daemon.job(k)["parameters"]["rods.area_fraction"] for k in range(N_JOBS)}
+    check(len(ticks) > 3 and set(ticks) <= swept, f"ticks are at values that were swept: {ticks}")
+
     find("#jobs-search").send_keys("running")
     eventually(lambda: count() == f"1 of {N_JOBS} jobs", "words filter the table")
     find("#jobs-search").clear()
@@ -312,8 +326,9 @@ def use(page, address, daemon):
     find("#sort-value").click()
     eventually(lambda: find("th:nth-child(3)").get_attribute("aria-sort") == "none", "a third one leaves the order as it was")
 
-    daemon.stands = True
-    running = daemon.job(daemon.n_done)["id"]
+    with daemon.lock:  # no job ends between
+        daemon.stands = True
+        running = daemon.job(daemon.n_done)["id"]
     page.execute_script("location.hash = arguments[0]", f"sweep=s1&run={running}")
     eventually(lambda: page.execute_script("""return Chart.getChart("order-chart").data.datasets[0].data.map(({x, y}) => `${x} ${y}`)""")
                == ["0 0.9", "1 0.8", "1.5 0.5", "2 0.4", "2.5 0.3"], "S(t) of a run at work begins with what it has recorded")
@@ -395,7 +410,7 @@ def use(page, address, daemon):
     eventually(lambda: f"run={other.get_attribute('data-job')}" in page.current_url, "Enter chooses its run")
     side_by_side(page, daemon, other.get_attribute("data-job"))
     find("#map-pictures").click()
-    check(find("#map-frame").is_displayed() and not find("#pictures").is_displayed(), "and the numbers are there again")
+    eventually(lambda: find("#map-frame").is_displayed() and not find("#pictures").is_displayed(), "and the numbers are there again")
     daemon.stands = False
     errors = [line["message"] for line in page.get_log("browser") if line["level"] == "SEVERE" and "404" not in line["message"]]
     check(not errors, f"the browser complains of nothing: {errors}")
@@ -423,6 +438,17 @@ def side_by_side(page, daemon, chosen):
                f"each headline says what differs: {heads()}")
     page.refresh()
     eventually(lambda: len(notes()) == 2 and all("t = 3.000 s" in note for note in notes()), "the address keeps them")
+    check(find("#pictures").is_displayed() and "pictures=1" in page.current_url, "and that the diagram is in pictures")
+    for theme in ("light", "dark"):
+        page.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": theme}]})
+        time.sleep(0.3)
+        least = page.execute_script(CONTRASTS)
+        check(least["text"][0] >= 4.5 and least["edge"][0] >= 3, f"{theme}: pictures and runs side by side are legible: {least}")
+    page.find_elements(By.CSS_SELECTOR, ".pane .marks")[1].send_keys("+", "o")
+    seen = page.execute_script("return window.shakenBeside.panes.map(({canvas}) => canvas.view)")
+    check(seen[0] == seen[1] and seen[0]["zoom"] > 1 and seen[0]["orbit"], f"runs side by side have one view: {seen}")
+    check(find("#beside-orbit").get_attribute("aria-pressed") == "true", "of which a button tells")
+    page.find_elements(By.CSS_SELECTOR, ".pane .marks")[0].send_keys("0")
     find("#beside-time").send_keys(Keys.HOME)
     eventually(lambda: all("t = 0.000 s" in note for note in notes()), "one slider moves all, by keys too")
     find("#beside-time").send_keys(Keys.ARROW_RIGHT)
@@ -434,7 +460,7 @@ def side_by_side(page, daemon, chosen):
     Select(find("#beside-colouring")).select_by_value("tilt")
     check(page.execute_script(kinds) == ["tilt", "tilt"], "whichever are chosen")
     running = daemon.job(daemon.n_done)["id"]
-    page.execute_script("location.hash += '.' + arguments[0]", running)
+    page.execute_script("location.hash = location.hash.replace(/beside=[^&]*/, `$&.${arguments[0]}`)", running)
     eventually(lambda: len(heads()) == 3 and "(running)" in heads()[2], "a run at work is put beside them")
     before = notes()[2] if len(notes()) > 2 else ""
     eventually(lambda: len(notes()) == 3 and notes()[2] not in ("", before), "and is live")
@@ -446,7 +472,6 @@ def side_by_side(page, daemon, chosen):
     eventually(lambda: f"beside={chosen}" not in page.current_url, "one is taken away")
     find("#beside-close").click()
     eventually(lambda: "beside" not in page.current_url and not find("#beside").is_displayed(), "then all")
-    find("#map-pictures").click()  # as they were before the page was loaded anew
 
 
 def use_by_everybody(page, daemon, pictures):
@@ -493,6 +518,10 @@ def use_by_everybody(page, daemon, pictures):
     page.save_screenshot(f"{pictures}-path.png")
     page.execute_script("const time = document.getElementById('time'); time.value = 9; time.dispatchEvent(new Event('input'))")
     eventually(lambda: page.execute_script(lines) == 10, "up to the frame that is shown")
+    ActionChains(page).move_to_element(find("#rod-chart")).perform()
+    eventually(lambda: page.execute_script("const {opacity, body} = Chart.getChart('rod-chart').tooltip;"
+                                           "return opacity > 0 && body[0].lines.join(' ')").startswith("t (s): "),
+               "the curve under the pointer says its numbers")
     before = page.execute_script("return window.shakenRods.view.zoom")
     find("#marks").send_keys("+")
     find("#marks").send_keys(Keys.ARROW_RIGHT)
@@ -500,6 +529,7 @@ def use_by_everybody(page, daemon, pictures):
     check(view["zoom"] > before and view["x"] > 0.5, f"rods are zoomed and moved by keys: {view}")
     find("#marks").send_keys("0")
     check(page.execute_script("return window.shakenRods.view.zoom") == 1, "and seen as a whole again")
+    from_the_side(page, pictures)
     find("#marks").send_keys("?")
     eventually(lambda: find("#keys").is_displayed(), "? shows the keys")
     find("#keys button").click()
@@ -518,6 +548,70 @@ def use_by_everybody(page, daemon, pictures):
     eventually(lambda: "shaken submit" in find("#no-sweeps").text and not find("#sweep").is_displayed(),
                "without a sweep the page says how to make one, and shows no empty charts")
     page.save_screenshot(f"{pictures}-empty.png")
+
+
+ORBIT = """
+  const done = arguments[arguments.length - 1];
+  import("/page/orbit.js").then(({cameraOf, matrixOf}) => {
+    const eyes = [[0, 30], [90, 30], [0, 90]].map((orbit) => cameraOf({box_side_mm: 10, gap_mm: 2}, {x: 0.5, y: 0.5, zoom: 1, orbit}));
+    // how far the corners of the box are from the middle of the picture, in halves of it
+    const outermost = (orbit) => {
+      const look = matrixOf(cameraOf({box_side_mm: 10, gap_mm: 2}, {x: 0.5, y: 0.5, zoom: 1, orbit}));
+      const seen = [0, 1, 2, 3, 4, 5, 6, 7].map((k) => [0, 1, 2, 3].map((row) =>
+        look[row] * 10 * (k & 1) + look[4 + row] * 10 * (k >> 1 & 1) + look[8 + row] * 2 * (k >> 2) + look[12 + row]));
+      return [Math.max(...seen.map(([x, y, , w]) => Math.max(Math.abs(x), Math.abs(y)) / w)),
+              Math.max(...seen.map(([, , z, w]) => Math.abs(z) / w))];
+    };
+    done([eyes.map(({eye}) => eye), eyes[2].up, [[-30, 35], [77, 1], [200, 90]].map(outermost)]);
+  });"""
+
+
+def from_the_side(page, pictures):
+    """The rods between their plates, seen from where `shaken picture --view orbit:AZ,EL` sees them (camera_test.cpp)."""
+    def find(css):
+        return page.find_element(By.CSS_SELECTOR, css)
+
+    def view():
+        return page.execute_script("return window.shakenRods.view")
+
+    def drawn():
+        return page.execute_script("return document.getElementById('rods').toDataURL()")
+
+    (front, right, above), up, reach = page.execute_async_script(ORBIT)
+    check(front[1] < 0 and abs(front[0] - 5) < 1e-9 and right[0] > 10 and abs(right[1] - 5) < 1e-9,
+          "azimuth 0 is from below the picture from above, 90 from its right")
+    check(abs(above[0] - 5) + abs(above[1] - 5) < 1e-9 and abs(up[1] - 1) < 1e-9, "elevation 90 is from above")
+    check(all(0.9 < side <= 1 and depth < 1 for side, depth in reach), f"the box just fits: {reach}")
+    from_above = drawn()
+    find("#orbit").click()
+    eventually(lambda: find("#orbit").get_attribute("aria-pressed") == "true" and drawn() != from_above, "rods are seen from the side")
+    check("azimuth -30°, elevation 35°" in find("#marks").get_attribute("aria-label"), "which the name of the canvas says")
+    rods = find("#marks")
+    ActionChains(page).move_to_element(rods).click_and_hold().move_by_offset(40, 20).release().perform()
+    turned = view()["orbit"]
+    check(turned[0] < -30 and turned[1] > 35 and view()["x"] == 0.5, f"drawing turns them: {turned}")
+    rods.send_keys(Keys.ARROW_UP)
+    check(view()["orbit"][1] > turned[1] and view()["orbit"][0] == turned[0], "so do arrows")
+    for colouring in ("layers", "wheel", "tilt", "species"):
+        before = drawn()
+        Select(find("#colouring")).select_by_value(colouring)
+        if colouring != "layers":  # which may be what there was
+            eventually(lambda: drawn() != before, f"coloured by {colouring}")
+    rods.send_keys("+")
+    check(view()["zoom"] > 1, "+ enlarges")
+    page.save_screenshot(f"{pictures}-orbit.png")
+    ActionChains(page).double_click(rods).perform()
+    eventually(lambda: view()["orbit"] is None and find("#orbit").get_attribute("aria-pressed") == "false", "a double click is from above again")
+    rods.send_keys("o")
+    check(view()["orbit"] is not None, "o goes there, too")
+    rods.send_keys("0")
+    check(view() == {"x": 0.5, "y": 0.5, "zoom": 1, "orbit": None}, "0 shows the whole box from above")
+    Select(find("#colouring")).select_by_value("auto")
+    found = False
+    for k in range(20):
+        ActionChains(page).move_to_element_with_offset(rods, 5 * k - 100, 3 * k - 60).perform()
+        found = found or "n_z = " in find("#rod-facts").text
+    check(found, "where a rod under the pointer says its numbers")
 
 
 def main(folder, screenshot):

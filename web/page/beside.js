@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Up to four runs side by side, live or recorded, on one clock.
 import {ask, byId, complain, fetched, make, number} from "/page/dom.js";
+import {Newest} from "/page/loader.js";
 import {suitingColouring} from "/page/painter.js";
-import {RodCanvas, unpack} from "/page/rods.js";
+import {RodCanvas, kWhole, unpack} from "/page/rods.js";
 
 export const kMostBeside = 4;
 const kPlayEvery = 50;   // ms
@@ -22,8 +23,10 @@ export function differences(jobs) {
 }
 
 class Pane {
-  constructor(id, palettes, leave) {
-    Object.assign(this, {id, job: null, recorded: null, frame: null, kind: "", wanted: null, isBusy: false, nextAsk: 0});
+  /** `seen` has the view of all panes, and draws them: {view, draw()}. */
+  constructor(id, palettes, leave, seen) {
+    Object.assign(this, {id, job: null, recorded: null, frame: null, kind: "", nextAsk: 0});
+    this.newest = new Newest((wish) => this.fetch(wish));
     this.title = make("h3", {}, id.slice(0, 8));
     this.note = make("p", {className: "note"});
     const rods = make("canvas", {"aria-hidden": "true"}), marks = make("canvas", {tabIndex: 0, role: "img", "aria-label": `Rods of ${id}`});
@@ -31,6 +34,7 @@ class Pane {
     this.element = make("div", {className: "pane"}, make("div", {className: "pane-head"}, this.title, button),
                         make("div", {className: "stage"}, rods, marks), this.note);
     this.canvas = new RodCanvas(rods, marks, palettes);
+    Object.assign(this.canvas, {view: seen.view, onView: seen.draw});
     marks.classList.add("marks");
   }
 
@@ -39,29 +43,22 @@ class Pane {
   async ask() {
     this.nextAsk = performance.now() + kAskEvery;
     const [{job}, recorded] = await Promise.all([ask(`/v1/jobs/${this.id}`), ask(`/runs/${this.id}/frames`).catch(() => null)]);
-    Object.assign(this, {job, recorded});
+    Object.assign(this, {job, recorded: recorded?.n > 0 ? recorded : null});
   }
 
-  /** The frame of `path`, shown as soon as it is there; while one is fetched only the newest wish is kept. */
-  async show(path, shown) {
-    this.wanted = path;
-    if (this.isBusy) return;
-    this.isBusy = true;
+  /** The frame of `path`, shown as soon as it is there. */
+  show(path, shown) { return this.newest.want({path, shown}); }
+
+  async fetch({path, shown}) {
     try {
-      while (this.wanted) {
-        const now = this.wanted;
-        this.wanted = null;
-        const response = await fetched(`/runs/${this.id}/${now}`);
-        if (!response.ok) throw new Error((await response.json()).error);
-        this.frame = unpack(await response.arrayBuffer());
-        this.kind = suitingColouring(this.frame, this.kind);
-        this.canvas.set(this.frame);
-        shown();
-      }
+      const response = await fetched(`/runs/${this.id}/${path}`);
+      if (!response.ok) throw new Error((await response.json()).error);
+      this.frame = unpack(await response.arrayBuffer());
+      this.kind = suitingColouring(this.frame, this.kind);
+      this.canvas.set(this.frame);
+      shown();
     } catch (problem) {
       this.note.textContent = problem.message;
-    } finally {
-      this.isBusy = false;
     }
   }
 
@@ -75,6 +72,8 @@ export class BesidePanel {
   /** `change(ids)` is called when a run is taken away. */
   constructor(change) {
     Object.assign(this, {change, ids: [], panes: [], time: 0, isLive: false, playing: 0});
+    this.seen = {view: {...kWhole}, draw: () => this.draw()};
+    byId("beside-orbit").onclick = () => this.panes[0]?.canvas.toggleOrbit();
     window.shakenBeside = this;  // for whoever looks at it with the browser's tools
     byId("beside-time").oninput = () => {
       this.stop();
@@ -100,7 +99,7 @@ export class BesidePanel {
       const palettes = await this.palettes;
       if (ids !== this.ids) return;
       const old = new Map(this.panes.map((pane) => [pane.id, pane]));
-      this.panes = ids.map((id) => old.get(id) ?? new Pane(id, palettes, () => this.change(this.ids.filter((one) => one !== id))));
+      this.panes = ids.map((id) => old.get(id) ?? new Pane(id, palettes, () => this.change(this.ids.filter((one) => one !== id)), this.seen));
       for (const pane of old.values()) if (!this.panes.includes(pane)) pane.canvas.close();
       byId("beside-runs").replaceChildren(...this.panes.map(({element}) => element));
       await Promise.all(this.panes.map((pane) => pane.ask()));
@@ -180,6 +179,12 @@ export class BesidePanel {
     this.colour();
   }
 
+  /** All runs in one view. */
+  draw() {
+    for (const {canvas} of this.panes) canvas.draw();
+    byId("beside-orbit").setAttribute("aria-pressed", Boolean(this.seen.view.orbit));
+  }
+
   /** The same colours for all runs: by the angle to the director where all are in order, otherwise by that in the box. */
   colour() {
     const chosen = byId("beside-colouring").value, kinds = this.panes.filter(({frame}) => frame).map(({kind}) => kind);
@@ -194,7 +199,7 @@ export class BesidePanel {
     if (this.isLive || this.time >= this.range().last) this.goTo(this.range().first);
     byId("beside-play").textContent = "Stop";
     this.playing = setInterval(() => {
-      if (this.panes.some(({isBusy}) => isBusy)) return;
+      if (this.panes.some(({newest}) => newest.isBusy)) return;
       const {last, step} = this.range();
       if (this.time >= last) this.stop();
       else this.goTo(this.time + step);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Curves and maps, drawn by Chart.js (the global Chart of /chart.js).
 
-import {colour, onTheme} from "/page/dom.js";
+import {colour, number, onTheme} from "/page/dom.js";
 
 /** Viridis (van der Walt & Smith 2015) at nine places, for values from low (0) to high (1). */
 const kViridis = ["#440154", "#472d7b", "#3b528b", "#2c728e", "#21918c", "#28ae80", "#5ec962", "#addc30", "#fde725"];
@@ -41,7 +41,10 @@ export class Curve {
       type: "line",
       plugins: [markedX],
       data: {datasets: [{data: [], borderColor: () => colour("accent"), borderWidth: 1.5, pointRadius: 0, tension: 0}]},
-      options: {...common, parsing: false, scales: {x: axis(xTitle), y: axis(yTitle, yRange)}},
+      options: {...common, parsing: false, scales: {x: axis(xTitle), y: axis(yTitle, yRange)},
+                interaction: {mode: "nearest", axis: "x", intersect: false},
+                plugins: {legend: {display: false}, tooltip: {displayColors: false, callbacks: {
+                  title: () => "", label: ({raw: {x, y}}) => [`${xTitle}: ${number(x)}`, `${yTitle}: ${number(y)}`]}}}},
     });
     onTheme(() => this.chart.update("none"));
   }
@@ -115,6 +118,14 @@ const pointMarks = {
   },
 };
 
+/** Ticks at `values`, at every second or third of many; wherever Chart.js likes them if there are none. */
+function putTicks(scale, values) {
+  const most = 8, step = Math.ceil(values.length / most), at = values.filter((_, k) => k % step === 0).map((value) => ({value}));
+  scale.afterBuildTicks = at.length ? (built) => { built.ticks = at; } : undefined;
+  scale.ticks.callback = at.length ? (value) => number(value) : undefined;
+  scale.ticks.maxTicksLimit = most;
+}
+
 /** Points with a value each, shown by colour; or against the value where there is only one parameter. */
 export class PointMap {
   constructor(canvas, choose) {
@@ -135,8 +146,11 @@ export class PointMap {
   /** A PNG of the map under a line of words; null if there is none. */
   picture(words) { return pictureOf(this.chart, words); }
 
-  /** points: [{x, y, fill, border, text: [lines], bar, hollow}]; `bar` is a standard error of y, NaN for none. */
-  set(points, xTitle, yTitle) {
+  /**
+   * points: [{x, y, fill, border, text: [lines], bar, hollow}]; `bar` is a standard error of y, NaN for none. `isGrid`: y is
+   * a parameter, too.
+   */
+  set(points, xTitle, yTitle, isGrid) {
     this.points = this.chart.points = points;
     const [set] = this.chart.data.datasets;
     set.data = points.map(({x, y}) => ({x, y}));
@@ -150,6 +164,7 @@ export class PointMap {
       const scale = this.chart.options.scales[name];
       scale.title.text = title;
       scale.offset = true;
+      putTicks(scale, name === "x" || isGrid ? [...new Set(points.map((point) => point[name]))].sort((a, b) => a - b) : []);
       const reach = (point) => name === "y" && point.bar > 0 ? point.bar : 0;
       const values = points.flatMap((point) => [point[name] - reach(point), point[name] + reach(point)]).filter(Number.isFinite);
       const low = Math.min(...values), high = Math.max(...values), margin = (high - low || Math.abs(low) || 1) * 0.08;

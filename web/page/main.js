@@ -14,11 +14,12 @@ const queue = new QueuePanel((id) => choose({sweep: id, run: ""}));
 new SubmitForm((id) => choose({sweep: id, run: ""}));
 
 const isRun = (id) => /^[0-9a-f]{16}$/.test(id);
-/** The address holds what is looked at, so that it can be reloaded: #sweep=s3&run=1f0c...&beside=1f0c....77aa... */
+/** The address holds what is looked at, so that it can be reloaded: #sweep=s3&run=1f0c...&beside=1f0c....77aa...&pictures=1 */
 function chosen() {
   const words = new URLSearchParams(location.hash.slice(1)), id = words.get("run") ?? "";
   const others = [...new Set((words.get("beside") ?? "").split("."))].filter(isRun).slice(0, kMostBeside);
-  return {sweep: words.get("sweep") ?? "", run: isRun(id) ? id : "", ...(others.length ? {beside: others.join(".")} : {})};
+  return {sweep: words.get("sweep") ?? "", run: isRun(id) ? id : "", ...(others.length ? {beside: others.join(".")} : {}),
+          ...(words.has("pictures") ? {pictures: "1"} : {})};
 }
 const idsBeside = () => chosen().beside?.split(".") ?? [];
 
@@ -29,6 +30,7 @@ function putBeside(id) {
   else if (ids.length < kMostBeside) choose({beside: [...ids, id].join(".")});
   else complain(`At most ${kMostBeside} runs are shown side by side: take one away first.`);
 }
+byId("map-pictures").onclick = () => choose({pictures: "pictures" in chosen() ? "" : "1"});
 byId("run-beside").onclick = () => { if (chosen().run) putBeside(chosen().run); };
 
 /** Of a narrow screen, which shows one of the three. */
@@ -40,10 +42,10 @@ for (const button of document.querySelectorAll("#tabs button")) button.onclick =
 showTab("sweep");
 
 function choose(change) {
-  if (!("beside" in change)) showTab(change.run ? "run" : "sweep");
+  if (!("beside" in change || "pictures" in change)) showTab(change.run ? "run" : "sweep");
   else if (!change.beside && document.querySelector("main").dataset.tab === "beside") showTab("sweep");
   const next = {...chosen(), ...change};
-  if (!next.beside) delete next.beside;
+  for (const key of ["beside", "pictures"]) if (!next[key]) delete next[key];
   location.hash = new URLSearchParams(next).toString();
 }
 
@@ -93,7 +95,7 @@ function show() {
   if (new URLSearchParams(location.hash.slice(1)).has("token")) location.reload();  // which takes it
   const now = chosen();
   queue.choose(now.sweep);
-  sweep.choose(now.sweep, now.run, idsBeside());
+  sweep.choose(now.sweep, now.run, idsBeside(), "pictures" in now);
   run.choose(now.run);
   beside.choose(idsBeside());
   byId("run-beside").setAttribute("aria-pressed", idsBeside().includes(now.run));

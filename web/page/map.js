@@ -12,16 +12,20 @@ export class PhaseMap {
   /** `choose(id, isBeside)` is called when a run is clicked, `changed()` when another number is to be shown. */
   constructor(choose, changed) {
     this.changed = changed;
-    this.map = new PointMap(byId("map"), (point, isBeside) => choose(point.jobs[0], isBeside));
+    // of replicas the one after the chosen one
+    this.map = new PointMap(byId("map"), ({jobs}, isBeside) => choose(jobs[(jobs.indexOf(this.run) + 1) % jobs.length], isBeside));
     this.pictures = new PictureMap(choose);
-    byId("map-pictures").onclick = () => {
-      byId("map-pictures").setAttribute("aria-pressed", !this.pictures.isOn);
-      this.pictures.show(!this.pictures.isOn);
-      this.draw(this.run);
-    };
     onTheme(() => this.draw(this.run));
     byId("map-save").onclick = () => this.savePicture();
     this.clear("");
+  }
+
+  /** The diagram in pictures of the rods, or in numbers. */
+  showPictures(on) {
+    if (on === this.pictures.isOn) return;
+    byId("map-pictures").setAttribute("aria-pressed", on);
+    this.pictures.show(on);
+    this.draw(this.run);
   }
 
   clear(sweep) {
@@ -92,7 +96,7 @@ export class PhaseMap {
     if (inPictures) this.pictures.set(all, axes, new Map(this.rows.map((row) => [row.job, row.state])), run, this.beside);
     byId("map").setAttribute("role", "img");
     byId("map").setAttribute("aria-label", `Phase diagram: ${value} against ${x}${y ? ` and ${y}` : ""}, ${points.length} points`);
-    this.map.set(points, x, y || value);
+    this.map.set(points, x, y || value, Boolean(y));
     const bar = make("canvas");
     strip(bar, sequential);
     byId("map-scale").shownStamp = undefined;

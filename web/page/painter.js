@@ -1,21 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Rods by WebGL2: one small rectangle for each, in which its outline is drawn.
+// Rods by WebGL2, from above: one small rectangle for each, in which its outline is drawn.
 import {colour as cssColour} from "/page/dom.js";
+import {attribute, fill, kColourOf, makeTextures, newProgram, rgb, useForRods} from "/page/gl.js";
+import {OrbitPainter} from "/page/orbit.js";
 
-const kVertex = `#version 300 es
+const kVertex = `
 layout(location = 0) in vec2 corner;
 layout(location = 1) in vec4 rod;  // its centre, from the middle of the view [mm]; heading / pi; n_z
 layout(location = 2) in float species;
 uniform float scale;       // half the view's width is 1 / scale [mm]
 uniform vec3 outline[8];   // half length, radius in the middle, radius at the ends [mm]
-uniform float director;
-uniform int colouring;
-uniform sampler2D layers, wheel, tilt;
-uniform vec3 speciesColour[3];
 out vec2 at;               // along and across the rod [mm]
 flat out vec3 shape;
 flat out vec3 colour;
-const float pi = 3.14159265358979;
+${kColourOf}
 void main() {
   vec3 whole = outline[int(species)];
   float nz = rod.w;
@@ -27,16 +25,10 @@ void main() {
   vec2 axis = vec2(cos(theta), sin(theta));
   vec2 place = rod.xy + at.x * axis + at.y * vec2(-axis.y, axis.x);
   gl_Position = vec4(place * scale, 0.0, 1.0);
-  float turned = (theta - director) / pi;
-  turned -= floor(turned + 0.5);
-  if (colouring == 0) colour = texture(layers, vec2(clamp(turned * 6.0 + 0.5, 0.0, 1.0), 0.5)).rgb;
-  else if (colouring == 1) colour = texture(wheel, vec2(theta / pi, 0.5)).rgb;
-  else if (colouring == 2) colour = texture(tilt, vec2(min(abs(nz) * 2.0, 1.0), 0.5)).rgb;
-  if (colouring == 3 || (colouring == 0 && species > 0.5)) colour = speciesColour[min(int(species), 2)];
+  colour = colourOf(theta, nz, species);
 }`;
 
-const kFragment = `#version 300 es
-precision highp float;
+const kFragment = `
 in vec2 at;
 flat in vec3 shape;
 flat in vec3 colour;
@@ -80,9 +72,6 @@ export function instancesOf(frame, view) {
   return {count, rods: rods.subarray(0, 4 * count), species: species.subarray(0, count)};
 }
 
-const kColourings = ["layers", "wheel", "tilt", "species"], kTextures = kColourings.slice(0, 3);
-const rgb = (ink) => [ink >> 16 & 255, ink >> 8 & 255, ink & 255];
-
 /**
  * The colouring that suits a frame. Spheres have no axes, and so no S; layers where there is order, the wheel where there
  * is none, and no flicker between: `before` is what was chosen last, if anything was.
@@ -98,65 +87,26 @@ export class RodPainter {
     this.palettes = palettes;
     this.gl = canvas.getContext("webgl2", {antialias: false, preserveDrawingBuffer: true});
     if (!this.gl) throw new Error("this browser has no WebGL2, by which rods are drawn");
-    this.makeProgram();
+    this.program = newProgram(this.gl, kVertex, kFragment);
     this.makeBuffers();
-    this.makeTextures();
-  }
-
-  makeProgram() {
-    const {gl} = this, program = gl.createProgram();
-    for (const [kind, source] of [[gl.VERTEX_SHADER, kVertex], [gl.FRAGMENT_SHADER, kFragment]]) {
-      const shader = gl.createShader(kind);
-      gl.shaderSource(shader, source);
-      gl.compileShader(shader);
-      if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) throw new Error(gl.getShaderInfoLog(shader));
-      gl.attachShader(program, shader);
-    }
-    gl.linkProgram(program);
-    if (!gl.getProgramParameter(program, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(program));
-    gl.useProgram(program);
-    this.uniforms = Object.fromEntries(["scale", "outline", "director", "colouring", "speciesColour", ...kTextures].map(
-      (name) => [name, gl.getUniformLocation(program, name)]));
-    kTextures.forEach((name, unit) => gl.uniform1i(this.uniforms[name], unit));
-    gl.uniform3fv(this.uniforms.speciesColour, this.palettes.species.flatMap(rgb).map((c) => c / 255));
+    makeTextures(this.gl, palettes);
   }
 
   makeBuffers() {
     const {gl} = this;
     this.vertices = gl.createVertexArray();
     gl.bindVertexArray(this.vertices);
-    gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
-    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]), gl.STATIC_DRAW);
-    gl.enableVertexAttribArray(0);
-    gl.vertexAttribPointer(0, 2, gl.FLOAT, false, 0, 0);
-    [this.rods, this.species] = [[4, gl.FLOAT], [1, gl.UNSIGNED_BYTE]].map(([size, type], i) => {
-      const buffer = gl.createBuffer();
-      gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-      gl.enableVertexAttribArray(i + 1);
-      gl.vertexAttribPointer(i + 1, size, type, false, 0, 0);
-      gl.vertexAttribDivisor(i + 1, 1);
-      return buffer;
-    });
+    fill(gl, attribute(gl, 0, 2, gl.FLOAT), new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]));
+    this.rods = attribute(gl, 1, 4, gl.FLOAT, true);
+    this.species = attribute(gl, 2, 1, gl.UNSIGNED_BYTE, true);
   }
 
-  makeTextures() {
-    const {gl} = this;
-    kTextures.forEach((name, unit) => {
-      const colours = this.palettes[name];
-      gl.activeTexture(gl.TEXTURE0 + unit);
-      gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
-      gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
-      gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGB8, colours.length, 1, 0, gl.RGB, gl.UNSIGNED_BYTE, new Uint8Array(colours.flatMap(rgb)));
-      const filter = name === "wheel" ? gl.NEAREST : gl.LINEAR;
-      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, filter);
-      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, filter);
-      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, name === "wheel" ? gl.REPEAT : gl.CLAMP_TO_EDGE);
-    });
-  }
-
-  /** Fills the canvas of `size` pixels: with the ground where `frame` is null. */
-  paint(frame, view, size, colouring) {
-    const {gl, uniforms} = this;
+  /**
+   * Fills the canvas of `size` pixels: with the ground where `frame` is null. From above, or as `view.orbit` says; then
+   * quicker, and less smooth, where it `isMoving`.
+   */
+  paint(frame, view, size, colouring, isMoving = false) {
+    const {gl, palettes, program} = this;
     gl.viewport(0, 0, size, size);
     const [r, g, b] = rgb(parseInt(cssColour("panel").slice(1), 16));
     gl.clearColor(r / 255, g / 255, b / 255, 1);
@@ -164,15 +114,17 @@ export class RodPainter {
     if (!frame) return;
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
-    gl.uniform1f(uniforms.scale, 2 * view.zoom / frame.box_side_mm);
-    gl.uniform3fv(uniforms.outline, frame.outlines.slice(0, 8).flat());
-    gl.uniform1f(uniforms.director, frame.director_rad);
-    gl.uniform1i(uniforms.colouring, kColourings.indexOf(colouring));
-    const {count, rods, species} = instancesOf(frame, view);
-    for (const [buffer, values] of [[this.rods, rods], [this.species, species]]) {
-      gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-      gl.bufferData(gl.ARRAY_BUFFER, values, gl.DYNAMIC_DRAW);
+    if (view.orbit) {
+      this.orbit ??= new OrbitPainter(gl, palettes);
+      this.orbit.paint(frame, view, size, colouring, isMoving);
+      return;
     }
+    useForRods(gl, program, palettes, frame, colouring);
+    gl.uniform1f(program.at.scale, 2 * view.zoom / frame.box_side_mm);
+    const {count, rods, species} = instancesOf(frame, view);
+    gl.bindVertexArray(this.vertices);
+    fill(gl, this.rods, rods);
+    fill(gl, this.species, species);
     gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, count);
   }
 }

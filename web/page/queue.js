@@ -33,22 +33,24 @@ export class QueuePanel {
       item.name.textContent = `${sweep.id} ${sweep.name}`;
       item.bar.value = sweep.progress;
       const waits = sweep.counts.running + sweep.counts.queued > 0;
+      // that of a sweep that is over, and was cancelled half way, would be empty
+      item.bar.hidden = !["queued", "held", "running", "stopping"].some((state) => sweep.counts[state] > 0);
       item.counts.textContent = countsText(sweep.counts) + (waits && sweep.eta_s >= 0 ? `; ${duration(sweep.eta_s)} to go` : "");
     }
     this.choose(this.chosen);
   }
 }
 
-/** Buttons of what can be asked of a sweep or a job; `path` is /v1/sweeps/ID or /v1/jobs/ID. */
-export function actionButtons(path, states) {
+/** Buttons of what can be asked of a sweep or a job; `path` is /v1/sweeps/ID or /v1/jobs/ID, `thing` "all" or "run". */
+export function actionButtons(path, states, thing = "") {
   const has = (...words) => words.some((word) => states.has(word));
   const offered = [["hold", "Hold", has("queued", "running")], ["resume", "Resume", has("held")],
-                   ["retry", "Try again", has("failed", "cancelled", "timed out")],
+                   ["retry", thing ? `Try ${thing} again` : "Try again", has("failed", "cancelled", "timed out")],
                    ["cancel", "Cancel", has("queued", "running", "held")]];
   return offered.filter(([, , fits]) => fits).map(([action, word]) => make("button", {
     type: "button", "data-action": action, onclick: async (event) => {
       event.stopPropagation();
       if (action === "cancel" && !confirm(`Cancel ${path.split("/").at(-1)}? What it has measured stays.`)) return;
       try { await ask(`${path}/${action}`, {}); } catch (problem) { complain(problem.message); }
-    }}, word));
+    }}, thing && action !== "retry" ? `${word} ${thing}` : word));
 }

@@ -9,9 +9,9 @@ export function unpack(buffer) {
   const head = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, size)));
   const n = head.n_rods, begin = 4 + size;
   const array = (k) => new Int16Array(buffer, begin + 2 * n * k, n);
-  const many = head.outlines.length > 1;
-  return {...head, x: array(0), y: array(1), heading: array(2), n_z: array(3),
-          species: many ? new Uint8Array(buffer, begin + 8 * n, n) : new Uint8Array(n)};
+  const many = head.outlines.length > 1, z = head.has_heights ? array(4) : null;
+  return {...head, x: array(0), y: array(1), heading: array(2), n_z: array(3), z,
+          species: many ? new Uint8Array(buffer, begin + (z ? 10 : 8) * n, n) : new Uint8Array(n)};
 }
 
 export function unpackText(text) {
@@ -46,6 +46,10 @@ export function rodAt(frame, view, x, y, reach = 0) {
   return best;
 }
 
+export const kWhole = {x: 0.5, y: 0.5, zoom: 1, orbit: null};
+const kRest = 400;  // ms after which a picture from the side is drawn smoothly
+const kFirstOrbit = [-30, 35];  // degrees, as `shaken picture --view orbit` has them
+
 export class RodCanvas {
   constructor(canvas, marks, palettes) {
     this.canvas = canvas;
@@ -57,7 +61,8 @@ export class RodCanvas {
     this.showsDefects = true;
     this.colouring = "auto";
     this.automatic = "";
-    this.view = {x: 0.5, y: 0.5, zoom: 1};
+    this.view = {...kWhole};  // may be shared with other canvases: it is changed in its place
+    this.onView = () => this.draw();
     this.framesDrawn = 0;
     this.painter = new RodPainter(canvas, palettes);
     this.handlePointer();
@@ -101,8 +106,11 @@ export class RodCanvas {
   }
 
   drawNow() {
-    const size = this.fitSize();
-    this.painter.paint(this.frame, this.view, size, this.chosenColouring());
+    const size = this.fitSize(), now = performance.now(), isMoving = this.view.orbit && now - (this.drawnAt ?? 0) < kRest;
+    this.drawnAt = now;
+    clearTimeout(this.smoothing);
+    if (isMoving) this.smoothing = setTimeout(() => this.draw(), 1.5 * kRest);
+    this.painter.paint(this.frame, this.view, size, this.chosenColouring(), isMoving);
     this.drawMarks(size);
     ++this.framesDrawn;
   }
@@ -112,6 +120,10 @@ export class RodCanvas {
     const {frame, view} = this, context = this.marks.getContext("2d");
     context.clearRect(0, 0, size, size);
     if (!frame) return;
+    if (view.orbit) {
+      this.write(context, this.viewWords(), size);
+      return;
+    }
     const side = frame.box_side_mm, perMm = size * view.zoom / side;
     const toPixel = (x, y) => {
       let dx = x - view.x * side, dy = y - view.y * side;
@@ -132,13 +144,18 @@ export class RodCanvas {
     if (this.path) this.drawPath(context, toPixel, side, perMm);
     if (this.showsDefects) for (const one of this.defects) this.drawDefect(context, one, toPixel, size);
     const bar = [1, 2, 5, 10, 20, 50, 100, 200].filter((mm) => mm * perMm < size / 3).at(-1) ?? 1;
+    this.write(context, `${bar} mm`, size);
+    context.fillRect(size * 0.03, size * 0.965, bar * perMm, Math.max(2, size / 250));
+  }
+
+  /** Words in the lower left corner. */
+  write(context, words, size) {
     context.fillStyle = cssColour("ink");
     context.strokeStyle = cssColour("panel");
     context.lineWidth = 4;
     context.font = `${Math.max(11, size / 45)}px sans-serif`;
-    context.fillRect(size * 0.03, size * 0.965, bar * perMm, Math.max(2, size / 250));
-    context.strokeText(`${bar} mm`, size * 0.03, size * 0.955);
-    context.fillText(`${bar} mm`, size * 0.03, size * 0.955);
+    context.strokeText(words, size * 0.03, size * 0.955);
+    context.fillText(words, size * 0.03, size * 0.955);
   }
 
   /** A line for each step, the short way round. */
@@ -179,7 +196,7 @@ export class RodCanvas {
   /** What there is to say of the rod under the pointer, if there is one. */
   describe(event) {
     const {frame, view, marks} = this;
-    if (!frame) return;
+    if (!frame || view.orbit) return;
     const width = frame.box_side_mm / view.zoom;
     this.tell(rodAt(frame, view, (event.offsetX / marks.clientWidth - 0.5) * width, (0.5 - event.offsetY / marks.clientHeight) * width));
   }
@@ -194,8 +211,28 @@ export class RodCanvas {
   }
 
   reset() {
-    this.view = {x: 0.5, y: 0.5, zoom: 1};
-    this.draw();
+    Object.assign(this.view, kWhole);
+    this.onView();
+  }
+
+  /** Into the view from the side that was left last, or back to that from above. */
+  toggleOrbit() {
+    const {view} = this;
+    if (view.orbit) this.lastOrbit = view.orbit;
+    else if (view.zoom === 1) view.x = view.y = 0.5;
+    view.orbit = view.orbit ? null : this.lastOrbit ?? kFirstOrbit;
+    this.onRod?.("", -1);
+    this.onView();
+  }
+
+  /** From where the rods are seen; nothing of the view from above. */
+  viewWords() { return this.view.orbit ? `azimuth ${this.view.orbit[0]}°, elevation ${this.view.orbit[1]}°` : ""; }
+
+  /** Turns the eye, by degrees round the box and upwards. */
+  turn(round, upwards) {
+    const {view} = this, [azimuth, elevation] = view.orbit, turned = azimuth + round;
+    view.orbit = [turned - 360 * Math.round(turned / 360), Math.min(90, Math.max(1, elevation + upwards))].map((x) => Math.round(10 * x) / 10);
+    this.onView();
   }
 
   /** Keeps the point under (`across`, `up`), parts of the canvas from its middle, where it is. */
@@ -204,13 +241,15 @@ export class RodCanvas {
     view.x += across / view.zoom - across / zoom;
     view.y += up / view.zoom - up / zoom;
     view.zoom = zoom;
-    this.draw();
+    this.onView();
   }
 
+  /** Moves the view by parts of the canvas; in orbit, turns it: by half a turn from one side of the canvas to the other. */
   move(across, up) {
+    if (this.view.orbit) return this.turn(180 * across, 180 * up);
     this.view.x += across / this.view.zoom;
     this.view.y += up / this.view.zoom;
-    this.draw();
+    this.onView();
   }
 
   handleKeys() {
@@ -219,6 +258,7 @@ export class RodCanvas {
       if (event.key === "+" || event.key === "=") this.zoomTo(this.view.zoom * 1.25);
       else if (event.key === "-") this.zoomTo(this.view.zoom / 1.25);
       else if (event.key === "0") this.reset();
+      else if (event.key === "o") this.toggleOrbit();
       else if (event.key === "r") { if (this.frame) this.tell(rodAt(this.frame, this.view, 0, 0, Infinity)); }
       else if (event.key in moves) this.move(...moves[event.key]);
       else return;
@@ -230,13 +270,14 @@ export class RodCanvas {
     let last = null;
     this.marks.addEventListener("wheel", (event) => {
       event.preventDefault();
-      this.zoomTo(this.view.zoom * Math.exp(-event.deltaY / 500), event.offsetX / this.marks.clientWidth - 0.5,
-                  0.5 - event.offsetY / this.marks.clientHeight);
+      const place = [event.offsetX / this.marks.clientWidth - 0.5, 0.5 - event.offsetY / this.marks.clientHeight];
+      this.zoomTo(this.view.zoom * Math.exp(-event.deltaY / 500), ...(this.view.orbit ? [] : place));
     }, {passive: false});
     this.marks.addEventListener("pointerdown", (event) => {
       last = [event.clientX, event.clientY];
       this.marks.setPointerCapture(event.pointerId);
     });
+    this.marks.addEventListener("dblclick", () => { if (this.view.orbit) this.toggleOrbit(); });
     this.marks.addEventListener("pointerleave", () => this.onRod?.("", -1));
     this.marks.addEventListener("pointermove", (event) => {
       if (!last) return this.describe(event);

@@ -3,6 +3,7 @@
 import {ask, byId, bytes, complain, duration, fetched, make, number, replaceIfOther, save} from "/page/dom.js";
 import {actionButtons} from "/page/queue.js";
 import {Curve, strip} from "/page/charts.js";
+import {Newest} from "/page/loader.js";
 import {RodPath} from "/page/path.js";
 import {ShownFile} from "/page/shown.js";
 import {RodCanvas, angleToDirector, unpack, unpackText} from "/page/rods.js";
@@ -32,10 +33,12 @@ export class RunPanel {
     byId("colouring").onchange = () => this.redraw();
     byId("defects").onchange = () => this.redraw();
     byId("reset-view").onclick = async () => (await this.canvas)?.reset();
+    byId("orbit").onclick = async () => (await this.canvas)?.toggleOrbit();
     byId("time").oninput = () => { this.stopPlaying(); this.listen(false); this.showRecorded(Number(byId("time").value)); };
     byId("play").onclick = () => (this.playing ? this.stopPlaying() : this.play());
     byId("live").onclick = () => this.listen(true);
     this.shown = new ShownFile();
+    this.frames = new Newest((index) => this.fetchRecorded(index));
     byId("draw").onclick = () => this.shown.show(this.id, this.index);
   }
 
@@ -44,6 +47,11 @@ export class RunPanel {
       const canvas = new RodCanvas(byId("rods"), byId("marks"), await ask("/palettes.json"));
       window.shakenRods = canvas;  // for whoever looks at it with the browser's tools
       this.path = new RodPath(canvas, () => ({run: this.id, frame: this.isLive ? "last" : Math.max(0, this.index)}));
+      canvas.onView = () => {
+        canvas.draw();
+        byId("orbit").setAttribute("aria-pressed", Boolean(canvas.view.orbit));
+        this.nameRods(canvas);
+      };
       canvas.onRod = (words, rod) => {
         byId("rod-facts").textContent = words;
         this.path.follow(rod);
@@ -90,14 +98,15 @@ export class RunPanel {
       if (id !== this.id) return;
       const wasRunning = this.isRunning();
       const curveNames = ["/order/time_s", "/order/order", "/angles/theta_rad", "/angles/density_per_rad"];
-      const wanted = ["frames", `curves?${curveNames.map((name) => `of=${name}`).join("&")}`, "files"];
-      const [frames, curves, files] = await Promise.all(
+      const of = curveNames.map((name) => `of=${name}`).join("&"), isAtWork = ["running", "stopping"].includes(job.state);
+      const wanted = ["frames", "files", ...(isAtWork ? [] : [`curves?${of}`])];  // which there are at the end
+      const [frames, files, curves] = await Promise.all(
         wanted.map((what) => ask(`/runs/${id}/${what}`).catch((problem) => ({problem}))));
       if (id !== this.id) return;
       this.job = job;
       this.showJob();
       this.showFiles(files);
-      this.noteFrames(frames.problem ? null : frames);
+      this.noteFrames(frames);
       if (this.isRunning()) {
         if (!wasRunning) {
           this.listen(true);
@@ -109,7 +118,7 @@ export class RunPanel {
       if (!curves.problem) this.showCurves(curves.curves);
       const last = (this.recorded?.n ?? 0) - 1;
       if (this.recorded) await this.showRecorded(this.wished >= 0 ? Math.min(this.wished, last) : last);
-      else byId("run-note").textContent += `: ${frames.problem.message}`;
+      else byId("run-note").textContent += `: ${frames.problem?.message ?? frames.reason}`;
     } catch (problem) {
       this.stamp = "";  // asked again soon
       complain(problem.message);
@@ -163,7 +172,7 @@ export class RunPanel {
       if (progress.eta_s >= 0) note += `, ${duration(progress.eta_s)} to go`;
     }
     byId("run-note").textContent = note;
-    replaceIfOther(byId("run-actions"), `${job.id} ${job.state}`, () => actionButtons(`/v1/jobs/${job.id}`, new Set([job.state])));
+    replaceIfOther(byId("run-actions"), `${job.id} ${job.state}`, () => actionButtons(`/v1/jobs/${job.id}`, new Set([job.state]), "run"));
   }
 
   showFiles(answer) {
@@ -252,9 +261,9 @@ export class RunPanel {
     if (id !== this.id) return;
     byId("run-facts").textContent = `t = ${frame.time_s.toFixed(3)} s, ${frame.n_rods} rods in ${number(frame.box_side_mm)} mm` +
       (frame.order === null ? "" : `, S = ${frame.order.toFixed(3)}`);
-    byId("marks").setAttribute("aria-label", `Rods: ${byId("run-facts").textContent}`);
     this.orderChart.mark(frame.time_s);
     if (!canvas) return;
+    this.nameRods(canvas);
     canvas.set(frame);
     this.path.renew();
     this.showLegend(canvas);
@@ -265,6 +274,11 @@ export class RunPanel {
     }
     const total = counts.reduce((sum, n) => sum + n, 0) || 1;
     this.angleChart.set(counts.map((n, k) => -90 + (k + 0.5) * width), counts.map((n) => n / total / width));
+  }
+
+  nameRods(canvas) {
+    const words = [`Rods: ${byId("run-facts").textContent}`, canvas.viewWords()].filter(Boolean);
+    byId("marks").setAttribute("aria-label", words.join("; "));
   }
 
   showLegend(canvas) {
@@ -296,39 +310,36 @@ export class RunPanel {
   }
 
   noteFrames(frames) {
-    this.recorded = frames;
-    byId("scrub").hidden = !frames;
-    if (!frames) return;
+    this.recorded = frames?.n > 0 ? frames : null;
+    byId("scrub").hidden = !this.recorded;
+    if (!this.recorded) return;
     byId("time").max = frames.n - 1;
     byId("play").disabled = frames.n < 2;
   }
 
-  /** Shows recorded frame `index`; while one is fetched only the newest wish is kept. */
-  async showRecorded(index) {
-    this.wanted = this.wished = index;
-    if (this.isFetching) return;
-    this.isFetching = true;
+  /** Shows recorded frame `index`, as soon as it is there. */
+  showRecorded(index) {
+    this.wished = index;
+    return this.frames.want(index);
+  }
+
+  async fetchRecorded(index) {
+    const {id} = this;
+    if (this.isLive) return;
     try {
-      while (this.wanted !== null && !this.isLive) {
-        const {id, wanted} = this;
-        this.wanted = null;
-        const response = await fetched(`/runs/${id}/frames/${wanted}`);
-        const bytesOf = response.ok ? await response.arrayBuffer() : (await response.json()).error;
-        if (id !== this.id || this.isLive) continue;
-        if (!response.ok) throw new Error(bytesOf);
-        const canvas = await this.canvas;
-        if (canvas) canvas.defects = [];
-        if (id !== this.id) continue;
-        this.index = wanted;
-        await this.showFrame(unpack(bytesOf), id);
-        if (id !== this.id) continue;
-        byId("time").value = wanted;
-      }
+      const response = await fetched(`/runs/${id}/frames/${index}`);
+      const bytesOf = response.ok ? await response.arrayBuffer() : (await response.json()).error;
+      if (id !== this.id || this.isLive) return;
+      if (!response.ok) throw new Error(bytesOf);
+      const canvas = await this.canvas;
+      if (canvas) canvas.defects = [];
+      if (id !== this.id) return;
+      this.index = index;
+      await this.showFrame(unpack(bytesOf), id);
+      if (id === this.id) byId("time").value = index;
     } catch (problem) {
       complain(problem.message);
       this.stopPlaying();
-    } finally {
-      this.isFetching = false;
     }
   }
 
@@ -337,7 +348,7 @@ export class RunPanel {
     if (this.index >= this.recorded.n - 1) this.index = -1;
     byId("play").textContent = "Stop";
     this.playing = setInterval(() => {
-      if (this.isFetching) return;
+      if (this.frames.isBusy) return;
       if (this.index + 1 >= this.recorded.n) this.stopPlaying();
       else this.showRecorded(this.index + 1);
     }, kPlayEvery);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // A picture or a film of the chosen run, in its place on the page until it is saved or closed.
 import {byId, fetched, make, offer} from "/page/dom.js";
+import {Newest} from "/page/loader.js";
 
 export class ShownFile {
   constructor() {
     this.blob = null;
+    this.newest = new Newest((wish) => this.put(...wish));  // one at a time, as shaken-render is asked
     byId("shown-close").onclick = () => this.close();
     byId("shown-save").onclick = () => { if (this.blob) offer(this.blob, this.name); };
     for (const choice of ["style", "size", "format"]) byId(`draw-${choice}`).onchange = () => this.draw();
@@ -20,28 +22,15 @@ export class ShownFile {
     const {run, index} = this.what, [style, size, format] = ["style", "size", "format"].map((choice) => byId(`draw-${choice}`).value);
     const query = new URLSearchParams({frame: index, size, format, ...(style ? {style} : {})});
     byId("draw-choices").hidden = false;
-    this.put(`/runs/${run}/picture?${query}`, `${run}-${index}.${format}`, "is being drawn");
+    this.newest.want([`/runs/${run}/picture?${query}`, `${run}-${index}.${format}`, "is being drawn"]);
   }
 
   film(run, name) {
     byId("draw-choices").hidden = true;
-    this.put(`/runs/${run}/files/${name}`, `${run}-${name}`, "is on its way");
+    this.newest.want([`/runs/${run}/files/${name}`, `${run}-${name}`, "is on its way"]);
   }
 
-  /** One at a time, as shaken-render is asked; of what is wished for meanwhile only the newest. */
-  async put(...wish) {
-    this.wish = wish;
-    if (this.isBusy) return;
-    this.isBusy = true;
-    while (this.wish) {
-      const [path, name, words] = this.wish;
-      this.wish = null;
-      await this.putNow(path, name, words);
-    }
-    this.isBusy = false;
-  }
-
-  async putNow(path, name, words) {
+  async put(path, name, words) {
     const number = this.number = (this.number ?? 0) + 1, place = byId("shown-media"), begin = performance.now();
     this.blob = null;
     this.name = name;
@@ -74,7 +63,7 @@ export class ShownFile {
 
   close() {
     this.number = (this.number ?? 0) + 1;
-    this.blob = this.wish = null;
+    this.blob = this.newest.wish = null;
     byId("shown").hidden = true;
     byId("shown-media").replaceChildren();
   }

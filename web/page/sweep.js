@@ -27,7 +27,8 @@ export class SweepPanel {
     Object.assign(this, {jobs: [], rows: new Map(), seen: ""});
   }
 
-  choose(id, run, beside) {
+  choose(id, run, beside, inPictures) {
+    this.map.showPictures(inPictures);
     this.run = run;
     this.beside = beside;
     if (id !== this.id) {
@@ -51,7 +52,7 @@ export class SweepPanel {
     if (!sweep) return;
     byId("sweep-title").textContent = `${sweep.id} ${sweep.name}: ${countsText(sweep.counts)}`;
     const states = new Set(Object.keys(sweep.counts).filter((state) => sweep.counts[state] > 0));
-    replaceIfOther(byId("sweep-actions"), `${sweep.id} ${[...states]}`, () => actionButtons(`/v1/sweeps/${sweep.id}`, states));
+    replaceIfOther(byId("sweep-actions"), `${sweep.id} ${[...states]}`, () => actionButtons(`/v1/sweeps/${sweep.id}`, states, "all"));
     const stamp = JSON.stringify([sweep.id, sweep.counts]);
     if (stamp !== this.seen) {
       this.seen = stamp;

@@ -96,6 +96,16 @@ TEST_F(Verbs, StatusListsSweeps) {
   EXPECT_EQ(Json::parse(json.out).at("sweeps").at(0), one);
 }
 
+TEST_F(Verbs, ALongNameDoesNotMoveAllSweepsApart) {
+  daemon_.on("GET /v1/status", R"({"version": "0.1.0", "lcm": {"ok": true, "url": "udpm://x"}})");
+  Json one = sweep({job("1f0c000000000000", "done")}).at("sweep");
+  one["name"] = std::string(120, 'n');
+  daemon_.on("GET /v1/sweeps", text({{"sweeps", {one}}}));
+  const Outcome outcome = run({"status"});
+  EXPECT_THAT(outcome.out, HasSubstr(" " + std::string(39, 'n') + "… "));
+  EXPECT_THAT(outcome.out, Not(HasSubstr(std::string(40, 'n'))));
+}
+
 TEST_F(Verbs, StatusOfASweepAndItsFailures) {
   daemon_.on("GET /v1/sweeps/phases",
              text(sweep({job("1f0c000000000000", "done"), job("2a0c000000000000", "failed")})));

@@ -47,6 +47,22 @@ TEST(PackedFrame, HoldsRodsInTheUnitsOfTheBus) {
   EXPECT_NEAR(i16(bytes, begin + 2 * 9), -16384, 1) << "n_z = -1/2";
 }
 
+TEST(PackedFrame, HeightsAreThereWhereTheyAreKnown) {
+  client::RodFrame frame = some_frame(4);
+  frame.cell.gap = 2;
+  frame.heights = {1, 2, 0, 99};
+  const std::string bytes = packed(frame);
+  const std::size_t begin = 4 + u16(bytes, 0) + 8 * 4;
+  ASSERT_EQ(bytes.size(), begin + 2 * 4);
+  const auto head = nlohmann::json::parse(bytes.substr(4, u16(bytes, 0)));
+  EXPECT_EQ(head["gap_mm"], 2);
+  EXPECT_EQ(head["has_heights"], true);
+  EXPECT_EQ(i16(bytes, begin), 0) << "half way between the plates";
+  EXPECT_NEAR(i16(bytes, begin + 2), 16384, 1) << "at the lid";
+  EXPECT_NEAR(i16(bytes, begin + 4), -16384, 1) << "on the base";
+  EXPECT_EQ(i16(bytes, begin + 6), 32767) << "further than there is room for";
+}
+
 TEST(PackedFrame, RodsOfManyMessagesFollowEachOther) {
   const std::size_t n = proto::kRodsPerChunk + 10;
   const std::string bytes = packed(some_frame(n));

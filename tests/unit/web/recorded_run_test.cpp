@@ -63,31 +63,11 @@ TEST_F(RecordedRunTest, FramesAreThoseOfTheTrajectory) {
   EXPECT_NEAR(last->order, 0, 1e-6) << "rods across each other";
   ASSERT_EQ(last->rods.size(), 2u);
   EXPECT_NEAR(last->rods[1].x, 7, 1e-6);
+  EXPECT_NEAR(last->heights.at(1), 0.6, 1e-6);
   EXPECT_NEAR(std::abs(last->rods[1].theta), 1.5708, 1e-3);
   ASSERT_EQ(last->outlines.size(), 1u);
   EXPECT_DOUBLE_EQ(last->outlines[0].half_length, 2);
   EXPECT_FALSE(run_.frame(3)) << "there are three";
-}
-
-TEST_F(RecordedRunTest, OrderIsThatOfEvenlyChosenFrames) {
-  record(9);
-  const auto all = run_.order(100);
-  ASSERT_TRUE(all) << all.error().message;
-  EXPECT_EQ(all->times.size(), 9u);
-  EXPECT_NEAR(all->values.front(), 1, 1e-6);
-  EXPECT_NEAR(all->values.back(), 0, 1e-6);
-  const auto some = run_.order(3);
-  ASSERT_TRUE(some);
-  ASSERT_EQ(some->times.size(), 3u);
-  EXPECT_NEAR(some->times[1], 0.4, 1e-12);
-  EXPECT_NEAR(some->times[2], 0.8, 1e-12);
-  record(1);
-  EXPECT_EQ(run_.order(3)->times.size(), 1u);
-}
-
-TEST_F(RecordedRunTest, SpheresHaveNoCurveOfOrder) {
-  record(3, {{0}, {0.4}});
-  EXPECT_TRUE(run_.order(10)->times.empty());
 }
 
 TEST_F(RecordedRunTest, ARodHasItsPath) {
@@ -111,7 +91,9 @@ TEST_F(RecordedRunTest, SeeFramesThatComeLater) {
 }
 
 TEST_F(RecordedRunTest, SayWhatIsNotThere) {
-  EXPECT_THAT(run_.frames().error().message, testing::HasSubstr("records no rods"));
+  EXPECT_EQ(run_.frames()->n, 0u);
+  EXPECT_THAT(run_.frames()->reason, testing::HasSubstr("records no rods"));
+  EXPECT_THAT(run_.frame(0).error().message, testing::HasSubstr("records no rods"));
   EXPECT_THAT(run_.curves().error().message, testing::HasSubstr("before the end"));
   EXPECT_TRUE(RecordedRun(folder_ / "ffffffffffffffff").files().empty());
   std::ofstream(directory().trajectory()) << "no HDF5";

@@ -11,11 +11,14 @@
 #include "base/scratch_folder.h"
 #include "base/text.h"
 #include "client/watch/overview.h"
+#include "run/files/trajectory.h"
 
 namespace shaken::client {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 Json api_job(const std::string& id, const std::string& state, double time) {
   Json job{{"id", id}, {"label", "rods.length=2.5"}, {"state", state}, {"reason", ""}, {"progress", nullptr}};
@@ -53,6 +56,24 @@ TEST(SequenceCounter, NumbersThatNoSenderReachesAreNoLosses) {
   }
 }
 
+TEST(HitCounter, IsOfOneRodAndOfTheTimeJustPast) {
+  HitCounter counter;
+  observables_t now{};
+  now.n_rods = 100;
+  const auto hits = [&](double time, std::int64_t rods, std::int64_t base) {
+    now.sim_time_s = time;
+    now.collisions_rod_rod = rods;
+    now.collisions_rod_base = base;
+    counter.note(now);
+    return std::pair(counter.rates().rod, counter.rates().base);
+  };
+  EXPECT_EQ(hits(10, 5'000, 200'000), std::pair(10.0, 200.0)) << "since the start; each hits two rods";
+  EXPECT_EQ(hits(10.1, 5'050, 202'000), std::pair(10.0, 200.0)) << "too few to count";
+  EXPECT_EQ(hits(11, 6'000, 240'000), std::pair(20.0, 400.0));
+  EXPECT_EQ(hits(5, 2'500, 100'000), std::pair(20.0, 400.0)) << "back to a checkpoint";
+  EXPECT_EQ(hits(6, 3'000, 150'000), std::pair(10.0, 500.0));
+}
+
 TEST(History, KeepsTheWholeCurveInBoundedMemory) {
   History history;
   for (int i = 0; i < 100000; ++i) history.add(i, 2.0 * i);
@@ -79,6 +100,57 @@ TEST(LiveJobs, MessagesWinOverOlderFilesAndStrangersAreIgnored) {
   jobs.note_api(api_job("aa", "running", 3.0));
   EXPECT_EQ(jobs.jobs()[0].sim_time, 3.0);
   EXPECT_EQ(jobs.jobs()[0].order, 0.25);
+}
+
+/// Frames of one rod at 0, 0.5, 1.0 ... in `directory`.
+void record_frames(const std::filesystem::path& directory, int n_frames) {
+  const Cell cell{.box_side = 10, .gap = 1.2, .species = {{{-2, 0, 2}, {0.2, 0.4, 0.2}}}};
+  auto log = run::FrameLog::create(run::RunDirectory{directory}.frames(), {1, cell, 1e-5, "{}", {}}).value();
+  for (int k = 0; k < n_frames; ++k) {
+    Snapshot now;
+    now.tick = k;
+    now.time = 0.5 * k;
+    now.box_side = 10;
+    now.position = now.velocity = {{1, 2, 0.6}};
+    now.director = {{1, 0, 0}};
+    now.image = {{0, 0}};
+    ASSERT_TRUE(log.append(run::record(now)));
+  }
+}
+
+TEST(LiveJobs, OrderFromBeforeTheyWereWatchedComesFromTheRunsFiles) {
+  const ScratchFolder folder;
+  record_frames(folder.path(), 5);
+  LiveJobs jobs;
+  Json job = api_job("aa", "running", 1.25);
+  job["directory"] = folder.path().string();
+  jobs.note_api(job);
+  jobs.note(message("aa", 0, 1.5, 0.75));
+  const History& history = jobs.jobs()[0].order_history;
+  EXPECT_EQ(history.times(), (std::vector<double>{0, 0.5, 1, 1.25, 1.5}));
+  EXPECT_EQ(history.values(), (std::vector<double>{1, 1, 1, 0.25, 0.75}));
+  // Back to a checkpoint: what is drawn anew begins with the files again, though messages are newer than the answer.
+  jobs.note(message("aa", 0, 0.75, 0.5));
+  EXPECT_EQ(history.times(), std::vector<double>{0.75});
+  jobs.note(message("aa", 1, 1.5, 0.5));
+  jobs.note_api(job);
+  EXPECT_EQ(history.times(), (std::vector<double>{0, 0.5, 0.75, 1.5}));
+}
+
+TEST(LiveJobs, TheAxisBeginsWhereOrderDoesIfThereAreNoFiles) {
+  const ScratchFolder folder;
+  LiveJobs jobs;
+  Json job = api_job("aa", "running", 4.0);
+  job["directory"] = folder.path().string();
+  jobs.note_api(job);
+  jobs.note(message("aa", 0, 5.0, 0.75));
+  const auto axis = [&] { return order_chart(jobs.jobs()[0], 40, 8).back(); };
+  EXPECT_THAT(axis(), AllOf(HasSubstr(" 4 "), HasSubstr("5 s   S(t), live only")));
+  record_frames(folder.path(), 2);
+  LiveJobs others;
+  others.note_api(job);
+  const std::string whole = order_chart(others.jobs()[0], 40, 8).back();
+  EXPECT_THAT(whole, AllOf(HasSubstr(" 0 "), HasSubstr("4 s   S(t)"), Not(HasSubstr("live"))));
 }
 
 TEST(LiveJobs, SpheresHaveNoOrder) {

@@ -53,16 +53,17 @@ std::string all_text(const CellGrid& grid) {
 
 class WatchCells : public ::testing::Test {
  protected:
-  std::string shown(int columns = 120, int lines = 40) {
-    return all_text(watch_cells({.jobs = jobs_,
-                                 .steering = steering_,
-                                 .rods = rods_,
-                                 .defects = defects_,
-                                 .title = "sweep s1",
-                                 .note = "live over LCM",
-                                 .depth = depth_},
-                                columns, lines));
+  CellGrid cells(int columns, int lines) {
+    return watch_cells({.jobs = jobs_,
+                        .steering = steering_,
+                        .rods = rods_,
+                        .defects = defects_,
+                        .title = "sweep s1",
+                        .note = "live over LCM",
+                        .depth = depth_},
+                       columns, lines);
   }
+  std::string shown(int columns = 120, int lines = 40) { return all_text(cells(columns, lines)); }
   LiveJobs jobs_;
   Steering steering_{.job = kFirst};
   RodFrame frame_ = one_rod();
@@ -279,30 +280,60 @@ RodFrame many_rods() {
 TEST_F(WatchCells, APictureTakesBytesByWhatHasMoved) {
   jobs_.note_api(job_json(kFirst, "running"));
   frame_ = many_rods();
-  const auto cells = [&] {
-    return watch_cells({.jobs = jobs_,
-                        .steering = steering_,
-                        .rods = rods_,
-                        .defects = defects_,
-                        .title = "sweep s1",
-                        .note = "",
-                        .depth = depth_},
-                       200, 60);
-  };
   for (const auto& [depth, most] :
        {std::pair{ColourDepth::kTrue, 150'000}, {ColourDepth::k256, 100'000}, {ColourDepth::kNone, 30'000}}) {
     depth_ = depth;
     ScreenWriter writer(depth);
-    const std::size_t whole = writer.update(cells()).size();
+    const std::size_t whole = writer.update(cells(200, 60)).size();
     EXPECT_LT(whole, static_cast<std::size_t>(most));
-    EXPECT_EQ(writer.update(cells()).size(), 0u) << "nothing has moved";
+    EXPECT_EQ(writer.update(cells(200, 60)).size(), 0u) << "nothing has moved";
     frame_.rods[0].x += frame_.rods[0].x > 40 ? -5 : 5;
-    const std::size_t one = writer.update(cells()).size();
+    const std::size_t one = writer.update(cells(200, 60)).size();
     EXPECT_GT(one, 0u);
     EXPECT_LT(one, 1000u) << "one rod has";
     for (proto::RodPose& rod : frame_.rods) rod.y += rod.y > 80 ? -80 : 3;
-    EXPECT_GT(writer.update(cells()).size(), whole / 3) << "all have";
+    EXPECT_GT(writer.update(cells(200, 60)).size(), whole / 3) << "all have";
   }
+}
+
+TEST_F(WatchCells, RodsThatAreTooThinAreDrawnAsTheirDirector) {
+  jobs_.note_api(job_json(kFirst, "running"));
+  frame_ = many_rods();
+  frame_.order = 0.9;
+  defects_ = {{20, 20, true}, {60, 60, false}};
+  const auto n_of = [&](char32_t glyph) {
+    const CellGrid grid = cells(80, 24);
+    int n = 0;
+    for (int line = 1; line < 22; ++line) {
+      for (int column = 0; column < 42; ++column) n += grid.at(column, line).glyph == glyph ? 1 : 0;
+    }
+    return n;
+  };
+  EXPECT_THAT(shown(80, 24), HasSubstr("director, S: −15°"));
+  depth_ = ColourDepth::kNone;
+  EXPECT_THAT(shown(80, 24), HasSubstr("director ─╱│╲  · low S"));
+  EXPECT_GT(n_of(U'─'), 800) << shown(80, 24);
+  EXPECT_EQ(n_of(U'+'), 1);
+  // Without order there is no director, and its defects are noise.
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> angle(-1.57, 1.57);
+  for (proto::RodPose& rod : frame_.rods) rod.theta = angle(random);
+  EXPECT_GT(n_of(U'·'), 600) << shown(80, 24);
+  EXPECT_EQ(n_of(U'+'), 0);
+  // Seen from near there are rods again, and so there are by their tilt.
+  steering_.view.zoom = 8;
+  EXPECT_THAT(shown(80, 24), Not(HasSubstr("─╱│╲")));
+  steering_.view.zoom = 1;
+  steering_.colouring = Colouring::kTilt;
+  EXPECT_THAT(shown(80, 24), Not(HasSubstr("─╱│╲")));
+}
+
+TEST_F(WatchCells, KeysAreNotCut) {
+  jobs_.note_api(job_json(kFirst, "running"));
+  const auto last = [&](int columns) { return cells(columns, 40).text(39); };
+  EXPECT_EQ(last(40), "q leave  Tab run  space hold  ? keys");
+  EXPECT_EQ(last(60), "q leave  Tab run  space hold  +/- zoom  c colours  ? keys");
+  EXPECT_EQ(last(90), "q leave  Tab run  space hold  +/- zoom  c colours  o numbers  ? keys  live over LCM");
 }
 
 TEST(PauseAfter, KeepsASlowLineFree) {
