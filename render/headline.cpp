@@ -90,13 +90,13 @@ Notes settings_of(const RodPicture& picture) {
   return settings;
 }
 
-void name_runs(const std::vector<RodPicture*>& runs) {
+void name_runs(const std::vector<Captions*>& runs) {
   const auto said = [](const auto& setting) {
     return setting.first.empty() ? setting.second : setting.first + " = " + setting.second;
   };
   const auto append = [](std::string& all, const std::string& text) { all += (all.empty() ? "" : ", ") + text; };
   if (runs.size() == 1) {
-    RodPicture& run = *runs.front();
+    Captions& run = *runs.front();
     run.label.clear();
     run.subtitle.clear();
     constexpr std::size_t kHeadline = 4;  // what is of the rods
@@ -109,13 +109,13 @@ void name_runs(const std::vector<RodPicture*>& runs) {
     runs[i]->label.clear();
     runs[i]->subtitle.clear();
     for (const auto& setting : runs[i]->settings) {
-      const bool all_have_it = std::all_of(runs.begin(), runs.end(), [&](const RodPicture* other) {
+      const bool all_have_it = std::all_of(runs.begin(), runs.end(), [&](const Captions* other) {
         return std::find(other->settings.begin(), other->settings.end(), setting) != other->settings.end();
       });
       if (!all_have_it) append(runs[i]->label, said(setting));
     }
   }
-  const bool any = std::any_of(runs.begin(), runs.end(), [](const RodPicture* run) { return !run->label.empty(); });
+  const bool any = std::any_of(runs.begin(), runs.end(), [](const Captions* run) { return !run->label.empty(); });
   for (std::size_t i = 0; !any && i < runs.size(); ++i) runs[i]->label = fmt::format("run {}", i + 1);
 }
 

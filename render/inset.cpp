@@ -21,18 +21,18 @@ const std::vector<Tick> kHalves{{0, "0"}, {0.5, "0.5"}, {1, "1"}};
 }  // namespace
 
 Curve order_curve(const RodPicture& picture) {
-  const OrderHistory& history = picture.history;
+  const OrderHistory& history = picture.captions.history;
   return {.title = picture.cell.species.size() > 1 ? "Nematic order S of the first species" : "Nematic order S",
           .x = history.time,
           .y = history.order,
           .x_ticks = {{history.start, fmt::format("{:.4g} s", history.start)},
                       {history.end, fmt::format("{:.4g} s", history.end)}},
           .y_ticks = kHalves,
-          .dot = Vec2(picture.time, picture.order)};
+          .dot = Vec2(picture.frame.time, picture.found.order)};
 }
 
 Curve angle_curve(const RodPicture& picture) {
-  const std::vector<Vec3> directors = picture.cell.of_species(0, picture.director);
+  const std::vector<Vec3> directors = picture.cell.of_species(0, picture.frame.director);
   // As fine as the number of rods allows: so that a bin's own scatter stays small.
   analysis::AngleDistribution distribution(directors.size() < 200 ? 18 : 36);
   distribution.accumulate(directors);
@@ -50,7 +50,8 @@ Curve angle_curve(const RodPicture& picture) {
   const double at_end = (pdf.density.front() + pdf.density.back()) / 2;
   curve.y.insert(curve.y.begin(), at_end);
   curve.y.push_back(at_end);
-  const double most = std::max({*std::max_element(curve.y.begin(), curve.y.end()), picture.axes.density, 1 / kPi});
+  const double most =
+      std::max({*std::max_element(curve.y.begin(), curve.y.end()), picture.captions.axes.density, 1 / kPi});
   const double step = tick_step(most, 3), top = std::ceil(most / step - 1e-9) * step;
   for (const double value : ticks(0, top, step)) curve.y_ticks.push_back({value, tick_text(value)});
   return curve;
@@ -58,9 +59,9 @@ Curve angle_curve(const RodPicture& picture) {
 
 Curve g2_curve(const RodPicture& picture) {
   constexpr int kBins = 40;
-  const std::vector<Vec3> positions = picture.cell.of_species(0, picture.position);
+  const std::vector<Vec3> positions = picture.cell.of_species(0, picture.frame.position);
   analysis::OrientationCorrelation correlation(kBins, picture.cell.box_side / 2);
-  correlation.accumulate(positions, picture.cell.of_species(0, picture.director),
+  correlation.accumulate(positions, picture.cell.of_species(0, picture.frame.director),
                          analysis::Region(picture.cell.box_side, picture.cell.walls));
   analysis::OrientationCurve pairs = correlation.reduce();
   const double r_max = picture.cell.box_side / 2, step = tick_step(r_max, 3);
@@ -75,14 +76,14 @@ Curve g2_curve(const RodPicture& picture) {
 }
 
 Curve g2_map(const RodPicture& picture) {
-  const std::vector<Vec3> positions = picture.cell.of_species(0, picture.position);
+  const std::vector<Vec3> positions = picture.cell.of_species(0, picture.frame.position);
   const double range = std::min(2 * picture.rod_length(), picture.cell.box_side / 2);
   // As fine as leaves some twenty pairs to a bin; odd, so that one is about 0.
   const double per_area = static_cast<double>(positions.size()) / (picture.cell.box_side * picture.cell.box_side);
   const double pairs = per_area * static_cast<double>(positions.size()) * (2 * range) * (2 * range);
   const int bins = 2 * std::clamp(static_cast<int>(std::sqrt(pairs / 20) / 2), 4, 20) + 1;
   analysis::PairMap map({.bins = bins, .range = range, .strip = range, .box_side = picture.cell.box_side});
-  map.accumulate(positions, picture.cell.of_species(0, picture.director));
+  map.accumulate(positions, picture.cell.of_species(0, picture.frame.director));
   const std::vector<double> g2 = map.reduce().g2;
   // The part of the scale that most cells need: among aligned rods all are near 1.
   std::vector<double> known;
@@ -115,13 +116,13 @@ std::vector<Tick> axis_over(const std::vector<double>& values) {
 
 }  // namespace
 
-Curve sweep_curve(const RodPicture& picture) {
-  const SweepMap& map = *picture.sweep;
+Curve sweep_curve(const Captions& captions) {
+  const SweepMap& map = *captions.sweep;
   const Colouring& order = *find_colouring("order");
   Curve curve;
   curve.title = map.y.empty() ? fmt::format("S over {}", map.x) : fmt::format("{} over {}, by S", map.y, map.x);
-  std::vector<double> x{picture.sweep_point.x()}, y{picture.sweep_point.y()};
-  Vec2 here = picture.sweep_point;
+  std::vector<double> x{captions.sweep_point.x()}, y{captions.sweep_point.y()};
+  Vec2 here = captions.sweep_point;
   for (const SweepMap::Point& point : map.points) {
     x.push_back(point.at.x());
     y.push_back(point.at.y());
@@ -142,9 +143,9 @@ bool has_inset(const RodPicture& picture, const PictureStyle& style) {
     case Inset::kNone:
       return false;
     case Inset::kOrder:
-      return !picture.history.time.empty();
+      return !picture.captions.history.time.empty();
     case Inset::kSweep:
-      return picture.sweep != nullptr;
+      return picture.captions.sweep != nullptr;
     case Inset::kG2Map:
       return picture.count(0) > 1 && !picture.cell.walls;
     case Inset::kAngles:
@@ -170,7 +171,7 @@ void draw_inset(const Canvas& canvas, const Rect& place, double unit, const RodP
   const Rect inner{place.x + edge, place.y + edge, place.width - 2 * edge, place.height - 1.5 * edge};
   draw_curve(canvas, inner, unit,
              style.inset == Inset::kOrder    ? order_curve(picture)
-             : style.inset == Inset::kSweep  ? sweep_curve(picture)
+             : style.inset == Inset::kSweep  ? sweep_curve(picture.captions)
              : style.inset == Inset::kAngles ? angle_curve(picture)
              : style.inset == Inset::kG2Map  ? g2_map(picture)
                                              : g2_curve(picture),

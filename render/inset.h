@@ -20,7 +20,7 @@ Curve g2_curve(const RodPicture& picture);
 Curve g2_map(const RodPicture& picture);
 
 /// The points of the sweep, coloured by S, with a ring round this run's.
-Curve sweep_curve(const RodPicture& picture);
+Curve sweep_curve(const Captions& captions);
 
 /// Whether there is anything to draw for the inset that the style asks for.
 bool has_inset(const RodPicture& picture, const PictureStyle& style);

@@ -83,11 +83,11 @@ void draw_narrow_legend(const Canvas& canvas, const Rect& place, double unit, co
   draw_colour_bar(canvas, {place.x, place.y + 20 * unit, place.width, 10 * unit}, unit, colouring, range, colours);
 }
 
-void draw_line_legend(const Canvas& canvas, const Rect& place, double unit, const RodPicture& picture,
-                      const Colouring& colouring, const Vec2& range, const Palette& colours) {
+void draw_line_legend(const Canvas& canvas, const Rect& place, double unit, const Histogram& histogram,
+                      const Findings& found, const FilmAxes& axes, const Colouring& colouring, const Vec2& range,
+                      const Palette& colours) {
   constexpr double kLeast = 28;  // units; lower bars say nothing
   if (place.height < (kLeast + 62) * unit) return draw_narrow_legend(canvas, place, unit, colouring, range, colours);
-  const Histogram histogram(picture, colouring, range);
   const bool is_angle = std::string_view(colouring.unit) == "\u00b0";
   const bool is_relative = std::string_view(colouring.name) == "layers";
   canvas.colour(colours.ink);
@@ -95,12 +95,12 @@ void draw_line_legend(const Canvas& canvas, const Rect& place, double unit, cons
   if (!is_angle && !std::string_view(colouring.unit).empty()) title += fmt::format(" [{}]", colouring.unit);
   draw_title(canvas, place, unit, title + ", % of rods", place.width - (is_relative ? 44 * unit : 0));
   if (is_relative && !histogram.is_empty) {
-    draw_axis(canvas, place.right() - 18 * unit, place.y + 10 * unit, picture.director_angle, unit);
+    draw_axis(canvas, place.right() - 18 * unit, place.y + 10 * unit, found.director_angle, unit);
   }
 
   const double above = 28 * unit, gap = 4 * unit, bar = 10 * unit, words = 20 * unit, left = 26 * unit;
   const Rect plot{place.x + left, place.y + above, place.width - left, place.height - above - gap - bar - words};
-  const double most = std::max({histogram.most(), picture.axes.share, 1e-3});
+  const double most = std::max({histogram.most(), axes.share, 1e-3});
   // Upwards to the tick at or above the highest bar.
   const double step = tick_step(100 * most, plot.height < 60 * unit ? 1 : 3);
   const double top = std::ceil(100 * most / step - 1e-9) * step;
@@ -134,12 +134,12 @@ void draw_line_legend(const Canvas& canvas, const Rect& place, double unit, cons
 }
 
 /// Half a circle of 180 degrees, or a whole one of 360.
-void draw_circle_legend(const Canvas& canvas, const Rect& place, double unit, const RodPicture& picture,
-                        const Colouring& colouring, const Vec2& range, const Palette& colours) {
+void draw_circle_legend(const Canvas& canvas, const Rect& place, double unit, const Histogram& histogram,
+                        const Findings& found, const FilmAxes& axes, const Colouring& colouring, const Vec2& range,
+                        const Palette& colours) {
   constexpr double kLeast = 40;  // units; a smaller rose cannot be read
   if (place.height < (kLeast + 46) * unit) return draw_narrow_legend(canvas, place, unit, colouring, range, colours);
-  const Histogram histogram(picture, colouring, range);
-  const double most = std::max({histogram.most(), picture.axes.share, 1e-9});
+  const double most = std::max({histogram.most(), axes.share, 1e-9});
   const bool is_half = colouring.scale == Scale::kHalfTurn;
   const double turn = range.y() * kRadians;
 
@@ -174,9 +174,9 @@ void draw_circle_legend(const Canvas& canvas, const Rect& place, double unit, co
     cairo_fill(cr);
   }
   constexpr double kLeastOrder = 0.2;  // below that a few hundred rods have a mean axis by chance
-  if (is_half && !histogram.is_empty && picture.order >= kLeastOrder) {
+  if (is_half && !histogram.is_empty && found.order >= kLeastOrder) {
     // The director, drawn over the upper half.
-    const double angle = picture.director_angle < 0 ? picture.director_angle + kPi : picture.director_angle;
+    const double angle = found.director_angle < 0 ? found.director_angle + kPi : found.director_angle;
     canvas.colour(colours.ink);
     canvas.line(x, y, x + outer * std::cos(angle), y - outer * std::sin(angle), 1.6 * unit);
     canvas.text(x + (outer + 12 * unit) * std::cos(angle), y - (outer + 12 * unit) * std::sin(angle) + 4 * unit, "N",
@@ -256,21 +256,13 @@ double highest_bar(const RodPicture& picture, const PictureStyle& style) {
 void draw_legend(const Canvas& canvas, const Rect& place, double unit, const RodPicture& picture,
                  const PictureStyle& style) {
   const Palette colours = palette(style.theme);
-  if (shows_background_alone(style)) {
-    const Colouring& scale = background_scale(style.theme);
-    return draw_line_legend(canvas, place, unit, picture, scale, scale.range, colours);
-  }
-  const Colouring& colouring = colouring_of(picture, style);
-  const Vec2 range = range_of(colouring, style);
-  switch (colouring.scale) {
-    case Scale::kLine:
-      return draw_line_legend(canvas, place, unit, picture, colouring, range, colours);
-    case Scale::kHalfTurn:
-    case Scale::kFullTurn:
-      return draw_circle_legend(canvas, place, unit, picture, colouring, range, colours);
-    case Scale::kNames:
-      return;
-  }
+  const bool is_background = shows_background_alone(style);
+  const Colouring& colouring = is_background ? background_scale(style.theme) : colouring_of(picture, style);
+  if (colouring.scale == Scale::kNames) return;
+  const Vec2 range = is_background ? colouring.range : range_of(colouring, style);
+  (colouring.scale == Scale::kLine ? draw_line_legend : draw_circle_legend)(
+      canvas, place, unit, Histogram(picture, colouring, range), picture.found, picture.captions.axes, colouring, range,
+      colours);
 }
 
 }  // namespace shaken::render

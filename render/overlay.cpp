@@ -37,9 +37,9 @@ void draw_frame(const Canvas& canvas, const Layout& layout, const RodPicture& pi
 }
 
 /// The label on one line, smaller if need be, cut short if that does not help.
-void draw_label(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const Palette& colours) {
+void draw_label(const Canvas& canvas, const Layout& layout, const Captions& captions, const Palette& colours) {
   const double u = layout.unit, width = layout.label.width;
-  std::string label = picture.label;
+  std::string label = captions.label;
   double size = 18 * u;
   if (const double needed = canvas.text_width(label, size, true); needed > width) {
     size = std::max(12 * u, size * width / needed);
@@ -53,9 +53,9 @@ void draw_label(const Canvas& canvas, const Layout& layout, const RodPicture& pi
   }
   canvas.colour(colours.ink);
   canvas.text(layout.label.x, layout.label.y + 15 * u, label, size, Canvas::Align::kLeft, true);
-  if (picture.subtitle.empty() || layout.label.height < 38 * u) return;
+  if (captions.subtitle.empty() || layout.label.height < 38 * u) return;
   canvas.colour(colours.faint);
-  canvas.text(layout.label.x, layout.label.y + 34 * u, picture.subtitle, 13 * u);
+  canvas.text(layout.label.x, layout.label.y + 34 * u, captions.subtitle, 13 * u);
 }
 
 /// Names and values in rows, each value under its name.
@@ -169,7 +169,7 @@ void draw_species(const Canvas& canvas, const Layout& layout, const RodPicture& 
     }
     canvas.colour(colours.ink);
     const double x = layout.species.x + scale * longest + 10 * u, size = 13 * u;
-    const std::string text = species_text(picture, species);
+    const std::string text = species_text(picture.cell, picture.frame, species);
     canvas.text(x, y + 5 * u, text, size * std::min(1.0, (layout.species.right() - x) / canvas.text_width(text, size)));
   }
 }
@@ -193,7 +193,7 @@ void draw_scale_bar(const Canvas& canvas, const Layout& layout, const RodPicture
   canvas.colour(colours.ink);
   canvas.fill({layout.scale_bar.x, bottom - 5 * u, length * scale, 5 * u});
   canvas.text(layout.scale_bar.x, bottom - 11 * u, fmt::format("{:g} mm{}", length, words), 14 * u);
-  const std::string speed = playback_text(picture.playback);
+  const std::string speed = playback_text(picture.captions.playback);
   if (speed.empty() || layout.is_bar_on_rods) return;
   // The sign of playing before the words.
   const double right = layout.scale_bar.right(), size = 14 * u;
@@ -211,14 +211,14 @@ void draw_scale_bar(const Canvas& canvas, const Layout& layout, const RodPicture
 
 std::vector<Number> numbers_of(const RodPicture& picture, const PictureStyle& style) {
   // In slow motion the last digit should be seen to move.
-  const int digits = picture.playback > 0 && picture.playback < 0.05 ? 4 : 2;
+  const int digits = picture.captions.playback > 0 && picture.captions.playback < 0.05 ? 4 : 2;
   const Cell& cell = picture.cell;
   const bool has_axes = cell.has_axes(), is_mixture = cell.species.size() > 1;
-  std::vector<Number> numbers{{"time", fmt::format("{:.{}f} s", picture.time, digits)}};
+  std::vector<Number> numbers{{"time", fmt::format("{:.{}f} s", picture.frame.time, digits)}};
   // Of a mixture S and lengths belong to its species, beside which they stand (species_text).
-  if (has_axes && !is_mixture) numbers.push_back({"order S", fmt::format("{:.3f}", picture.order)});
+  if (has_axes && !is_mixture) numbers.push_back({"order S", fmt::format("{:.3f}", picture.found.order)});
   std::size_t seen = 0;
-  for (const Vec3& at : picture.position) seen += is_in_view(picture, style, at.head<2>()) ? 1 : 0;
+  for (const Vec3& at : picture.frame.position) seen += is_in_view(picture, style, at.head<2>()) ? 1 : 0;
   numbers.push_back(
       {is_mixture ? "bodies"
        : has_axes ? "rods"
@@ -234,7 +234,7 @@ std::vector<Number> numbers_of(const RodPicture& picture, const PictureStyle& st
 
 std::string defects_text(const RodPicture& picture, const PictureStyle& style, double charge) {
   std::size_t all = 0, seen = 0;
-  for (const analysis::Defect& defect : picture.defects) {
+  for (const analysis::Defect& defect : picture.found.defects) {
     if (defect.charge * charge < 0) continue;
     ++all;
     seen += is_in_view(picture, style, defect.position) ? 1 : 0;
@@ -243,10 +243,10 @@ std::string defects_text(const RodPicture& picture, const PictureStyle& style, d
   return seen == all ? fmt::format("{}: {}", name, all) : fmt::format("{}: in view {} of {}", name, seen, all);
 }
 
-std::string species_text(const RodPicture& picture, std::size_t species) {
-  const std::size_t n = picture.count(species);
-  if (!picture.cell.species[species].has_axis()) return fmt::format("{} {}", n, n == 1 ? "sphere" : "spheres");
-  const std::vector<Vec3> of_it = picture.cell.of_species(species, picture.director);
+std::string species_text(const Cell& cell, const Frame& frame, std::size_t species) {
+  const std::vector<Vec3> of_it = cell.of_species(species, frame.director);
+  const std::size_t n = of_it.size();
+  if (!cell.species[species].has_axis()) return fmt::format("{} {}", n, n == 1 ? "sphere" : "spheres");
   const double order = analysis::nematic_order(std::span<const Vec3>(of_it)).order;
   return fmt::format("{} {}, S = {:.3f}", n, n == 1 ? "rod" : "rods", order);
 }
@@ -270,15 +270,15 @@ std::string playback_text(double playback) {
   return fmt::format("{:.2g}\u00d7 speed", playback);
 }
 
-void draw_time_bar(const Canvas& canvas, const RodPicture& picture, const PictureStyle& style) {
-  if (!style.time_bar || picture.film_share < 0) return;
+void draw_time_bar(const Canvas& canvas, const Captions& captions, const PictureStyle& style) {
+  if (!style.time_bar || captions.film_share < 0) return;
   const Palette colours = palette(style.theme);
   const double height = std::max(3.0, std::round(std::min(style.width, style.height) / 180.0));
   const double width = style.width;
   canvas.colour(colours.faint, 0.35);
   canvas.fill({0, style.height - height, width, height});
   canvas.colour(colours.ink, 0.8);
-  canvas.fill({0, style.height - height, std::min(picture.film_share, 1.0) * width, height});
+  canvas.fill({0, style.height - height, std::min(captions.film_share, 1.0) * width, height});
 }
 
 void draw_overlay(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style) {
@@ -290,7 +290,7 @@ void draw_overlay(const Canvas& canvas, const Layout& layout, const RodPicture& 
     if (style.mark_defects) draw_defects(canvas, layout, picture, style);
     draw_frame(canvas, layout, picture, style, colours);
   }
-  if (layout.label.width > 0) draw_label(canvas, layout, picture, colours);
+  if (layout.label.width > 0) draw_label(canvas, layout, picture.captions, colours);
   if (layout.numbers.width > 0) draw_numbers(canvas, layout, picture, style, colours);
   if (layout.history.width > 0) draw_curve(canvas, layout.history, layout.unit, order_curve(picture), colours);
   if (layout.legend.width > 0) draw_legend(canvas, layout.legend, layout.unit, picture, style);

@@ -21,8 +21,8 @@ namespace {
 
 Layout layout_for(const RodPicture& picture, const PictureStyle& style) {
   const Contents contents{
-      .history = !picture.history.time.empty() && style.inset != Inset::kOrder,
-      .label = !picture.label.empty(),
+      .history = !picture.captions.history.time.empty() && style.inset != Inset::kOrder,
+      .label = !picture.captions.label.empty(),
       .species = picture.cell.species.size() > 1 ? static_cast<int>(picture.cell.species.size()) : 0,
       .scale = has_scale(picture, style)};
   return style.view != ViewPoint::kTop ? stage_layout_of(style, contents) : layout_of(style, contents);
@@ -75,7 +75,7 @@ Result<ImageOf<Channel>> Painter::paint(const RodPicture& picture, const Picture
   const Result<void> done =
       picture.beside.empty() ? paint_one(sheet, picture, drawn) : paint_panels(sheet, picture, drawn);
   if (!done) return done.error();
-  draw_time_bar(sheet.over(), picture, drawn);
+  draw_time_bar(sheet.over(), picture.captions, drawn);
   return sheet.image();
 }
 template Result<Image> Painter::paint(const RodPicture& picture, const PictureStyle& style);
@@ -129,7 +129,7 @@ Result<void> write_vector(const std::filesystem::path& file, const RodPicture& p
   };
   Result<Canvas> canvas =
       Canvas::vector(unfinished, file.extension().string(), style.width, style.height, palette(style.theme).page,
-                     picture.label, picture.notes, style.dpi.value_or(72));
+                     picture.captions.label, picture.captions.notes, style.dpi.value_or(72));
   if (!canvas) return failed(canvas.error().message);
   const auto draw_box = [&](const Layout& layout, const RodPicture& one) {
     draw_ground(*canvas, layout, one, style);
@@ -149,7 +149,7 @@ Result<void> write_vector(const std::filesystem::path& file, const RodPicture& p
   }
   if (auto done = canvas->finish(); !done) return failed(done.error().message);
   if (file.extension() == ".svg") {
-    if (auto done = add_notes_to_svg(unfinished, picture.label, picture.notes); !done) {
+    if (auto done = add_notes_to_svg(unfinished, picture.captions.label, picture.captions.notes); !done) {
       return failed(done.error().message);
     }
   }

@@ -69,24 +69,24 @@ PanelGrid panel_grid(const PictureStyle& style, std::size_t n_panels) {
 bool have_one_time(const RodPicture& picture) {
   constexpr double kShown = 0.005;  // half of the last digit [s]
   return std::all_of(picture.beside.begin(), picture.beside.end(),
-                     [&](const RodPicture& other) { return std::abs(other.time - picture.time) < kShown; });
+                     [&](const RodPicture& other) { return std::abs(other.frame.time - picture.frame.time) < kShown; });
 }
 
 void draw_panel_words(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style,
                       bool with_time) {
   RodPicture quiet = picture;
   quiet.beside.clear();
-  quiet.playback = 0;
-  quiet.subtitle.clear();
+  quiet.captions.playback = 0;
+  quiet.captions.subtitle.clear();
   Layout words = layout;
   if (!style.scale_bar) words.scale_bar = {};
   draw_overlay(canvas, words, quiet, style);
   if (!style.caption) return;
   canvas.colour(palette(style.theme).ink);
   canvas.text(layout.box_x + layout.box_side, layout.scale_bar.bottom(),
-              fmt::format("{}{}{}", with_time ? fmt::format("t = {:.2f} s", picture.time) : "",
+              fmt::format("{}{}{}", with_time ? fmt::format("t = {:.2f} s", picture.frame.time) : "",
                           with_time && picture.cell.has_axes() ? ", " : "",
-                          picture.cell.has_axes() ? fmt::format("S = {:.3f}", picture.order) : ""),
+                          picture.cell.has_axes() ? fmt::format("S = {:.3f}", picture.found.order) : ""),
               14 * layout.unit, Canvas::Align::kRight);
 }
 
@@ -96,10 +96,11 @@ void draw_footer(const Canvas& canvas, const PanelGrid& grid, const RodPicture& 
   if (style.caption) {
     canvas.colour(colours.ink);
     if (have_one_time(first)) {
-      canvas.text(grid.footer.x, bottom - 6 * u, fmt::format("t = {:.2f} s", first.time), 20 * u);
+      canvas.text(grid.footer.x, bottom - 6 * u, fmt::format("t = {:.2f} s", first.frame.time), 20 * u);
     }
     canvas.colour(colours.faint);
-    canvas.text(grid.footer.right(), bottom - 6 * u, playback_text(first.playback), 14 * u, Canvas::Align::kRight);
+    canvas.text(grid.footer.right(), bottom - 6 * u, playback_text(first.captions.playback), 14 * u,
+                Canvas::Align::kRight);
   }
   if (!style.legend || !has_scale(first, style)) return;
   const Colouring& colouring = colouring_of(first, style);

@@ -67,10 +67,10 @@ bool encode(std::FILE* file, const ImageOf<Channel>& image, png_text* texts, int
 
 }  // namespace
 
-Notes picture_texts(const RodPicture& picture) {
-  Notes texts = {{"Simulated time", fmt::format("{:.6f} s", picture.time)}};
-  if (!picture.label.empty()) texts.emplace_back("Title", picture.label);
-  texts.insert(texts.end(), picture.notes.begin(), picture.notes.end());
+Notes picture_texts(const Frame& frame, const Captions& captions) {
+  Notes texts = {{"Simulated time", fmt::format("{:.6f} s", frame.time)}};
+  if (!captions.label.empty()) texts.emplace_back("Title", captions.label);
+  texts.insert(texts.end(), captions.notes.begin(), captions.notes.end());
   return texts;
 }
 

@@ -38,7 +38,7 @@ void paint_to_file(const Options& options, const PictureStyle& style, const RodP
     Painter painter = value_or_fail(Painter::create(), ExitCode::kFailed);
     const auto paint = [&]<class Channel>(Channel) {
       const ImageOf<Channel> image = value_or_fail(painter.paint<Channel>(picture, style), ExitCode::kFailed);
-      done_or_fail(write_png(out, image, picture_texts(picture), style.dpi.value_or(0)));
+      done_or_fail(write_png(out, image, picture_texts(picture.frame, picture.captions), style.dpi.value_or(0)));
     };
     options.depth == 16 ? paint(std::uint16_t{}) : paint(std::uint8_t{});
   }
@@ -89,7 +89,7 @@ void make_picture(const Options& options) {
   RodPicture picture = value_or_fail(runs.joint_picture(style, picture_of));
   // One colouring for all panels, as there is one legend.
   if (runs.are_several() && style.colour == "auto") {
-    style.colour = chosen_colour(picture, std::vector{picture.order}, style.mark_defects);
+    style.colour = chosen_colour(picture, std::vector{picture.found.order}, style.mark_defects);
   }
   paint_to_file(options, style, picture, runs.out_or("picture.png"), watch);
 }
@@ -110,7 +110,7 @@ void make_live_picture(const Options& options) {
   const auto timeout = std::chrono::milliseconds(std::llround(options.timeout_s * 1000));
   RodPicture picture = value_or_fail(live_picture(options.lcm_url, options.sources.front(), timeout, style));
   check_picture(style, picture);
-  set_label(options, 0, picture);
+  set_label(options, 0, picture.captions);
   paint_to_file(options, style, picture, options.out, watch);
 }
 

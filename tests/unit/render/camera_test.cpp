@@ -76,7 +76,7 @@ TEST(OrbitView, RodsAreSeenWhereTheyAreAndNowhereElse) {
         double inside = -1e9;  // how deep in the body the ray goes [mm]
         const BeadRow& beads = picture.cell.species[0];
         for (std::size_t i = 0; i < beads.offset.size(); ++i) {
-          const Vec3 centre = picture.position[0] + beads.offset[i] * picture.director[0] - camera.eye;
+          const Vec3 centre = picture.frame.position[0] + beads.offset[i] * picture.frame.director[0] - camera.eye;
           inside = std::max(inside, beads.radius[i] - (centre - centre.dot(ray) * ray).norm());
         }
         const std::uint8_t* p = image.pixel(x, y);

@@ -41,7 +41,7 @@ TEST(Overlay, APlusHalfIsACometWithItsTailAlongItsDirection) {
   for (const double direction : {0.0, 2.0, -1.2}) {
     RodPicture picture = empty_picture(kBox);
     const Vec2 place(6, 15);
-    picture.defects = {{place, 0.5, direction}};
+    picture.found.defects = {{place, 0.5, direction}};
     const Image image = painter().paint(picture, bare()).value();
     EXPECT_GE(grey_at(image, place, 0, 0), kWhite) << "the core";
     EXPECT_LT(grey_at(image, place, 5, direction + kPi), kDark);
@@ -58,7 +58,7 @@ TEST(Overlay, AMinusHalfHasThreeArms) {
   for (const double direction : {0.0, 0.9}) {
     RodPicture picture = empty_picture(kBox);
     const Vec2 place(12, 4);
-    picture.defects = {{place, -0.5, direction}};
+    picture.found.defects = {{place, -0.5, direction}};
     const Image image = painter().paint(picture, bare()).value();
     EXPECT_GE(grey_at(image, place, 0, 0), kWhite);
     for (int arm = 0; arm < 3; ++arm) {
@@ -72,7 +72,7 @@ TEST(Overlay, AMinusHalfHasThreeArms) {
 
 TEST(Overlay, AMarkAcrossTheBorderShowsOnBothSides) {
   RodPicture picture = empty_picture(kBox);
-  picture.defects = {{Vec2(0.02, 10), 0.5, kPi}};
+  picture.found.defects = {{Vec2(0.02, 10), 0.5, kPi}};
   const Image image = painter().paint(picture, bare()).value();
   EXPECT_LT(grey_at(image, Vec2(0.02, 10), 3, 0), kDark);
   EXPECT_LT(grey_at(image, Vec2(kBox, 10), 10, kPi), kDark);
@@ -80,7 +80,7 @@ TEST(Overlay, AMarkAcrossTheBorderShowsOnBothSides) {
 
 TEST(Overlay, UnmarkedDefectsAreNotDrawn) {
   RodPicture with = empty_picture(kBox);
-  with.defects = {{Vec2(6, 15), 0.5, 0}};
+  with.found.defects = {{Vec2(6, 15), 0.5, 0}};
   PictureStyle style = bare();
   style.mark_defects = false;
   EXPECT_EQ(painter().paint(with, style).value(), painter().paint(empty_picture(kBox), style).value());
@@ -90,9 +90,9 @@ TEST(Overlay, NoTextOnTheRods) {
   RodPicture picture = empty_picture(kBox);
   for (int i = 0; i < 20; ++i) add_rod(picture, i, i, 0.3 * i);
   measure(picture, {});
-  picture.time = 1234.56;
-  picture.label = "rods.length=4.5 rods.area_fraction=0.80 plates.gamma=7 replica=3";
-  picture.history = {{0, 1000, 1234.56}, {0.2, 0.8, picture.order}, 0, 6000};
+  picture.frame.time = 1234.56;
+  picture.captions.label = "rods.length=4.5 rods.area_fraction=0.80 plates.gamma=7 replica=3";
+  picture.captions.history = {{0, 1000, 1234.56}, {0.2, 0.8, picture.found.order}, 0, 6000};
   RodsPass rods = RodsPass::create().value();
   for (const auto& [width, height] : {std::pair{1280, 720}, {1000, 1000}, {640, 360}, {800, 1200}, {1024, 768}}) {
     for (const std::string& colour : colour_names()) {
@@ -198,11 +198,11 @@ TEST(Overlay, FilmsSayHowFastTheyPlay) {
   EXPECT_EQ(playback_text(0), "");
   RodPicture picture = empty_picture(kBox);
   const Image still = painter().paint(picture, {}).value();
-  picture.playback = 0.1;
+  picture.captions.playback = 0.1;
   EXPECT_NE(painter().paint(picture, {}).value(), still);
   PictureStyle bare_style = bare();
   const Image film = painter().paint(picture, bare_style).value();
-  picture.playback = 0;
+  picture.captions.playback = 0;
   EXPECT_EQ(painter().paint(picture, bare_style).value(), film) << "nothing is written on the rods";
 }
 
@@ -239,9 +239,9 @@ TEST(Overlay, EachSpeciesIsShownWithItsNumberAndItsOrder) {
     add_rod(picture, 3 * i + 1, 10, i == 4 ? kPi / 2 : 0);
     picture.cell.species_of_rod.push_back(static_cast<std::uint8_t>(i / 2));
   }
-  EXPECT_EQ(species_text(picture, 0), "2 rods, S = 1.000");
-  EXPECT_EQ(species_text(picture, 1), "2 spheres");
-  EXPECT_EQ(species_text(picture, 2), "2 rods, S = 0.000") << "at right angles to each other";
+  EXPECT_EQ(species_text(picture.cell, picture.frame, 0), "2 rods, S = 1.000");
+  EXPECT_EQ(species_text(picture.cell, picture.frame, 1), "2 spheres");
+  EXPECT_EQ(species_text(picture.cell, picture.frame, 2), "2 rods, S = 0.000") << "at right angles to each other";
   PictureStyle style;
   style.colour = "layers";
   for (const Number& number : numbers_of(picture, style)) {
@@ -266,7 +266,7 @@ TEST(Overlay, EachSpeciesIsShownWithItsNumberAndItsOrder) {
 TEST(Overlay, AZoomedViewCountsWhatIsInView) {
   RodPicture picture = empty_picture(20);
   for (int i = 0; i < 4; ++i) add_rod(picture, 1 + 5 * i, 10, 0);
-  picture.defects = {{Vec2(1, 10), 0.5, 0}, {Vec2(11, 10), 0.5, 0}, {Vec2(1, 1), -0.5, 0}};
+  picture.found.defects = {{Vec2(1, 10), 0.5, 0}, {Vec2(11, 10), 0.5, 0}, {Vec2(1, 1), -0.5, 0}};
   PictureStyle style;
   const auto rods = [&] {
     for (const Number& number : numbers_of(picture, style)) {
@@ -289,9 +289,9 @@ TEST(Overlay, AZoomedViewCountsWhatIsInView) {
 TEST(Overlay, ALabelThatIsTooLongEndsInDots) {
   RodPicture picture = empty_picture(kBox);
   PictureStyle style;
-  picture.label = "a label of some words";
+  picture.captions.label = "a label of some words";
   const Image one = painter().paint(picture, style).value();
-  for (int i = 0; i < 20; ++i) picture.label += " and more";
+  for (int i = 0; i < 20; ++i) picture.captions.label += " and more";
   const Image cut = painter().paint(picture, style).value();
   EXPECT_NE(cut, one);
   const Layout layout = layout_of(style, {.label = true});
@@ -306,7 +306,7 @@ TEST(Overlay, ALabelThatIsTooLongEndsInDots) {
 
 TEST(Overlay, AFilmHasABarThatGrows) {
   RodPicture picture = empty_picture(kBox);
-  picture.film_share = 0.25;
+  picture.captions.film_share = 0.25;
   const auto dark = [&](const PictureStyle& style) {
     const Image image = painter().paint(picture, style).value();
     int n = 0;
@@ -314,7 +314,7 @@ TEST(Overlay, AFilmHasABarThatGrows) {
     return n;
   };
   EXPECT_NEAR(dark({}), 320, 1);
-  picture.film_share = 1;
+  picture.captions.film_share = 1;
   EXPECT_NEAR(dark({}), 1280, 1);
   PictureStyle style;
   style.time_bar = false;

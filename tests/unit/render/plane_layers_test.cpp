@@ -60,7 +60,7 @@ TEST(PlantedPair, IsDrawnWhereAndAsItIsInEveryStyle) {
   for (const double turn : {0.0, 0.7, -1.1}) {
     RodPicture picture = planted_pair(turn);
     measure(picture, {.defects = true, .field = true});
-    ASSERT_EQ(picture.defects.size(), 2u);
+    ASSERT_EQ(picture.found.defects.size(), 2u);
     // Near the +1/2 theta = phi / 2 + (turn - pi / 2): radial where phi = 2 turn - pi. Near the -1/2
     // theta = -phi / 2 + turn: radial where phi = 2 turn / 3, and 120 degrees on.
     const double tail = 2 * turn - kPi, arm = 2 * turn / 3;
@@ -72,7 +72,7 @@ TEST(PlantedPair, IsDrawnWhereAndAsItIsInEveryStyle) {
       };
       // What it is drawn at is where it is found, to within a millimetre of where it was planted.
       const auto found = [&](double charge) {
-        return std::find_if(picture.defects.begin(), picture.defects.end(),
+        return std::find_if(picture.found.defects.begin(), picture.found.defects.end(),
                             [&](const analysis::Defect& d) { return d.charge == charge; })
             ->position;
       };
@@ -105,7 +105,7 @@ TEST(Streamlines, FollowTheDirectorAndCoverTheField) {
   RodPicture picture = planted_pair(0.4);
   measure(picture, {.field = true});
   const double distance = 1.5;
-  const std::vector<Streamline> lines = streamlines(*picture.field, distance);
+  const std::vector<Streamline> lines = streamlines(*picture.found.field, distance);
   ASSERT_GT(lines.size(), 20u);
   double length = 0;
   for (const Streamline& line : lines) {
@@ -113,7 +113,7 @@ TEST(Streamlines, FollowTheDirectorAndCoverTheField) {
       const Vec2 step = line[k + 1] - line[k], middle = (line[k] + line[k + 1]) / 2;
       length += step.norm();
       if ((middle - kPlus).norm() < 3 || (middle - kMinus).norm() < 3) continue;  // there the field bends sharply
-      const Vec2 q = picture.field->q_at(middle);
+      const Vec2 q = picture.found.field->q_at(middle);
       const double theta = std::atan2(q.y(), q.x()) / 2;
       EXPECT_GT(std::abs(step.normalized().dot(along(theta))), 0.99);
     }
@@ -127,7 +127,7 @@ TEST(Streamlines, KeepTheirDistance) {
   RodPicture picture = planted_pair(0);
   measure(picture, {.field = true});
   const double distance = 2;
-  const std::vector<Streamline> lines = streamlines(*picture.field, distance);
+  const std::vector<Streamline> lines = streamlines(*picture.found.field, distance);
   for (std::size_t a = 0; a < lines.size(); ++a) {
     for (std::size_t b = 0; b < a; ++b) {
       for (const Vec2& p : lines[a]) {
@@ -144,7 +144,7 @@ TEST(Streamlines, AUniformFieldGivesStraightLines) {
   RodPicture picture = empty_picture(20);
   for (int i = 0; i < 400; ++i) add_rod(picture, i % 20 + 0.5, i / 20 + 0.5, 0);
   measure(picture, {.field = true});
-  for (const Streamline& line : streamlines(*picture.field, 1)) {
+  for (const Streamline& line : streamlines(*picture.found.field, 1)) {
     for (const Vec2& point : line) ASSERT_NEAR(point.y(), line.front().y(), 1e-6);
   }
 }
@@ -154,7 +154,7 @@ TEST(Displacements, AreArrowsOfTrueLengthToTheRods) {
   RodPicture picture = empty_picture(kBox);
   add_rod(picture, 4, kBox / 2, kPi / 2);
   add_rod(picture, 20, 10, kPi / 2);
-  picture.displacement = {Vec2(8, 0), Vec2(0, 0)};
+  picture.frame.displacement = {Vec2(8, 0), Vec2(0, 0)};
   PictureStyle style = bare();
   style.rods = 0;
   const Image image = painter().paint(picture, style).value();
@@ -176,8 +176,8 @@ TEST(Displacements, AreArrowsOfTrueLengthToTheRods) {
 TEST(Tracks, FadeWithAge) {
   RodPicture picture = empty_picture(kBox);
   const double y = kBox / 6;
-  picture.tracks = {{0.5, {{Vec2(5, y), 0.95}, {Vec2(15, y), 0.85}, {Vec2(20, y), 0.15}, {Vec2(22, y), 0.05}}},
-                    {-0.5, {{Vec2(28, y), 0.15}, {Vec2(32, y), 0.05}}}};
+  picture.found.tracks = {{0.5, {{Vec2(5, y), 0.95}, {Vec2(15, y), 0.85}, {Vec2(20, y), 0.15}, {Vec2(22, y), 0.05}}},
+                          {-0.5, {{Vec2(28, y), 0.15}, {Vec2(32, y), 0.05}}}};
   const Image image = painter().paint(picture, bare()).value();
   const auto at = [&](double x) { return image.pixel(static_cast<int>(x / kBox * kSide), kSide - kSide / 6); };
   const auto vividness = [](const std::uint8_t* p) {
@@ -199,8 +199,8 @@ std::string bytes_of(const std::filesystem::path& file) {
 TEST(VectorFigure, IsASvgOrAPdf) {
   const ScratchFolder folder;
   RodPicture picture = planted_pair(0.2);
-  picture.label = "a <pair> & more";
-  picture.notes = {{"Run id", "1f0c"}, {"Seed", "7"}};
+  picture.captions.label = "a <pair> & more";
+  picture.captions.notes = {{"Run id", "1f0c"}, {"Seed", "7"}};
   measure(picture, {.defects = true, .field = true});
   PictureStyle style = bare("director");
   for (const char* name : {"a.svg", "a.pdf", "b.pdf"}) ASSERT_TRUE(write_vector(folder / name, picture, style));
