@@ -67,15 +67,15 @@ double number(const RodPicture&, std::size_t rod) { return static_cast<double>(r
 
 // The colours.
 
-Colour by_layer(double degrees, const Vec2&) { return layer_colour(degrees * kDegree); }
-Colour by_axis(double degrees, const Vec2&) { return wheel_colour(degrees * kDegree); }
-Colour by_heading(double degrees, const Vec2&) { return heading_colour(degrees * kDegree); }
-Colour by_sign(double value, const Vec2& range) { return diverging_colour(value / range.y()); }
-Colour by_size(double value, const Vec2& range) {
+Colour by_layer(double degrees, const Vec2&, Palette palette) { return layer_colour(degrees * kDegree, palette); }
+Colour by_axis(double degrees, const Vec2&, Palette) { return wheel_colour(degrees * kDegree); }
+Colour by_heading(double degrees, const Vec2&, Palette) { return heading_colour(degrees * kDegree); }
+Colour by_sign(double value, const Vec2& range, Palette) { return diverging_colour(value / range.y()); }
+Colour by_size(double value, const Vec2& range, Palette) {
   return sequential_colour((value - range.x()) / (range.y() - range.x()));
 }
-Colour by_name(double index, const Vec2&) { return name_colour(static_cast<std::size_t>(index)); }
-Colour by_number(double index, const Vec2&) { return number_colour(static_cast<std::size_t>(index)); }
+Colour by_name(double index, const Vec2&, Palette) { return name_colour(static_cast<std::size_t>(index)); }
+Colour by_number(double index, const Vec2&, Palette) { return number_colour(static_cast<std::size_t>(index)); }
 
 constexpr Asked kNothing{};
 constexpr Asked kField{.field = true};
@@ -93,7 +93,7 @@ const Colouring kColourings[] = {
      angle_in_box,
      by_axis},
     {"layers",
-     "the angle \u03b8 to the nematic director: red to its left, magenta to its right, pale along it",
+     "the angle \u03b8 to the nematic director: orange to its left, blue to its right, pale along it",
      "Angle to the director \u03b8",
      "\u00b0",
      Scale::kLine,
@@ -198,9 +198,10 @@ const Colouring& colouring_of(const RodPicture& picture, const PictureStyle& sty
 
 Vec2 range_of(const Colouring& colouring, const PictureStyle& style) { return style.range.value_or(colouring.range); }
 
-Colour rod_colour(const RodPicture& picture, std::size_t rod, const Colouring& colouring, const Vec2& range) {
+Colour rod_colour(const RodPicture& picture, std::size_t rod, const Colouring& colouring, const Vec2& range,
+                  Palette palette) {
   const double value = colouring.value(picture, rod);
-  if (!std::isnan(value)) return colouring.colour(value, range);
+  if (!std::isnan(value)) return colouring.colour(value, range, palette);
   const std::size_t species = picture.cell.species_of(rod);
   return species == 0 ? no_value_colour() : species_colour(species);
 }

@@ -128,9 +128,9 @@ Curve sweep_curve(const Captions& captions) {
     y.push_back(point.at.y());
     if (map.y.empty() && point.at.x() == here.x()) here.y() = point.order;
     if (map.y.empty() && std::isnan(point.order)) continue;
-    curve.dots.push_back(
-        {Vec2(point.at.x(), map.y.empty() ? point.order : point.at.y()),
-         std::isnan(point.order) ? palette(Theme::kLight).page : order.colour(point.order, order.range)});
+    curve.dots.push_back({Vec2(point.at.x(), map.y.empty() ? point.order : point.at.y()),
+                          std::isnan(point.order) ? page_colours(Theme::kLight).page
+                                                  : order.colour(point.order, order.range, Palette::kSafe)});
   }
   curve.x_ticks = axis_over(x);
   curve.y_ticks = map.y.empty() ? kHalves : axis_over(y);
@@ -158,7 +158,7 @@ bool has_inset(const RodPicture& picture, const PictureStyle& style) {
 void draw_inset(const Canvas& canvas, const Rect& place, double unit, const RodPicture& picture,
                 const PictureStyle& style, bool is_on_rods) {
   if (!has_inset(picture, style)) return;
-  const Palette colours = palette(style.theme);
+  const PageColours colours = page_colours(style.theme);
   if (is_on_rods) {
     canvas.colour(colours.page);
     canvas.fill(place);

@@ -17,7 +17,7 @@ double highest_bar(const RodPicture& picture, const PictureStyle& style);
 /// A scale's colours, continuous, with ticks below them. `is_below`, `is_above`: whether its ends stand for values
 /// beyond it, too.
 void draw_colour_bar(const Canvas& canvas, const Rect& bar, double unit, const Colouring& colouring, const Vec2& range,
-                     const Palette& colours, bool is_below = false, bool is_above = false);
+                     const PictureStyle& style, bool is_below = false, bool is_above = false);
 
 /// What the colours mean, and how many rods have each. A scale from low to high gets a histogram over an axis in the
 /// colouring's unit, the share of rods in percent upwards, and the colours below the axis; a circle gets a rose of

@@ -23,7 +23,7 @@ namespace shaken::render {
 namespace {
 
 void draw_frame(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style,
-                const Palette& colours) {
+                const PageColours& colours) {
   cairo_t* cr = canvas.cairo();
   const double line = std::max(1.0, std::round(1.2 * layout.unit));
   const View box = box_in(picture, style);
@@ -37,7 +37,7 @@ void draw_frame(const Canvas& canvas, const Layout& layout, const RodPicture& pi
 }
 
 /// The label on one line, smaller if need be, cut short if that does not help.
-void draw_label(const Canvas& canvas, const Layout& layout, const Captions& captions, const Palette& colours) {
+void draw_label(const Canvas& canvas, const Layout& layout, const Captions& captions, const PageColours& colours) {
   const double u = layout.unit, width = layout.label.width;
   std::string label = captions.label;
   double size = 18 * u;
@@ -60,7 +60,7 @@ void draw_label(const Canvas& canvas, const Layout& layout, const Captions& capt
 
 /// Names and values in rows, each value under its name.
 void draw_numbers(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style,
-                  const Palette& colours) {
+                  const PageColours& colours) {
   const double u = layout.unit;
   const Rect& place = layout.numbers;
   const std::vector<Number> numbers = numbers_of(picture, style);
@@ -82,7 +82,7 @@ void draw_numbers(const Canvas& canvas, const Layout& layout, const RodPicture& 
 }
 
 void draw_key(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style,
-              const Palette& colours) {
+              const PageColours& colours) {
   const double u = layout.unit;
   const bool stacked = layout.key.height > 40 * u;
   const double x = layout.key.x, y = layout.key.y + 11 * u;
@@ -100,7 +100,8 @@ void draw_key(const Canvas& canvas, const Layout& layout, const RodPicture& pict
 }
 
 /// What the tracks and the ground under pale rods mean.
-void draw_ground_key(const Canvas& canvas, const Layout& layout, const PictureStyle& style, const Palette& colours) {
+void draw_ground_key(const Canvas& canvas, const Layout& layout, const PictureStyle& style,
+                     const PageColours& colours) {
   const double u = layout.unit, size = 13 * u;
   double y = layout.ground.y + 11 * u;
   const bool stacked = layout.ground.height > 40 * u;
@@ -135,7 +136,7 @@ void draw_ground_key(const Canvas& canvas, const Layout& layout, const PictureSt
 
 /// A rod of each species, seen from above in one scale, and what is to be said of it; pale where the scale colours it.
 void draw_species(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style,
-                  const Palette& colours) {
+                  const PageColours& colours) {
   const double u = layout.unit;
   const Colouring& colouring = colouring_of(picture, style);
   const bool by_name = std::string_view(colouring.name) == "species";
@@ -159,7 +160,7 @@ void draw_species(const Canvas& canvas, const Layout& layout, const RodPicture& 
       canvas.colour(rim         ? colours.faint
                     : by_name   ? name_colour(species)
                     : has_scale ? layer_colour(0)
-                                : rod_colour(picture, example, colouring, range_of(colouring, style)));
+                                : rod_colour(picture, example, colouring, range_of(colouring, style), style.palette));
       for (std::size_t i = 0; i < beads.offset.size(); ++i) {
         cairo_new_sub_path(cr);
         cairo_arc(cr, centre + scale * beads.offset[i], y, scale * beads.radius[i] + (rim ? 0.5 : -0.5) * u, 0,
@@ -175,7 +176,7 @@ void draw_species(const Canvas& canvas, const Layout& layout, const RodPicture& 
 }
 
 void draw_scale_bar(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style,
-                    const Palette& colours) {
+                    const PageColours& colours) {
   const double u = layout.unit;
   const bool is_top = style.view == ViewPoint::kTop;
   const int height = is_top ? layout.box_side : layout.stage_height;
@@ -272,7 +273,7 @@ std::string playback_text(double playback) {
 
 void draw_time_bar(const Canvas& canvas, const Captions& captions, const PictureStyle& style) {
   if (!style.time_bar || captions.film_share < 0) return;
-  const Palette colours = palette(style.theme);
+  const PageColours colours = page_colours(style.theme);
   const double height = std::max(3.0, std::round(std::min(style.width, style.height) / 180.0));
   const double width = style.width;
   canvas.colour(colours.faint, 0.35);
@@ -282,7 +283,7 @@ void draw_time_bar(const Canvas& canvas, const Captions& captions, const Picture
 }
 
 void draw_overlay(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style) {
-  const Palette colours = palette(style.theme);
+  const PageColours colours = page_colours(style.theme);
   if (style.view == ViewPoint::kTop) {
     draw_lines(canvas, layout, picture, style);
     draw_tracks(canvas, layout, picture, style);

@@ -71,7 +71,7 @@ template <class Channel>
 Result<ImageOf<Channel>> Painter::paint(const RodPicture& picture, const PictureStyle& style) {
   if (auto done = check(style, picture); !done) return done.error();
   const PictureStyle drawn = drawable(style, picture);
-  Sheet<Channel> sheet(drawn.width, drawn.height, palette(drawn.theme).page);
+  Sheet<Channel> sheet(drawn.width, drawn.height, page_colours(drawn.theme).page);
   const Result<void> done =
       picture.beside.empty() ? paint_one(sheet, picture, drawn) : paint_panels(sheet, picture, drawn);
   if (!done) return done.error();
@@ -128,7 +128,7 @@ Result<void> write_vector(const std::filesystem::path& file, const RodPicture& p
     return Error{"cannot write " + file.string() + ": " + why};
   };
   Result<Canvas> canvas =
-      Canvas::vector(unfinished, file.extension().string(), style.width, style.height, palette(style.theme).page,
+      Canvas::vector(unfinished, file.extension().string(), style.width, style.height, page_colours(style.theme).page,
                      picture.captions.label, picture.captions.notes, style.dpi.value_or(72));
   if (!canvas) return failed(canvas.error().message);
   const auto draw_box = [&](const Layout& layout, const RodPicture& one) {

@@ -82,7 +82,7 @@ void draw_panel_words(const Canvas& canvas, const Layout& layout, const RodPictu
   if (!style.scale_bar) words.scale_bar = {};
   draw_overlay(canvas, words, quiet, style);
   if (!style.caption) return;
-  canvas.colour(palette(style.theme).ink);
+  canvas.colour(page_colours(style.theme).ink);
   canvas.text(layout.box_x + layout.box_side, layout.scale_bar.bottom(),
               fmt::format("{}{}{}", with_time ? fmt::format("t = {:.2f} s", picture.frame.time) : "",
                           with_time && picture.cell.has_axes() ? ", " : "",
@@ -92,7 +92,7 @@ void draw_panel_words(const Canvas& canvas, const Layout& layout, const RodPictu
 
 void draw_footer(const Canvas& canvas, const PanelGrid& grid, const RodPicture& first, const PictureStyle& style) {
   const double u = grid.unit, bottom = grid.footer.bottom();
-  const Palette colours = palette(style.theme);
+  const PageColours colours = page_colours(style.theme);
   if (style.caption) {
     canvas.colour(colours.ink);
     if (have_one_time(first)) {
@@ -106,7 +106,7 @@ void draw_footer(const Canvas& canvas, const PanelGrid& grid, const RodPicture& 
   const Colouring& colouring = colouring_of(first, style);
   const Vec2 range = range_of(colouring, style);
   const Rect strip{grid.footer.x + 0.4 * grid.footer.width, bottom - 23 * u, 0.3 * grid.footer.width, 10 * u};
-  draw_colour_bar(canvas, strip, u, colouring, range, colours);
+  draw_colour_bar(canvas, strip, u, colouring, range, style);
   const std::string unit =
       *colouring.unit != 0 && std::string_view(colouring.unit) != "\u00b0" ? fmt::format(" [{}]", colouring.unit) : "";
   canvas.text(strip.x + strip.width / 2, strip.y - 5 * u, colouring.title + unit, 12 * u, Canvas::Align::kCentre);

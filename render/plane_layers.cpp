@@ -94,7 +94,7 @@ void arena_path(cairo_t* cr, const Plane& plane, const SideWalls& walls, double 
   cairo_arc(cr, middle.x(), middle.y(), walls.inner / 2 * plane.scale(), 0, 2 * kPi);
 }
 
-void draw_walls(const Canvas& canvas, const Plane& plane, const Cell& cell, const Palette& colours, double unit) {
+void draw_walls(const Canvas& canvas, const Plane& plane, const Cell& cell, const PageColours& colours, double unit) {
   cairo_t* cr = canvas.cairo();
   cairo_rectangle(cr, plane.box().x, plane.box().y, plane.box().width, plane.box().height);
   arena_path(cr, plane, *cell.walls, cell.box_side);
@@ -162,8 +162,8 @@ std::optional<Vec2> director_at(const analysis::DirectorField& field, const Vec2
   return n.dot(before) < 0 ? Vec2(-n) : n;
 }
 
-void draw_bars(const Canvas& canvas, const Plane& plane, const analysis::DirectorField& field, const Palette& colours,
-               double unit) {
+void draw_bars(const Canvas& canvas, const Plane& plane, const analysis::DirectorField& field,
+               const PageColours& colours, double unit) {
   constexpr double kAcross = 34;  // bars along each side of the view
   const View& view = plane.view();
   const double mesh = view.side / kAcross;
@@ -185,7 +185,7 @@ void draw_bars(const Canvas& canvas, const Plane& plane, const analysis::Directo
 }
 
 void draw_streamlines(const Canvas& canvas, const Plane& plane, const analysis::DirectorField& field,
-                      const Palette& colours, double unit) {
+                      const PageColours& colours, double unit) {
   cairo_t* cr = canvas.cairo();
   canvas.colour(colours.ink, 0.8);
   cairo_set_line_width(cr, 1.3 * unit);
@@ -235,7 +235,7 @@ std::vector<Vec2> half_outline(BeadRow beads, double flat) {
 
 void draw_ground(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style) {
   const Plane plane(canvas, layout, picture, style);
-  const Palette colours = palette(style.theme);
+  const PageColours colours = page_colours(style.theme);
   canvas.colour(colours.floor);
   canvas.fill(plane.box());
   if (style.background == Background::kOrder && picture.found.field)
@@ -245,7 +245,7 @@ void draw_ground(const Canvas& canvas, const Layout& layout, const RodPicture& p
 
 void draw_flat_rods(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style) {
   const Plane plane(canvas, layout, picture, style);
-  const Palette colours = palette(style.theme);
+  const PageColours colours = page_colours(style.theme);
   const Colouring& colouring = colouring_of(picture, style);
   const Vec2 range = range_of(colouring, style);
   cairo_t* cr = canvas.cairo();
@@ -255,7 +255,7 @@ void draw_flat_rods(const Canvas& canvas, const Layout& layout, const RodPicture
     const double flat = n.head<2>().norm();
     const Vec2 along = flat > 1e-6 ? Vec2(n.head<2>() / flat) : Vec2(1, 0), across(-along.y(), along.x());
     const std::vector<Vec2> outline = half_outline(picture.cell.beads_of(i), flat);
-    const Colour colour = rod_colour(picture, i, colouring, range);
+    const Colour colour = rod_colour(picture, i, colouring, range, style.palette);
     for_images(plane.view(), picture.frame.position[i].head<2>(), std::abs(outline.front().x()) + outline.back().x(),
                [&](const Vec2& at) {
                  const auto add = [&](const Vec2& point, double side) {
@@ -277,7 +277,7 @@ void draw_lines(const Canvas& canvas, const Layout& layout, const RodPicture& pi
   if (style.lines == FieldLines::kNone || !picture.found.field) return;
   const Plane plane(canvas, layout, picture, style);
   (style.lines == FieldLines::kBars ? draw_bars : draw_streamlines)(canvas, plane, *picture.found.field,
-                                                                    palette(style.theme), layout.unit);
+                                                                    page_colours(style.theme), layout.unit);
 }
 
 void draw_tracks(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style) {
@@ -316,7 +316,7 @@ void draw_displacements(const Canvas& canvas, const Layout& layout, const RodPic
   cairo_t* cr = canvas.cairo();
   const double unit = layout.unit * std::min(std::sqrt(std::max(style.zoom, 1.0)), 2.0);
   const double longest_head = 6 * unit, thickness = 1.3 * unit;
-  const Colour ink = palette(style.theme).ink, page = palette(style.theme).page;
+  const Colour ink = page_colours(style.theme).ink, page = page_colours(style.theme).page;
   for (std::size_t i = 0; i < picture.frame.displacement.size(); ++i) {
     const Vec2 way = picture.frame.displacement[i], middle = picture.frame.position[i].head<2>() - way / 2;
     const double length = way.norm() * plane.scale();  // [pixels]

@@ -71,7 +71,7 @@ RodBatch seen_rods(const RodPicture& picture, std::size_t species, const Picture
     for (std::size_t k = 0; k < beads.offset.size(); ++k) {
       towards = std::max(towards, beads.radius[k] - beads.offset[k] * n_rod.dot(camera.forward));
     }
-    const Colour colour = rod_colour(picture, i, colouring, range);
+    const Colour colour = rod_colour(picture, i, colouring, range, style.palette);
     for_images(camera.low, camera.high, camera.period, x.head<2>(), around, [&](const Vec2& at) {
       const Vec3 place(at.x(), at.y(), x.z()), seen = camera.seen(place);
       if (!camera.is_parallel) {
@@ -128,7 +128,7 @@ void set_scene(GLuint program, const Cell& cell, const Frame& frame, const Pictu
   pair("middle", cell.box_side / 2 - camera.eye.x(), cell.box_side / 2 - camera.eye.y());
   number("size", walls.size);
   number("inner", walls.inner);
-  const Palette colours = palette(style.theme);
+  const PageColours colours = page_colours(style.theme);
   three("page", colours.page);
   three("floor_colour", colours.floor);
   three("cut_colour", colours.walls);
@@ -195,7 +195,7 @@ Result<ImageOf<Channel>> RodsPass::draw(const RodPicture& picture, const Picture
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_ALWAYS);
   glDisable(GL_BLEND);
-  const Colour floor = palette(style.theme).floor;
+  const Colour floor = page_colours(style.theme).floor;
   glClearColor(static_cast<float>(floor[0]), static_cast<float>(floor[1]), static_cast<float>(floor[2]), 1);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   if (!camera.is_parallel || picture.cell.walls) {  // else there is nothing but floor

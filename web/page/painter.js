@@ -29,10 +29,10 @@ void main() {
   gl_Position = vec4(place * scale, 0.0, 1.0);
   float turned = (theta - director) / pi;
   turned -= floor(turned + 0.5);
-  if (colouring == 0) colour = texture(layers, vec2(clamp(turned * 6.0 + 0.5, 0.0, 1.0), 0.5)).rgb;
+  if (colouring == 0) colour = texture(layers, vec2(turned + 0.5, 0.5)).rgb;
   else if (colouring == 1) colour = texture(wheel, vec2(theta / pi, 0.5)).rgb;
-  else if (colouring == 2) colour = texture(tilt, vec2(min(abs(nz) * 2.0, 1.0), 0.5)).rgb;
-  if (colouring == 3 || (colouring == 0 && species > 0.5)) colour = speciesColour[min(int(species), 2)];
+  else if (colouring == 2) colour = texture(tilt, vec2(clamp(nz / 0.6 + 0.5, 0.0, 1.0), 0.5)).rgb;
+  if (colouring == 3 || (colouring < 2 && species > 0.5)) colour = speciesColour[min(int(species), 2)];
 }`;
 
 const kFragment = `#version 300 es
@@ -118,7 +118,6 @@ export class RodPainter {
     this.uniforms = Object.fromEntries(["scale", "outline", "director", "colouring", "speciesColour", ...kTextures].map(
       (name) => [name, gl.getUniformLocation(program, name)]));
     kTextures.forEach((name, unit) => gl.uniform1i(this.uniforms[name], unit));
-    gl.uniform3fv(this.uniforms.speciesColour, this.palettes.species.flatMap(rgb).map((c) => c / 255));
   }
 
   makeBuffers() {
@@ -168,6 +167,8 @@ export class RodPainter {
     gl.uniform3fv(uniforms.outline, frame.outlines.slice(0, 8).flat());
     gl.uniform1f(uniforms.director, frame.director_rad);
     gl.uniform1i(uniforms.colouring, kColourings.indexOf(colouring));
+    const ofSpecies = this.palettes[colouring === "species" ? "species" : "others"];
+    gl.uniform3fv(uniforms.speciesColour, ofSpecies.flatMap(rgb).map((c) => c / 255));
     const {count, rods, species} = instancesOf(frame, view);
     for (const [buffer, values] of [[this.rods, rods], [this.species, species]]) {
       gl.bindBuffer(gl.ARRAY_BUFFER, buffer);

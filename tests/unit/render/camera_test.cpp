@@ -94,7 +94,7 @@ TEST(OrbitView, AroundThePlateThereIsNothing) {
   RodsPass pass = RodsPass::create().value();
   const RodPicture picture = empty_picture(12);
   const Image image = pass.draw(picture, orbit(0, 40), 300, 200).value();
-  const Palette colours = palette(Theme::kLight);
+  const PageColours colours = page_colours(Theme::kLight);
   for (std::size_t c = 0; c < 3; ++c) {
     EXPECT_NEAR(image.pixel(3, 3)[c], 255 * colours.page[c], 1) << "beyond the plate";
     EXPECT_NEAR(image.pixel(296, 196)[c], 255 * colours.page[c], 1);

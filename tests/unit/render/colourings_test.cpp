@@ -94,13 +94,15 @@ TEST(Colourings, RodsWithoutAValueHaveTheColourOfTheirSpecies) {
   add_rod(picture, 9, 9, 0.3);
   picture.cell.species_of_rod = {0, 1, 2};
   for (const char* name : {"layers", "angle"}) {
-    EXPECT_EQ(rod_colour(picture, 1, by(name), by(name).range), species_colour(1)) << name;
-    EXPECT_EQ(rod_colour(picture, 2, by(name), by(name).range), species_colour(2)) << name;
+    EXPECT_EQ(rod_colour(picture, 1, by(name), by(name).range, Palette::kSafe), species_colour(1)) << name;
+    EXPECT_EQ(rod_colour(picture, 2, by(name), by(name).range, Palette::kSafe), species_colour(2)) << name;
   }
-  EXPECT_EQ(rod_colour(picture, 1, by("heading"), {0, 360}), species_colour(1)) << "a sphere has no head";
-  EXPECT_EQ(rod_colour(picture, 2, by("heading"), {0, 360}), heading_colour(0.3)) << "this rod has one";
-  EXPECT_EQ(rod_colour(picture, 0, by("speed"), {-20, 20}), no_value_colour());
-  EXPECT_NE(rod_colour(picture, 0, by("species"), {0, 2}), rod_colour(picture, 1, by("species"), {0, 2}));
+  EXPECT_EQ(rod_colour(picture, 1, by("heading"), {0, 360}, Palette::kSafe), species_colour(1))
+      << "a sphere has no head";
+  EXPECT_EQ(rod_colour(picture, 2, by("heading"), {0, 360}, Palette::kSafe), heading_colour(0.3)) << "this rod has one";
+  EXPECT_EQ(rod_colour(picture, 0, by("speed"), {-20, 20}, Palette::kSafe), no_value_colour());
+  EXPECT_NE(rod_colour(picture, 0, by("species"), {0, 2}, Palette::kSafe),
+            rod_colour(picture, 1, by("species"), {0, 2}, Palette::kSafe));
 }
 
 TEST(ChosenColour, FollowsTheOrder) {

@@ -104,7 +104,7 @@ TEST(GapView, ThePlatesAreDrawnWhereTheyAre) {
   }
   picture.frame.has_lid = false;
   const Image open = look(picture);
-  const Colour page = palette(Theme::kLight).page;
+  const Colour page = page_colours(Theme::kLight).page;
   EXPECT_NEAR(open.pixel(kWidth / 4, 5)[0], 255 * page[0], 1) << "nothing above";
 }
 

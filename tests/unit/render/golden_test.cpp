@@ -90,6 +90,7 @@ struct Case {
 
 const Case kCases[] = {
     {"layers", layered, R"({"style": "layers"})"},
+    {"layers_of_the_paper", layered, R"({"style": "layers", "palette": "paper"})"},
     {"layers_tall_dark", layered, R"({"style": "layers", "theme": "dark", "size": [270, 480]})"},
     {"defects", paired, R"({"style": "defects"})"},
     {"tracks",

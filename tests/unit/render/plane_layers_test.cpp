@@ -230,7 +230,7 @@ TEST(VectorFigure, AFolderThatDoesNotExistIsAnError) {
 
 /// The rods of a picture as write_vector() draws them, on pixels.
 Image flat_image(const RodPicture& picture, const PictureStyle& style) {
-  Canvas canvas(style.width, style.height, palette(style.theme).page);
+  Canvas canvas(style.width, style.height, page_colours(style.theme).page);
   const Layout layout = layout_of(style, {});
   draw_ground(canvas, layout, picture, style);
   draw_flat_rods(canvas, layout, picture, style);
@@ -253,7 +253,7 @@ TEST(FlatRods, HaveTheOutlineThatTheRasterisedOnesHave) {
   style.mark_defects = false;
   style.light.shadows = false;
   const Image flat = flat_image(picture, style), round = painter().paint(picture, style).value();
-  const Colour floor = palette(style.theme).floor;
+  const Colour floor = page_colours(style.theme).floor;
   const auto is_rod = [&](const std::uint8_t* p) {
     return std::abs(p[0] - 255 * floor[0]) + std::abs(p[1] - 255 * floor[1]) + std::abs(p[2] - 255 * floor[2]) > 40;
   };

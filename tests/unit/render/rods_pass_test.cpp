@@ -26,6 +26,7 @@ RodsPass& rods_pass() {
 PictureStyle layers() {
   PictureStyle style;
   style.colour = "layers";
+  style.palette = Palette::kPaper;  // red is told from the floor
   return style;
 }
 
@@ -140,7 +141,7 @@ TEST(RodsPass, BackgroundIsTheFloorAwayFromRods) {
   RodPicture picture = red_picture();
   add_rod(picture, 5, 5, 0);
   const Image image = draw(picture);
-  const Colour floor = palette(Theme::kLight).floor;
+  const Colour floor = page_colours(Theme::kLight).floor;
   for (const auto& [x, y] : {std::pair{0, 0}, {999, 999}, {500, 300}, {100, 500}}) {
     for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(image.pixel(x, y)[c], floor[c] * 255, 1) << x << ' ' << y;
   }
@@ -387,7 +388,7 @@ TEST(RodsPass, BeyondTheWallsTheFloorIsTinted) {
   for (const Theme theme : {Theme::kLight, Theme::kDark}) {
     PictureStyle style;
     style.theme = theme;
-    const Palette colours = palette(theme);
+    const PageColours colours = page_colours(theme);
     RodPicture picture = empty_picture(kBox);
     picture.cell.walls = SideWalls{Arena::kAnnulus, 8, 2};
     const Image annulus = draw(picture, style);
