@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "render/colours.h"
@@ -28,9 +29,11 @@ class Canvas {
   /// Of pixels, with nothing on it: what is drawn is laid over a picture afterwards.
   static Canvas transparent(int width, int height);
   /// Of lines and areas, as a file of the format that `ending` names: ".svg" or ".pdf". A PDF has a title and, as
-  /// keywords, the notes; its pages are as large as so many pixels are at `dpi` to the inch.
+  /// keywords, the notes; its pages are as large as so many pixels are at `dpi` to the inch. Without a
+  /// page's colour there is nothing under what is drawn.
   static Result<Canvas> vector(const std::filesystem::path& file, const std::string& ending, int width, int height,
-                               const Colour& page, const std::string& title, const Notes& notes, double dpi = 72);
+                               const std::optional<Colour>& page, const std::string& title, const Notes& notes,
+                               double dpi = 72);
 
   /// For paths: Cairo's own functions.
   cairo_t* cairo() const { return context_.get(); }
@@ -54,6 +57,8 @@ class Canvas {
   Image image() const;
   /// Lays a transparent canvas over a picture of its size.
   void lay_over(DeepImage& image) const;
+  /// Of an SVG: the elements of all text, which Cairo would write as outlines. They belong at the file's end.
+  std::string svg_words() const { return svg_words_ ? *svg_words_ : ""; }
   /// Ends a file.
   Result<void> finish();
 
@@ -65,6 +70,7 @@ class Canvas {
   };
   std::unique_ptr<cairo_surface_t, Free> surface_;
   std::unique_ptr<cairo_t, Free> context_;
+  std::unique_ptr<std::string> svg_words_;  // null unless an SVG is drawn
 };
 
 }  // namespace shaken::render

@@ -17,4 +17,10 @@ PageColours page_colours(Theme theme) {
   return {{1, 1, 1}, floor, {0.11, 0.12, 0.14}, {0.45, 0.46, 0.49}, {0.84, 0.845, 0.855}};
 }
 
+PageColours ground_colours(const PictureStyle& style) {
+  PageColours colours = page_colours(style.theme);
+  if (style.ground) colours.page = colours.floor = colours.walls = *style.ground;
+  return colours;
+}
+
 }  // namespace shaken::render

@@ -18,5 +18,7 @@ struct PageColours {
   Colour walls;  ///< what lies beyond the side walls
 };
 PageColours page_colours(Theme theme);
+/// The same, with the ground that the style has in place of the theme's.
+PageColours ground_colours(const PictureStyle& style);
 
 }  // namespace shaken::render

@@ -71,7 +71,7 @@ template <class Channel>
 Result<ImageOf<Channel>> Painter::paint(const RodPicture& picture, const PictureStyle& style) {
   if (auto done = check(style, picture); !done) return done.error();
   const PictureStyle drawn = drawable(style, picture);
-  Sheet<Channel> sheet(drawn.width, drawn.height, page_colours(drawn.theme).page);
+  Sheet<Channel> sheet(drawn.width, drawn.height, ground_colours(drawn).page);
   const Result<void> done =
       picture.beside.empty() ? paint_one(sheet, picture, drawn) : paint_panels(sheet, picture, drawn);
   if (!done) return done.error();
@@ -80,6 +80,29 @@ Result<ImageOf<Channel>> Painter::paint(const RodPicture& picture, const Picture
 }
 template Result<Image> Painter::paint(const RodPicture& picture, const PictureStyle& style);
 template Result<DeepImage> Painter::paint(const RodPicture& picture, const PictureStyle& style);
+
+Result<ClearImage> Painter::paint_clear(const RodPicture& picture, PictureStyle style) {
+  // What is seen of the ground where it is white, and not where it is black, is what shines through.
+  style.ground = Colour{0, 0, 0};
+  const Result<Image> on_black = paint(picture, style);
+  if (!on_black) return on_black.error();
+  style.ground = Colour{1, 1, 1};
+  const Result<Image> on_white = paint(picture, style);
+  if (!on_white) return on_white.error();
+  ClearImage clear{on_black->width, on_black->height, {}};
+  clear.rgba.reserve(on_black->rgb.size() / 3 * 4);
+  for (std::size_t i = 0; i < on_black->rgb.size(); i += 3) {
+    int through = 0;  // of three times 255
+    for (std::size_t c = i; c < i + 3; ++c) through += on_white->rgb[c] - on_black->rgb[c];
+    const int opacity = std::clamp(255 - (through + 1) / 3, 0, 255);
+    for (std::size_t c = i; c < i + 3; ++c) {
+      const int colour = opacity > 0 ? (on_black->rgb[c] * 255 + opacity / 2) / opacity : 0;
+      clear.rgba.push_back(static_cast<std::uint8_t>(std::min(colour, 255)));
+    }
+    clear.rgba.push_back(static_cast<std::uint8_t>(opacity));
+  }
+  return clear;
+}
 
 template <class Channel>
 Result<void> Painter::paint_one(Sheet<Channel>& sheet, const RodPicture& picture, const PictureStyle& style) {
@@ -128,7 +151,8 @@ Result<void> write_vector(const std::filesystem::path& file, const RodPicture& p
     return Error{"cannot write " + file.string() + ": " + why};
   };
   Result<Canvas> canvas =
-      Canvas::vector(unfinished, file.extension().string(), style.width, style.height, page_colours(style.theme).page,
+      Canvas::vector(unfinished, file.extension().string(), style.width, style.height,
+                     style.transparent ? std::nullopt : std::optional(page_colours(style.theme).page),
                      picture.captions.label, picture.captions.notes, style.dpi.value_or(72));
   if (!canvas) return failed(canvas.error().message);
   const auto draw_box = [&](const Layout& layout, const RodPicture& one) {
@@ -149,7 +173,8 @@ Result<void> write_vector(const std::filesystem::path& file, const RodPicture& p
   }
   if (auto done = canvas->finish(); !done) return failed(done.error().message);
   if (file.extension() == ".svg") {
-    if (auto done = add_notes_to_svg(unfinished, picture.captions.label, picture.captions.notes); !done) {
+    if (auto done = add_words_to_svg(unfinished, picture.captions.label, picture.captions.notes, canvas->svg_words());
+        !done) {
       return failed(done.error().message);
     }
   }

@@ -24,6 +24,9 @@ class Painter {
   template <class Channel = std::uint8_t>
   Result<ImageOf<Channel>> paint(const RodPicture& picture, const PictureStyle& style);
 
+  /// Without page and floor; shadows are dark and half clear. `style.transparent` need not be set.
+  Result<ClearImage> paint_clear(const RodPicture& picture, PictureStyle style);
+
  private:
   explicit Painter(RodsPass rods) : rods_(std::move(rods)) {}
   template <class Channel>

@@ -94,13 +94,17 @@ void arena_path(cairo_t* cr, const Plane& plane, const SideWalls& walls, double 
   cairo_arc(cr, middle.x(), middle.y(), walls.inner / 2 * plane.scale(), 0, 2 * kPi);
 }
 
-void draw_walls(const Canvas& canvas, const Plane& plane, const Cell& cell, const PageColours& colours, double unit) {
+void draw_walls(const Canvas& canvas, const Plane& plane, const Cell& cell, const PageColours& colours, double unit,
+                bool has_ground) {
   cairo_t* cr = canvas.cairo();
   cairo_rectangle(cr, plane.box().x, plane.box().y, plane.box().width, plane.box().height);
   arena_path(cr, plane, *cell.walls, cell.box_side);
   cairo_set_fill_rule(cr, CAIRO_FILL_RULE_EVEN_ODD);
-  canvas.colour(colours.walls);
-  cairo_fill(cr);
+  if (has_ground) {
+    canvas.colour(colours.walls);
+    cairo_fill(cr);
+  }
+  cairo_new_path(cr);
   cairo_set_fill_rule(cr, CAIRO_FILL_RULE_WINDING);
   arena_path(cr, plane, *cell.walls, cell.box_side);
   canvas.colour(colours.ink);
@@ -235,12 +239,13 @@ std::vector<Vec2> half_outline(BeadRow beads, double flat) {
 
 void draw_ground(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style) {
   const Plane plane(canvas, layout, picture, style);
-  const PageColours colours = page_colours(style.theme);
+  const PageColours colours = ground_colours(style);
   canvas.colour(colours.floor);
-  canvas.fill(plane.box());
+  if (!style.transparent || style.ground) canvas.fill(plane.box());
   if (style.background == Background::kOrder && picture.found.field)
     draw_order(canvas, plane, *picture.found.field, style.theme);
-  if (picture.cell.walls) draw_walls(canvas, plane, picture.cell, colours, layout.unit);
+  if (picture.cell.walls)
+    draw_walls(canvas, plane, picture.cell, colours, layout.unit, !style.transparent || style.ground);
 }
 
 void draw_flat_rods(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style) {

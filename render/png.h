@@ -18,4 +18,8 @@ template <class Channel>
 Result<void> write_png(const std::filesystem::path& file, const ImageOf<Channel>& image, const Notes& texts = {},
                        double dpi = 0);
 
+/// The same with opacity, of 8 bits.
+Result<void> write_png(const std::filesystem::path& file, const ClearImage& image, const Notes& texts = {},
+                       double dpi = 0);
+
 }  // namespace shaken::render

@@ -128,7 +128,7 @@ void set_scene(GLuint program, const Cell& cell, const Frame& frame, const Pictu
   pair("middle", cell.box_side / 2 - camera.eye.x(), cell.box_side / 2 - camera.eye.y());
   number("size", walls.size);
   number("inner", walls.inner);
-  const PageColours colours = page_colours(style.theme);
+  const PageColours colours = ground_colours(style);
   three("page", colours.page);
   three("floor_colour", colours.floor);
   three("cut_colour", colours.walls);
@@ -195,7 +195,7 @@ Result<ImageOf<Channel>> RodsPass::draw(const RodPicture& picture, const Picture
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_ALWAYS);
   glDisable(GL_BLEND);
-  const Colour floor = page_colours(style.theme).floor;
+  const Colour floor = ground_colours(style).floor;
   glClearColor(static_cast<float>(floor[0]), static_cast<float>(floor[1]), static_cast<float>(floor[2]), 1);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   if (!camera.is_parallel || picture.cell.walls) {  // else there is nothing but floor

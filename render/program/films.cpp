@@ -123,6 +123,9 @@ void make_film(const Options& options) {
   if (style.small && std::filesystem::path(out).extension() == ".gif") {
     throw Failure(ExitCode::kBadInput, "--small is of .mp4 and .webm: a .gif has one kind of compression");
   }
+  if (style.transparent) {
+    throw Failure(ExitCode::kBadInput, "--transparent is for pictures: films have no opacity");
+  }
   const Cut cut = cut_of(options, style, source);
   const double begin = cut.times.front(), end = cut.times.back();
   for (TrajectorySource& each : runs.all()) done_or_fail(each.read_history());

@@ -198,6 +198,13 @@ TEST(RenderProgram, EqualCallsGiveEqualFiles) {
   EXPECT_TRUE(bytes("picture --depth 16", "a16.png") == bytes("picture --depth 16", "b16.png"));
   EXPECT_EQ(bytes("picture --depth 16", "a16.png")[24], 16) << "bits a colour, as the file's head has it";
   EXPECT_EQ(run_program("picture " + folder.path().string() + " --depth 16 -o " + (folder / "c.pdf").string()).code, 2);
+  EXPECT_EQ(bytes("picture --transparent", "clear.png")[25], 6) << "colours and opacity, as the file's head has it";
+  EXPECT_EQ(bytes("picture", "full.png")[25], 2);
+  for (const char* refused : {"picture --depth 16 -o c.png ", "movie -o c.mp4 "}) {
+    const auto clear = run_program(refused + folder.path().string() + " --transparent");
+    EXPECT_EQ(clear.code, 2);
+    EXPECT_NE(clear.said.find("--transparent is for"), std::string::npos) << clear.said;
+  }
   for (const char* ending : {".mp4", ".gif", ".webm"}) {
     EXPECT_TRUE(bytes("movie --threads 1", (std::string("a") + ending).c_str()) ==
                 bytes("movie --threads 3", (std::string("b") + ending).c_str()))

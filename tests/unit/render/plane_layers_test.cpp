@@ -222,6 +222,62 @@ TEST(VectorFigure, IsASvgOrAPdf) {
   EXPECT_GT(paths(bytes_of(folder / "a.svg")), paths(svg) + picture.n_rods());
 }
 
+// What is written can be searched, and changed in a drawing program.
+TEST(VectorFigure, TextIsTextInAnSvg) {
+  const ScratchFolder folder;
+  RodPicture picture = planted_pair(0.2);
+  picture.captions.label = "\u03c6 < 0.8";
+  measure(picture, {});
+  ASSERT_TRUE(write_vector(folder / "a.svg", picture, {}));
+  const std::string svg = bytes_of(folder / "a.svg");
+  EXPECT_NE(svg.find("font-family=\"DejaVu Sans, Verdana, Arial, sans-serif\""), std::string::npos);
+  EXPECT_NE(svg.find(">\u03c6 &lt; 0.8</text>"), std::string::npos);
+  EXPECT_EQ(svg.find("glyph"), std::string::npos) << "no outlines of letters";
+  EXPECT_LT(svg.find("<path"), svg.find("<text")) << "over everything";
+}
+
+TEST(VectorFigure, WithoutGroundHasNoPageAndNoFloor) {
+  const ScratchFolder folder;
+  const auto areas = [&](bool transparent) {
+    PictureStyle style = bare();
+    style.transparent = transparent;
+    EXPECT_TRUE(write_vector(folder / "a.svg", empty_picture(10), style));
+    const std::string svg = bytes_of(folder / "a.svg");
+    std::size_t n = 0;
+    for (auto at = svg.find("fill:rgb"); at != std::string::npos; at = svg.find("fill:rgb", at + 1)) ++n;
+    return n;
+  };
+  EXPECT_EQ(areas(false), 2u);
+  EXPECT_EQ(areas(true), 0u);
+}
+
+// Laid over a colour, it is the picture that has this colour as its ground.
+TEST(ClearPicture, LaidOverAColourIsThePictureOnIt) {
+  RodPicture picture = empty_picture(10);
+  for (const double y : {2.0, 4.0, 6.0}) add_rod(picture, 5, y, 0.1 * y);
+  measure(picture, {});
+  PictureStyle style = bare();
+  const ClearImage clear = painter().paint_clear(picture, style).value();
+  const Colour grey{0.5, 0.4, 0.6};
+  style.ground = grey;
+  const Image on_grey = painter().paint(picture, style).value();
+  ASSERT_EQ(clear.rgba.size(), on_grey.rgb.size() / 3 * 4);
+  double worst = 0;
+  std::size_t n_clear = 0, n_full = 0;
+  for (std::size_t i = 0; i < on_grey.rgb.size() / 3; ++i) {
+    const double opacity = clear.rgba[4 * i + 3] / 255.0;
+    n_clear += opacity == 0 ? 1 : 0;
+    n_full += opacity == 1 ? 1 : 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double laid = opacity * clear.rgba[4 * i + c] + (1 - opacity) * 255 * grey[c];
+      worst = std::max(worst, std::abs(laid - on_grey.rgb[3 * i + c]));
+    }
+  }
+  EXPECT_LT(worst, 3);
+  EXPECT_GT(n_clear, clear.rgba.size() / 4 / 2);
+  EXPECT_GT(n_full, clear.rgba.size() / 4 / 20) << "rods are not";
+}
+
 TEST(VectorFigure, AFolderThatDoesNotExistIsAnError) {
   const auto done = write_vector("/nowhere/at/all/a.svg", empty_picture(10), bare());
   ASSERT_FALSE(done);
