@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <string_view>
 
 #include "render/notes.h"
 
@@ -82,12 +83,31 @@ void Canvas::line(double x0, double y0, double x1, double y1, double thickness) 
   cairo_stroke(cairo());
 }
 
+std::string typeset(const std::string& text) {
+  std::string drawn;
+  const auto is_digit = [&](std::size_t i) { return i < text.size() && text[i] >= '0' && text[i] <= '9'; };
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool begins = i == 0 || std::string_view(" =([,").find(text[i - 1]) != std::string_view::npos;
+    const bool is_micro = text[i] == 'u' && i >= 2 && text[i - 1] == ' ' && is_digit(i - 2) && i + 1 < text.size() &&
+                          (text[i + 1] == 's' || text[i + 1] == 'm') &&
+                          (i + 2 == text.size() || text[i + 2] == ',' || text[i + 2] == ' ');
+    if (text[i] == '-' && begins && is_digit(i + 1)) {
+      drawn += "\u2212";
+    } else if (is_micro) {
+      drawn += "\u00b5";
+    } else {
+      drawn += text[i];
+    }
+  }
+  return drawn;
+}
+
 double Canvas::text_width(const std::string& text, double size, bool bold) const {
   cairo_select_font_face(cairo(), "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
                          bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(cairo(), size);
   cairo_text_extents_t extents;
-  cairo_text_extents(cairo(), text.c_str(), &extents);
+  cairo_text_extents(cairo(), typeset(text).c_str(), &extents);
   return extents.x_advance;
 }
 
@@ -104,12 +124,12 @@ double Canvas::text(double x, double y, const std::string& text, double size, Al
         : align == Align::kCentre ? " text-anchor=\"middle\""
                                   : " text-anchor=\"end\"",
         std::lround(255 * red), std::lround(255 * green), std::lround(255 * blue),
-        opacity < 1 ? fmt::format(" fill-opacity=\"{:.3g}\"", opacity) : "", xml_text(text));
+        opacity < 1 ? fmt::format(" fill-opacity=\"{:.3g}\"", opacity) : "", xml_text(typeset(text)));
     return width;
   }
   const double shift = align == Align::kLeft ? 0 : align == Align::kCentre ? width / 2 : width;
   cairo_move_to(cairo(), x - shift, y);
-  cairo_show_text(cairo(), text.c_str());
+  cairo_show_text(cairo(), typeset(text).c_str());
   cairo_new_path(cairo());
   return width;
 }

@@ -21,6 +21,9 @@ struct Rect {
   double bottom() const { return y + height; }
 };
 
+/// Text as it is drawn: numbers below 0 with a real minus sign, and "4 us" as "4 µs".
+std::string typeset(const std::string& text);
+
 /// Where drawing with Cairo happens. Coordinates are pixels from the upper left corner.
 class Canvas {
  public:
@@ -44,7 +47,7 @@ class Canvas {
   void line(double x0, double y0, double x1, double y1, double thickness) const;
 
   enum class Align { kLeft, kCentre, kRight };
-  /// One line of text of `size` pixels with its baseline at y; returns its width.
+  /// One line of text of `size` pixels with its baseline at y, typeset(); returns its width.
   double text(double x, double y, const std::string& text, double size, Align align = Align::kLeft,
               bool bold = false) const;
   double text_width(const std::string& text, double size, bool bold = false) const;

@@ -46,7 +46,8 @@ void draw_curve(const Canvas& canvas, const Rect& place, double unit, const Curv
   const double size = 13 * unit;
   canvas.text(place.x, place.y + 12 * unit, curve.title,
               size * std::min(1.0, place.width / canvas.text_width(curve.title, size)));
-  const double left = 26 * unit;
+  double left = 26 * unit;
+  for (const Tick& tick : curve.y_ticks) left = std::max(left, canvas.text_width(tick.text, 12 * unit) + 6 * unit);
   Rect plot{place.x + left, place.y + 28 * unit, place.width - left, place.height - 50 * unit};
   if (curve.cells) {
     plot.width = plot.height = std::min(plot.height, plot.width - 48 * unit);  // which leaves room for the scale

@@ -23,7 +23,7 @@ constexpr std::pair<std::string_view, const char*> kSymbols[] = {
     {"rods.count", "N"},
     {"plates.gamma", "\u0393"},
     {"plates.frequency", "f"},
-    {"plates.amplitude", "A"},
+    {"plates.amplitude", "a"},
     {"box.side", "L"},
     {"box.gap", "w"},
     {"time.step", "dt"},

@@ -37,21 +37,21 @@ Curve angle_curve(const RodPicture& picture) {
   analysis::AngleDistribution distribution(directors.size() < 200 ? 18 : 36);
   distribution.accumulate(directors);
   const analysis::AnglePdf pdf = distribution.reduce();
-  Curve curve{.title = "P(\u03b8) [1/rad]",
-              .y = pdf.density,
+  Curve curve{.title = "P(\u03b8) (1/\u00b0)",
               .x_ticks = {{-90, "\u221290\u00b0"}, {0, "0\u00b0"}, {90, "90\u00b0"}},
               .y_ticks = {},
               .is_area = true};
   for (const double theta : pdf.theta) curve.x.push_back(theta * 180 / kPi);
+  for (const double density : pdf.density) curve.y.push_back(density * kPi / 180);
   // +90 and -90 degrees are one angle: the curve goes on from either end to the other.
   const double width = 180 / static_cast<double>(curve.x.size());
   curve.x.insert(curve.x.begin(), curve.x.front() - width / 2);
   curve.x.push_back(curve.x.back() + width / 2);
-  const double at_end = (pdf.density.front() + pdf.density.back()) / 2;
+  const double at_end = (curve.y.front() + curve.y.back()) / 2;
   curve.y.insert(curve.y.begin(), at_end);
   curve.y.push_back(at_end);
   const double most =
-      std::max({*std::max_element(curve.y.begin(), curve.y.end()), picture.captions.axes.density, 1 / kPi});
+      std::max({*std::max_element(curve.y.begin(), curve.y.end()), picture.captions.axes.density, 1 / 180.0});
   const double step = tick_step(most, 3), top = std::ceil(most / step - 1e-9) * step;
   for (const double value : ticks(0, top, step)) curve.y_ticks.push_back({value, tick_text(value)});
   return curve;
@@ -92,7 +92,7 @@ Curve g2_map(const RodPicture& picture) {
   const double low = known.empty() ? 0 : known[known.size() / 50];
   const double bottom = low >= 0.8 ? 0.8 : low >= 0.5 ? 0.5 : low >= -0.1 ? 0 : -1;
   const std::string end = fmt::format("{:.3g}", range);
-  return {.title = "G\u2082 along (\u2194) and across N [mm]",
+  return {.title = "G\u2082 along (\u2194) and across N (mm)",
           .x_ticks = {{-range, "\u2212" + end}, {0, "0"}, {range, end}},
           .y_ticks = {{-range, "\u2212" + end}, {0, "0"}, {range, end}},
           .cells = Curve::Cells{.columns = static_cast<std::size_t>(bins),

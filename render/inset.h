@@ -10,7 +10,7 @@ namespace shaken::render {
 
 /// S(t) so far, with a dot at the present, on an axis as long as the run.
 Curve order_curve(const RodPicture& picture);
-/// P(theta) of this instant, as a run measures it (analysis/angles.h) [1/rad], against degrees.
+/// P(theta) of this instant, as a run measures it (analysis/angles.h) [1/degree], against degrees.
 Curve angle_curve(const RodPicture& picture);
 /// G2(r) of this instant, as a run measures it (analysis/g2.h), up to half a box [mm].
 Curve g2_curve(const RodPicture& picture);

@@ -94,7 +94,7 @@ void draw_line_legend(const Canvas& canvas, const Rect& place, double unit, cons
   const bool is_relative = std::string_view(colouring.name) == "layers";
   canvas.colour(colours.ink);
   std::string title = colouring.title;
-  if (!is_angle && !std::string_view(colouring.unit).empty()) title += fmt::format(" [{}]", colouring.unit);
+  if (!is_angle && !std::string_view(colouring.unit).empty()) title += fmt::format(" ({})", colouring.unit);
   draw_title(canvas, place, unit, title + ", % of rods", place.width - (is_relative ? 44 * unit : 0));
   if (is_relative && !histogram.is_empty) {
     draw_axis(canvas, place.right() - 18 * unit, place.y + 10 * unit, found.director_angle, unit);

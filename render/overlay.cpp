@@ -226,10 +226,10 @@ std::vector<Number> numbers_of(const RodPicture& picture, const PictureStyle& st
                   : "spheres",
        seen == picture.n_rods() ? fmt::format("{}", seen) : fmt::format("{}/{}", seen, picture.n_rods())});
   if (!is_mixture) {
-    numbers.push_back({has_axes ? "rod length" : "diameter", fmt::format("{:.4g} mm", picture.rod_length())});
+    numbers.push_back({has_axes ? "length \u2113" : "diameter d", fmt::format("{:.4g} mm", picture.rod_length())});
   }
   numbers.push_back({"packing \u03c6", fmt::format("{:.2f}", picture.area_fraction())});
-  numbers.push_back({"gap", fmt::format("{:.4g} mm", cell.gap)});
+  numbers.push_back({"gap w", fmt::format("{:.4g} mm", cell.gap)});
   return numbers;
 }
 

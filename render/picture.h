@@ -50,7 +50,7 @@ using Notes = std::vector<std::pair<std::string, std::string>>;
 /// How high plots reach in a film, so that their axes stand still (render/film_axes.h); 0: as this picture needs.
 struct FilmAxes {
   double share = 0;    ///< of rods, the highest bar of the legend
-  double density = 0;  ///< P(theta) [1/rad]
+  double density = 0;  ///< P(theta) [1/degree]
 };
 
 /// Rods and plates at one instant.

@@ -33,10 +33,11 @@ TEST(Inset, AnglesAreThoseToTheDirectorWhateverItIs) {
     const auto right = std::max_element(curve.y.begin() + static_cast<std::ptrdiff_t>(middle), curve.y.end());
     EXPECT_NEAR(curve.x[static_cast<std::size_t>(left - curve.y.begin())], -17.2, 2.6);
     EXPECT_NEAR(curve.x[static_cast<std::size_t>(right - curve.y.begin())], 17.2, 2.6);
-    // All rods lie in two bins of 5 degrees: 1 / (2 * 5 degrees) = 5.73 per rad.
-    EXPECT_NEAR(*left, 5.73, 0.01);
-    EXPECT_NEAR(*right, 5.73, 0.01);
-    EXPECT_GE(curve.y_ticks.back().at, *left) << "the axis reaches above the curve";
+    // All rods lie in two bins of 5 degrees: 1 / (2 * 5 degrees).
+    EXPECT_NEAR(*left, 0.1, 2e-4);
+    EXPECT_NEAR(*right, 0.1, 2e-4);
+    EXPECT_EQ(curve.title, "P(\u03b8) (1/\u00b0)") << "as its axis has it";
+    EXPECT_GE(curve.y_ticks.back().at, *left - 1e-9) << "the axis reaches above the curve";
     EXPECT_NEAR(curve.x.front(), -90, 1e-9);
     EXPECT_NEAR(curve.x.back(), 90, 1e-9);
   }

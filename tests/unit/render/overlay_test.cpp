@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/canvas.h"
 #include "render/colourings.h"
 #include "render/colours.h"
+#include "render/marks.h"
 #include "render/picture_layout.h"
 #include "render/rods_pass.h"
 #include "render/view.h"
@@ -36,6 +38,47 @@ int grey_at(const Image& image, const Vec2& place, double distance, double angle
 
 // The floor is brighter than kDark and darker than white.
 constexpr int kDark = 60, kWhite = 252;
+
+/// Relative luminance (WCAG 2.1, IEC 61966-2-1).
+double luminance(const Colour& colour) {
+  const auto linear = [](double x) { return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4); };
+  return 0.2126 * linear(colour[0]) + 0.7152 * linear(colour[1]) + 0.0722 * linear(colour[2]);
+}
+
+double contrast(const Colour& a, const Colour& b) {
+  const auto [low, high] = std::minmax({luminance(a), luminance(b)});
+  return (high + 0.05) / (low + 0.05);
+}
+
+// Whoever comes from the page meets a colour that stands out, before all others; and the next stands out from that.
+TEST(Marks, OutlinesHoldContrastOnEveryPage) {
+  for (const Theme theme : {Theme::kLight, Theme::kDark, Theme::kPrint}) {
+    for (const Colour& page : {page_colours(theme).page, page_colours(theme).floor}) {
+      for (const bool is_plus : {true, false}) {
+        Canvas canvas(400, 400, page);
+        (is_plus ? draw_plus_half : draw_minus_half)(canvas, 200, 200, 0, 6);
+        const Image image = canvas.image();
+        // To the left of the middle are the head of the comet and the gap between two arms.
+        std::vector<Colour> met;
+        int since = 0;
+        for (int x = 0; x <= 200; ++x) {
+          const std::uint8_t *now = image.pixel(x, 200), *before = image.pixel(std::max(x - 1, 0), 200);
+          since = std::equal(now, now + 3, before) ? since + 1 : 0;
+          const Colour colour{now[0] / 255.0, now[1] / 255.0, now[2] / 255.0};
+          if (since == 2 && (met.empty() || met.back() != colour)) met.push_back(colour);
+        }
+        ASSERT_GE(met.size(), 4u) << "page, rim, rim, body";
+        for (std::size_t k = 1; k < 4; ++k) EXPECT_GE(contrast(met[k - 1], met[k]), 3) << k << ' ' << is_plus;
+      }
+    }
+  }
+}
+
+TEST(Typeset, MinusAndMicroAreThoseOfPrint) {
+  EXPECT_EQ(typeset("-3 mm, x = -0.5, 1e-3"), "\u22123 mm, x = \u22120.5, 1e-3");
+  EXPECT_EQ(typeset("dt = 4 us, 2 um"), "dt = 4 \u00b5s, 2 \u00b5m");
+  EXPECT_EQ(typeset("run-2 of 3 users"), "run-2 of 3 users");
+}
 
 TEST(Overlay, APlusHalfIsACometWithItsTailAlongItsDirection) {
   for (const double direction : {0.0, 2.0, -1.2}) {
