@@ -90,11 +90,9 @@ void draw_line_legend(const Canvas& canvas, const Rect& place, double unit, cons
   const PageColours colours = page_colours(style.theme);
   constexpr double kLeast = 28;  // units; lower bars say nothing
   if (place.height < (kLeast + 62) * unit) return draw_narrow_legend(canvas, place, unit, colouring, range, style);
-  const bool is_angle = std::string_view(colouring.unit) == "\u00b0";
   const bool is_relative = std::string_view(colouring.name) == "layers";
   canvas.colour(colours.ink);
-  std::string title = colouring.title;
-  if (!is_angle && !std::string_view(colouring.unit).empty()) title += fmt::format(" ({})", colouring.unit);
+  const std::string title = title_of(colouring);
   draw_title(canvas, place, unit, title + ", % of rods", place.width - (is_relative ? 44 * unit : 0));
   if (is_relative && !histogram.is_empty) {
     draw_axis(canvas, place.right() - 18 * unit, place.y + 10 * unit, found.director_angle, unit);
@@ -220,6 +218,11 @@ bool shows_background_alone(const PictureStyle& style) {
 }
 
 }  // namespace
+
+std::string title_of(const Colouring& colouring) {
+  const std::string_view unit = colouring.unit;
+  return unit.empty() || unit == "\u00b0" ? colouring.title : fmt::format("{} ({})", colouring.title, unit);
+}
 
 void draw_colour_bar(const Canvas& canvas, const Rect& bar, double unit, const Colouring& colouring, const Vec2& range,
                      const PictureStyle& style, bool is_below, bool is_above) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
+
 #include "render/canvas.h"
 #include "render/colourings.h"
 #include "render/picture.h"
@@ -13,6 +15,9 @@ bool has_scale(const RodPicture& picture, const PictureStyle& style);
 
 /// The largest share of the rods that one bar of the legend has; 0 if it has none.
 double highest_bar(const RodPicture& picture, const PictureStyle& style);
+
+/// What a scale is called, with its unit if that does not stand at its ticks: "Velocity along the axis (mm/s)".
+std::string title_of(const Colouring& colouring);
 
 /// A scale's colours, continuous, with ticks below them. `is_below`, `is_above`: whether its ends stand for values
 /// beyond it, too.

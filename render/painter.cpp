@@ -28,6 +28,8 @@ Layout layout_for(const RodPicture& picture, const PictureStyle& style) {
   return style.view != ViewPoint::kTop ? stage_layout_of(style, contents) : layout_of(style, contents);
 }
 
+constexpr int kLeastSide = 40;  // of a box among others [pixels]
+
 /// Of a picture and those beside it, the one of panel `i`.
 const RodPicture& panel_of(const RodPicture& picture, std::size_t i) {
   return i == 0 ? picture : picture.beside[i - 1];
@@ -51,7 +53,6 @@ Result<void> check(const PictureStyle& style, const RodPicture& picture) {
   if (!picture.beside.empty() && style.view != ViewPoint::kTop) {
     return Error{"several runs are drawn beside each other from above only, not in perspective"};
   }
-  constexpr int kLeastSide = 40;  // [pixels]
   if (!picture.beside.empty() && panel_grid(style, 1 + picture.beside.size()).panels.front().box_side < kLeastSide) {
     return Error{"there is no room for " + std::to_string(1 + picture.beside.size()) +
                  " runs: make the picture larger"};
@@ -102,6 +103,25 @@ Result<ClearImage> Painter::paint_clear(const RodPicture& picture, PictureStyle 
     clear.rgba.push_back(static_cast<std::uint8_t>(opacity));
   }
   return clear;
+}
+
+Result<Image> Painter::paint_map(const PhaseMap& map, const PictureStyle& style) {
+  if (auto done = render::check(style); !done) return done.error();
+  const MapLayout layout = map_layout(map, style);
+  if (layout.side < kLeastSide) {
+    return Error{"there is no room for " + std::to_string(map.x.values.size()) + " x " +
+                 std::to_string(map.y.values.size()) + " pictures: make the map larger"};
+  }
+  Sheet<std::uint8_t> sheet(style.width, style.height, page_colours(style.theme).page);
+  for (const PhaseMap::Cell& cell : map.cells) {
+    if (!cell.picture) continue;
+    const Result<Image> rods = rods_.draw<std::uint8_t>(*cell.picture, style, layout.side, layout.side);
+    if (!rods) return rods.error();
+    const Vec2 at = layout.corner(cell);
+    sheet.paste(*rods, static_cast<int>(at.x()), static_cast<int>(at.y()), 1);
+  }
+  draw_map_words(sheet.over(), layout, map, style);
+  return sheet.image();
 }
 
 template <class Channel>

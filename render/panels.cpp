@@ -107,9 +107,7 @@ void draw_footer(const Canvas& canvas, const PanelGrid& grid, const RodPicture& 
   const Vec2 range = range_of(colouring, style);
   const Rect strip{grid.footer.x + 0.4 * grid.footer.width, bottom - 23 * u, 0.3 * grid.footer.width, 10 * u};
   draw_colour_bar(canvas, strip, u, colouring, range, style);
-  const std::string unit =
-      *colouring.unit != 0 && std::string_view(colouring.unit) != "\u00b0" ? fmt::format(" ({})", colouring.unit) : "";
-  canvas.text(strip.x + strip.width / 2, strip.y - 5 * u, colouring.title + unit, 12 * u, Canvas::Align::kCentre);
+  canvas.text(strip.x + strip.width / 2, strip.y - 5 * u, title_of(colouring), 12 * u, Canvas::Align::kCentre);
 }
 
 }  // namespace shaken::render
