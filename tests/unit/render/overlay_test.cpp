@@ -289,7 +289,7 @@ TEST(Overlay, EachSpeciesIsShownWithItsNumberAndItsOrder) {
   style.colour = "layers";
   for (const Number& number : numbers_of(picture, style)) {
     EXPECT_NE(number.name, "order S") << "of which of them?";
-    EXPECT_NE(number.name, "rod length");
+    EXPECT_NE(number.name, "length \u2113");
     EXPECT_TRUE(number.name != "bodies" || number.value == "6");
   }
   const Layout layout = layout_of(style, {.species = 3});
