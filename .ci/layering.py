@@ -52,7 +52,7 @@ ALLOWED = {
     "render/headline.cpp": ["render", "base/keys", "scene/fields.h"],
     # the defaults of the director field whose defects are drawn
     "render/measure.cpp": ["render", "scene/measure_plan.h", "sim/system.h", "analysis"],
-    "render": ["base/files.h", "base/keys", "base/picture_limits.h", "base/text.h", "sim/cell.h",
+    "render": ["base/files.h", "base/keys", "base/palettes.h", "base/picture_limits.h", "base/text.h", "sim/cell.h",
                "analysis"],
     "proto/relay": ["proto", "base"],
     "server": ["proto", "proto/relay", "base/http", "base", "scene", "run/files"],

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 #include "client/live/api_client.h"
 #include "client/live/target.h"
@@ -73,6 +74,22 @@ Drawn find_one(const Context& context, const std::string& job) {
   return drawn;
 }
 
+/// The first two numbers that differ between the rows.
+std::vector<std::string> axes_of(const std::vector<ResultRow>& rows, const std::string& sweep) {
+  std::vector<std::string> axes;
+  for (const std::string& path : swept_parameters(rows)) {
+    if (axes.size() < 2 && !std::isnan(rows.front().number(path))) axes.push_back(path);
+  }
+  if (axes.empty()) {
+    throw Failure(ExitCode::kBadInput, fmt::format("no number is swept in sweep {}, so it has no diagram", sweep));
+  }
+  return axes;
+}
+
+Json place_of(const ResultRow& row, const std::vector<std::string>& axes) {
+  return Json::array({row.number(axes.front()), axes.size() > 1 ? Json(row.number(axes[1])) : Json(nullptr)});
+}
+
 }  // namespace
 
 std::vector<Drawn> find_drawn(const Context& context, const std::vector<std::string>& jobs) {
@@ -87,20 +104,11 @@ std::string sweep_of(const Context& context, const std::vector<Drawn>& drawn) {
   if (sweep.empty()) throw Failure(ExitCode::kBadInput, "--inset sweep takes jobs of a sweep, not run directories");
   ApiClient session(context.root());
   const std::vector<ResultRow> rows = result_rows(session, find_target(session, sweep));
-  std::vector<std::string> axes;
-  for (const std::string& path : swept_parameters(rows)) {
-    if (axes.size() < 2 && !std::isnan(rows.front().number(path))) axes.push_back(path);
-  }
-  if (axes.empty()) {
-    throw Failure(ExitCode::kBadInput, fmt::format("no number is swept in sweep {}, so it has no diagram", sweep));
-  }
-  const auto place = [&](const ResultRow& row) {
-    return Json::array({row.number(axes.front()), axes.size() > 1 ? Json(row.number(axes[1])) : Json(nullptr)});
-  };
+  const std::vector<std::string> axes = axes_of(rows, sweep);
   Json said = {
       {"x", axes.front()}, {"y", axes.size() > 1 ? axes[1] : ""}, {"points", Json::array()}, {"here", Json::array()}};
   for (const ResultRow& row : aggregated(rows)) {
-    Json point = place(row);
+    Json point = place_of(row, axes);
     const double order = row.number("order.mean");
     point.push_back(std::isnan(order) ? Json(nullptr) : Json(order));
     said["points"].push_back(std::move(point));
@@ -111,7 +119,24 @@ std::string sweep_of(const Context& context, const std::vector<Drawn>& drawn) {
     if (row == rows.end()) {
       throw Failure(ExitCode::kBadInput, fmt::format("job {} does not belong to sweep {}", one.name, sweep));
     }
-    said["here"].push_back(place(*row));
+    said["here"].push_back(place_of(*row, axes));
+  }
+  return said.dump();
+}
+
+std::string map_of(const Context& context, const std::string& sweep) {
+  ApiClient session(context.root());
+  const Target target = find_target(session, sweep);
+  if (!target.is_sweep) throw Failure(ExitCode::kBadInput, fmt::format("--map takes a sweep, and {} is a job", sweep));
+  const std::vector<ResultRow> rows = result_rows(session, target);
+  const std::vector<std::string> axes = axes_of(rows, sweep);
+  Json said = {{"x", axes.front()}, {"y", axes.size() > 1 ? axes[1] : ""}, {"cells", Json::array()}};
+  std::set<std::string> seen;  // of replicas, and of runs that differ in more, one is shown
+  for (const ResultRow& row : rows) {
+    Json cell = place_of(row, axes);
+    if (!seen.insert(cell.dump()).second) continue;
+    cell.push_back(row.fields.value("directory", ""));
+    said["cells"].push_back(std::move(cell));
   }
   return said.dump();
 }

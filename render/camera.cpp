@@ -45,8 +45,8 @@ Camera into_the_gap(const RodPicture& picture, const PictureStyle& style, double
   camera.distance = camera.nearest = kDistance * gap;
   camera.farthest = camera.nearest + kDepth * gap;
   Vec2 at = style.focus * picture.cell.box_side;
-  if (const std::optional<std::size_t> rod = followed_rod(picture, style)) {
-    at = picture.position[*rod].head<2>() - Vec2(0, 1.5 * gap);
+  if (const std::optional<std::size_t> rod = followed_rod(picture.frame, style)) {
+    at = picture.frame.position[*rod].head<2>() - Vec2(0, 1.5 * gap);
   }
   // The eye rests, so that the plates are seen to move; a vibration is small against the gap.
   camera.eye = Vec3(at.x(), at.y() - camera.nearest, kEyeHeight * gap);
@@ -83,7 +83,7 @@ Camera around_the_box(const RodPicture& picture, const PictureStyle& style, doub
   }
   camera.half /= std::max(style.zoom, 1.0);
   Vec3 at = Vec3(style.focus.x() * side, style.focus.y() * side, gap / 2);
-  if (const std::optional<std::size_t> rod = followed_rod(picture, style)) at = picture.position[*rod];
+  if (const std::optional<std::size_t> rod = followed_rod(picture.frame, style)) at = picture.frame.position[*rod];
   camera.eye = at - camera.distance * camera.forward;
   camera.nearest = 1e-3 * camera.distance;
   camera.farthest = camera.distance + 2 * radius + gap;

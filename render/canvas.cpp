@@ -3,10 +3,15 @@
 
 #include <cairo-pdf.h>
 #include <cairo-svg.h>
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <string_view>
+
+#include "render/notes.h"
 
 namespace shaken::render {
 
@@ -21,7 +26,8 @@ Canvas Canvas::transparent(int width, int height) {
 }
 
 Result<Canvas> Canvas::vector(const std::filesystem::path& file, const std::string& ending, int width, int height,
-                              const Colour& page, const std::string& title, const Notes& notes, double dpi) {
+                              const std::optional<Colour>& page, const std::string& title, const Notes& notes,
+                              double dpi) {
   cairo_surface_t* surface = nullptr;
   if (ending == ".svg") {
     surface = cairo_svg_surface_create(file.c_str(), width, height);
@@ -38,8 +44,11 @@ Result<Canvas> Canvas::vector(const std::filesystem::path& file, const std::stri
   }
   Canvas canvas(surface);
   if (ending == ".pdf") cairo_scale(canvas.cairo(), 72 / dpi, 72 / dpi);
-  canvas.colour(page);
-  cairo_paint(canvas.cairo());
+  if (ending == ".svg") canvas.svg_words_ = std::make_unique<std::string>();
+  if (page) {
+    canvas.colour(*page);
+    cairo_paint(canvas.cairo());
+  }
   if (const cairo_status_t status = cairo_surface_status(surface); status != CAIRO_STATUS_SUCCESS) {
     return Error{"cannot write " + file.string() + ": " + cairo_status_to_string(status)};
   }
@@ -74,20 +83,53 @@ void Canvas::line(double x0, double y0, double x1, double y1, double thickness) 
   cairo_stroke(cairo());
 }
 
+std::string typeset(const std::string& text) {
+  std::string drawn;
+  const auto is_digit = [&](std::size_t i) { return i < text.size() && text[i] >= '0' && text[i] <= '9'; };
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool begins = i == 0 || std::string_view(" =([,").find(text[i - 1]) != std::string_view::npos;
+    const bool is_micro = text[i] == 'u' && i >= 2 && text[i - 1] == ' ' && is_digit(i - 2) && i + 1 < text.size() &&
+                          (text[i + 1] == 's' || text[i + 1] == 'm') &&
+                          (i + 2 == text.size() || text[i + 2] == ',' || text[i + 2] == ' ');
+    if (text[i] == '-' && begins && is_digit(i + 1)) {
+      drawn += "\u2212";
+    } else if (is_micro) {
+      drawn += "\u00b5";
+    } else {
+      drawn += text[i];
+    }
+  }
+  return drawn;
+}
+
 double Canvas::text_width(const std::string& text, double size, bool bold) const {
   cairo_select_font_face(cairo(), "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
                          bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(cairo(), size);
   cairo_text_extents_t extents;
-  cairo_text_extents(cairo(), text.c_str(), &extents);
+  cairo_text_extents(cairo(), typeset(text).c_str(), &extents);
   return extents.x_advance;
 }
 
 double Canvas::text(double x, double y, const std::string& text, double size, Align align, bool bold) const {
   const double width = text_width(text, size, bold);
+  if (svg_words_) {
+    double red = 0, green = 0, blue = 0, opacity = 1;
+    cairo_pattern_get_rgba(cairo_get_source(cairo()), &red, &green, &blue, &opacity);
+    *svg_words_ += fmt::format(
+        R"(<text x="{:.2f}" y="{:.2f}" font-family="DejaVu Sans, Verdana, Arial, sans-serif" font-size="{:.2f}"{}{} fill="#{:02x}{:02x}{:02x}"{}>{}</text>)"
+        "\n",
+        x, y, size, bold ? " font-weight=\"bold\"" : "",
+        align == Align::kLeft     ? ""
+        : align == Align::kCentre ? " text-anchor=\"middle\""
+                                  : " text-anchor=\"end\"",
+        std::lround(255 * red), std::lround(255 * green), std::lround(255 * blue),
+        opacity < 1 ? fmt::format(" fill-opacity=\"{:.3g}\"", opacity) : "", xml_text(typeset(text)));
+    return width;
+  }
   const double shift = align == Align::kLeft ? 0 : align == Align::kCentre ? width / 2 : width;
   cairo_move_to(cairo(), x - shift, y);
-  cairo_show_text(cairo(), text.c_str());
+  cairo_show_text(cairo(), typeset(text).c_str());
   cairo_new_path(cairo());
   return width;
 }

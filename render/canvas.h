@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "render/colours.h"
@@ -20,6 +21,9 @@ struct Rect {
   double bottom() const { return y + height; }
 };
 
+/// Text as it is drawn: numbers below 0 with a real minus sign, and "4 us" as "4 µs".
+std::string typeset(const std::string& text);
+
 /// Where drawing with Cairo happens. Coordinates are pixels from the upper left corner.
 class Canvas {
  public:
@@ -28,9 +32,11 @@ class Canvas {
   /// Of pixels, with nothing on it: what is drawn is laid over a picture afterwards.
   static Canvas transparent(int width, int height);
   /// Of lines and areas, as a file of the format that `ending` names: ".svg" or ".pdf". A PDF has a title and, as
-  /// keywords, the notes; its pages are as large as so many pixels are at `dpi` to the inch.
+  /// keywords, the notes; its pages are as large as so many pixels are at `dpi` to the inch. Without a
+  /// page's colour there is nothing under what is drawn.
   static Result<Canvas> vector(const std::filesystem::path& file, const std::string& ending, int width, int height,
-                               const Colour& page, const std::string& title, const Notes& notes, double dpi = 72);
+                               const std::optional<Colour>& page, const std::string& title, const Notes& notes,
+                               double dpi = 72);
 
   /// For paths: Cairo's own functions.
   cairo_t* cairo() const { return context_.get(); }
@@ -41,7 +47,7 @@ class Canvas {
   void line(double x0, double y0, double x1, double y1, double thickness) const;
 
   enum class Align { kLeft, kCentre, kRight };
-  /// One line of text of `size` pixels with its baseline at y; returns its width.
+  /// One line of text of `size` pixels with its baseline at y, typeset(); returns its width.
   double text(double x, double y, const std::string& text, double size, Align align = Align::kLeft,
               bool bold = false) const;
   double text_width(const std::string& text, double size, bool bold = false) const;
@@ -54,6 +60,8 @@ class Canvas {
   Image image() const;
   /// Lays a transparent canvas over a picture of its size.
   void lay_over(DeepImage& image) const;
+  /// Of an SVG: the elements of all text, which Cairo would write as outlines. They belong at the file's end.
+  std::string svg_words() const { return svg_words_ ? *svg_words_ : ""; }
   /// Ends a file.
   Result<void> finish();
 
@@ -65,6 +73,7 @@ class Canvas {
   };
   std::unique_ptr<cairo_surface_t, Free> surface_;
   std::unique_ptr<cairo_t, Free> context_;
+  std::unique_ptr<std::string> svg_words_;  // null unless an SVG is drawn
 };
 
 }  // namespace shaken::render

@@ -16,19 +16,19 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kDegree = kPi / 180;
 
 bool has_axis(const RodPicture& picture, std::size_t rod) {
-  const Vec3& n = picture.director[rod];
+  const Vec3& n = picture.frame.director[rod];
   return picture.cell.beads_of(rod).has_axis() && (n.x() != 0 || n.y() != 0);
 }
 
 double in_plane(const RodPicture& picture, std::size_t rod) {
-  return std::atan2(picture.director[rod].y(), picture.director[rod].x());
+  return std::atan2(picture.frame.director[rod].y(), picture.frame.director[rod].x());
 }
 
 // The values.
 
 double angle_to_director(const RodPicture& picture, std::size_t rod) {
   if (picture.cell.species_of(rod) != 0 || !has_axis(picture, rod)) return kNone;
-  return analysis::fold_half_turn(in_plane(picture, rod) - picture.director_angle) / kDegree;
+  return analysis::fold_half_turn(in_plane(picture, rod) - picture.found.director_angle) / kDegree;
 }
 
 double angle_in_box(const RodPicture& picture, std::size_t rod) {
@@ -44,21 +44,21 @@ double heading(const RodPicture& picture, std::size_t rod) {
 }
 
 double tilt(const RodPicture& picture, std::size_t rod) {
-  return picture.cell.beads_of(rod).has_axis() ? picture.director[rod].z() : kNone;
+  return picture.cell.beads_of(rod).has_axis() ? picture.frame.director[rod].z() : kNone;
 }
 
 double speed(const RodPicture& picture, std::size_t rod) {
-  if (picture.velocity.empty() || !has_axis(picture, rod)) return kNone;
-  return picture.velocity[rod].dot(picture.director[rod]);
+  if (picture.frame.velocity.empty() || !has_axis(picture, rod)) return kNone;
+  return picture.frame.velocity[rod].dot(picture.frame.director[rod]);
 }
 
 double local_order(const RodPicture& picture, std::size_t rod) {
-  if (!picture.field) return kNone;
-  return 2 * picture.field->q_at(picture.position[rod].head<2>()).norm();
+  if (!picture.found.field) return kNone;
+  return 2 * picture.found.field->q_at(picture.frame.position[rod].head<2>()).norm();
 }
 
 double density(const RodPicture& picture, std::size_t rod) {
-  return picture.density.empty() ? kNone : picture.density[rod];
+  return picture.found.density.empty() ? kNone : picture.found.density[rod];
 }
 
 double species(const RodPicture& picture, std::size_t rod) { return static_cast<double>(picture.cell.species_of(rod)); }
@@ -67,15 +67,15 @@ double number(const RodPicture&, std::size_t rod) { return static_cast<double>(r
 
 // The colours.
 
-Colour by_layer(double degrees, const Vec2&) { return layer_colour(degrees * kDegree); }
-Colour by_axis(double degrees, const Vec2&) { return wheel_colour(degrees * kDegree); }
-Colour by_heading(double degrees, const Vec2&) { return heading_colour(degrees * kDegree); }
-Colour by_sign(double value, const Vec2& range) { return diverging_colour(value / range.y()); }
-Colour by_size(double value, const Vec2& range) {
+Colour by_layer(double degrees, const Vec2&, Palette palette) { return layer_colour(degrees * kDegree, palette); }
+Colour by_axis(double degrees, const Vec2&, Palette) { return wheel_colour(degrees * kDegree); }
+Colour by_heading(double degrees, const Vec2&, Palette) { return heading_colour(degrees * kDegree); }
+Colour by_sign(double value, const Vec2& range, Palette) { return diverging_colour(value / range.y()); }
+Colour by_size(double value, const Vec2& range, Palette) {
   return sequential_colour((value - range.x()) / (range.y() - range.x()));
 }
-Colour by_name(double index, const Vec2&) { return name_colour(static_cast<std::size_t>(index)); }
-Colour by_number(double index, const Vec2&) { return number_colour(static_cast<std::size_t>(index)); }
+Colour by_name(double index, const Vec2&, Palette) { return name_colour(static_cast<std::size_t>(index)); }
+Colour by_number(double index, const Vec2&, Palette) { return number_colour(static_cast<std::size_t>(index)); }
 
 constexpr Asked kNothing{};
 constexpr Asked kField{.field = true};
@@ -93,7 +93,7 @@ const Colouring kColourings[] = {
      angle_in_box,
      by_axis},
     {"layers",
-     "the angle \u03b8 to the nematic director: red to its left, magenta to its right, pale along it",
+     "the angle \u03b8 to the nematic director: orange to its left, blue to its right, pale along it",
      "Angle to the director \u03b8",
      "\u00b0",
      Scale::kLine,
@@ -186,20 +186,22 @@ std::string chosen_colour(const RodPicture& picture, std::span<const double> ord
   if (!picture.cell.has_axes()) return "species";
   const auto ordered = std::count_if(orders.begin(), orders.end(), [](double s) { return s >= kOrdered; });
   const bool is_ordered = !orders.empty() && 10 * static_cast<std::size_t>(ordered) >= 9 * orders.size();
-  return is_ordered && !(defects_are_marked && !picture.defects.empty()) ? "layers" : "angle";
+  return is_ordered && !(defects_are_marked && !picture.found.defects.empty()) ? "layers" : "angle";
 }
 
 const Colouring& colouring_of(const RodPicture& picture, const PictureStyle& style) {
   const Colouring* colouring = find_colouring(
-      style.colour == "auto" ? chosen_colour(picture, std::span(&picture.order, 1), style.mark_defects) : style.colour);
+      style.colour == "auto" ? chosen_colour(picture, std::span(&picture.found.order, 1), style.mark_defects)
+                             : style.colour);
   return colouring != nullptr ? *colouring : kColourings[0];
 }
 
 Vec2 range_of(const Colouring& colouring, const PictureStyle& style) { return style.range.value_or(colouring.range); }
 
-Colour rod_colour(const RodPicture& picture, std::size_t rod, const Colouring& colouring, const Vec2& range) {
+Colour rod_colour(const RodPicture& picture, std::size_t rod, const Colouring& colouring, const Vec2& range,
+                  Palette palette) {
   const double value = colouring.value(picture, rod);
-  if (!std::isnan(value)) return colouring.colour(value, range);
+  if (!std::isnan(value)) return colouring.colour(value, range, palette);
   const std::size_t species = picture.cell.species_of(rod);
   return species == 0 ? no_value_colour() : species_colour(species);
 }

@@ -32,7 +32,7 @@ struct Colouring {
   Asked asks;       ///< what has to be measured for it
   /// What colours rod `rod`, in `unit`; NaN where it has no such thing: then it gets its species' colour.
   double (*value)(const RodPicture& picture, std::size_t rod);
-  Colour (*colour)(double value, const Vec2& range);
+  Colour (*colour)(double value, const Vec2& range, Palette palette);
 };
 
 /// All of them, in the order of the help.
@@ -51,8 +51,9 @@ std::string chosen_colour(const RodPicture& picture, std::span<const double> ord
 const Colouring& colouring_of(const RodPicture& picture, const PictureStyle& style);
 /// The ends of its scale.
 Vec2 range_of(const Colouring& colouring, const PictureStyle& style);
-/// The colour that rod `rod` has.
-Colour rod_colour(const RodPicture& picture, std::size_t rod, const Colouring& colouring, const Vec2& range);
+/// The colour that rod `rod` has; `range` is that of its colouring.
+Colour rod_colour(const RodPicture& picture, std::size_t rod, const Colouring& colouring, const Vec2& range,
+                  Palette palette);
 
 /// What a style needs to have measured.
 Asked asked_by(const PictureStyle& style);

@@ -11,7 +11,7 @@ namespace {
 
 /// The cells over `plot`, and right of it their scale with its ends.
 void draw_cells(const Canvas& canvas, const Rect& plot, double unit, const Curve::Cells& cells,
-                const Palette& colours) {
+                const PageColours& colours) {
   cairo_t* cr = canvas.cairo();
   cairo_save(cr);
   cairo_set_antialias(cr, CAIRO_ANTIALIAS_NONE);  // else the page shines through between two cells
@@ -21,7 +21,7 @@ void draw_cells(const Canvas& canvas, const Rect& plot, double unit, const Curve
   for (std::size_t k = 0; k < cells.values.size(); ++k) {
     if (std::isnan(cells.values[k])) continue;
     const std::size_t column = k % cells.columns, row = k / cells.columns;
-    canvas.colour(cells.colour(cells.values[k], cells.range));
+    canvas.colour(cells.colour(cells.values[k], cells.range, Palette::kSafe));
     canvas.fill({plot.x + static_cast<double>(column) * width, plot.bottom() - static_cast<double>(row + 1) * height,
                  width, height});
   }
@@ -29,7 +29,8 @@ void draw_cells(const Canvas& canvas, const Rect& plot, double unit, const Curve
   constexpr int kSteps = 32;
   for (int k = 0; k < kSteps; ++k) {
     const double share = (k + 0.5) / kSteps, step = bar.height / kSteps;
-    canvas.colour(cells.colour(cells.range.x() + share * (cells.range.y() - cells.range.x()), cells.range));
+    canvas.colour(
+        cells.colour(cells.range.x() + share * (cells.range.y() - cells.range.x()), cells.range, Palette::kSafe));
     canvas.fill({bar.x, bar.bottom() - (k + 1) * step, bar.width, step});
   }
   cairo_restore(cr);
@@ -40,12 +41,13 @@ void draw_cells(const Canvas& canvas, const Rect& plot, double unit, const Curve
 
 }  // namespace
 
-void draw_curve(const Canvas& canvas, const Rect& place, double unit, const Curve& curve, const Palette& colours) {
+void draw_curve(const Canvas& canvas, const Rect& place, double unit, const Curve& curve, const PageColours& colours) {
   canvas.colour(colours.ink);
   const double size = 13 * unit;
   canvas.text(place.x, place.y + 12 * unit, curve.title,
               size * std::min(1.0, place.width / canvas.text_width(curve.title, size)));
-  const double left = 26 * unit;
+  double left = 26 * unit;
+  for (const Tick& tick : curve.y_ticks) left = std::max(left, canvas.text_width(tick.text, 12 * unit) + 6 * unit);
   Rect plot{place.x + left, place.y + 28 * unit, place.width - left, place.height - 50 * unit};
   if (curve.cells) {
     plot.width = plot.height = std::min(plot.height, plot.width - 48 * unit);  // which leaves room for the scale
@@ -82,7 +84,7 @@ void draw_curve(const Canvas& canvas, const Rect& place, double unit, const Curv
   }
 
   cairo_t* cr = canvas.cairo();
-  const Colour ink = layer_colour(kPi / 4);
+  const Colour ink = diverging_colour(-1);
   std::vector<Vec2> piece;
   const auto draw_piece = [&] {
     if (piece.empty()) return;

@@ -36,12 +36,12 @@ struct Curve {
     std::size_t columns = 0;
     std::vector<double> values{};  ///< (rows, columns), the lowest row first; nothing is drawn where NaN
     Vec2 range = Vec2::Zero();     ///< ends of the scale
-    Colour (*colour)(double value, const Vec2& range) = nullptr;
+    Colour (*colour)(double value, const Vec2& range, Palette palette) = nullptr;
   };
   std::optional<Cells> cells{};
 };
 
 /// Draws it so that title and marks lie within `place`; `unit` as in Layout.
-void draw_curve(const Canvas& canvas, const Rect& place, double unit, const Curve& curve, const Palette& colours);
+void draw_curve(const Canvas& canvas, const Rect& place, double unit, const Curve& curve, const PageColours& colours);
 
 }  // namespace shaken::render

@@ -23,7 +23,7 @@ constexpr std::pair<std::string_view, const char*> kSymbols[] = {
     {"rods.count", "N"},
     {"plates.gamma", "\u0393"},
     {"plates.frequency", "f"},
-    {"plates.amplitude", "A"},
+    {"plates.amplitude", "a"},
     {"box.side", "L"},
     {"box.gap", "w"},
     {"time.step", "dt"},
@@ -35,6 +35,13 @@ std::string symbol_of(const std::string& path) {
   const auto* symbol =
       std::find_if(std::begin(kSymbols), std::end(kSymbols), [&](const auto& known) { return known.first == path; });
   return symbol != std::end(kSymbols) ? symbol->second : path.substr(path.rfind('.') + 1);
+}
+
+std::string axis_of(const std::string& path) {
+  const int field = scene::field_index(path);
+  const keys::Dimension dimension = field < 0 ? keys::Dimension::kPlain : scene::field_at(path).dimension;
+  const std::vector<keys::Unit> units = keys::units_of(dimension);
+  return units.empty() ? symbol_of(path) : fmt::format("{} ({})", symbol_of(path), units.front().name);
 }
 
 namespace {
@@ -90,13 +97,13 @@ Notes settings_of(const RodPicture& picture) {
   return settings;
 }
 
-void name_runs(const std::vector<RodPicture*>& runs) {
+void name_runs(const std::vector<Captions*>& runs) {
   const auto said = [](const auto& setting) {
     return setting.first.empty() ? setting.second : setting.first + " = " + setting.second;
   };
   const auto append = [](std::string& all, const std::string& text) { all += (all.empty() ? "" : ", ") + text; };
   if (runs.size() == 1) {
-    RodPicture& run = *runs.front();
+    Captions& run = *runs.front();
     run.label.clear();
     run.subtitle.clear();
     constexpr std::size_t kHeadline = 4;  // what is of the rods
@@ -109,13 +116,13 @@ void name_runs(const std::vector<RodPicture*>& runs) {
     runs[i]->label.clear();
     runs[i]->subtitle.clear();
     for (const auto& setting : runs[i]->settings) {
-      const bool all_have_it = std::all_of(runs.begin(), runs.end(), [&](const RodPicture* other) {
+      const bool all_have_it = std::all_of(runs.begin(), runs.end(), [&](const Captions* other) {
         return std::find(other->settings.begin(), other->settings.end(), setting) != other->settings.end();
       });
       if (!all_have_it) append(runs[i]->label, said(setting));
     }
   }
-  const bool any = std::any_of(runs.begin(), runs.end(), [](const RodPicture* run) { return !run->label.empty(); });
+  const bool any = std::any_of(runs.begin(), runs.end(), [](const Captions* run) { return !run->label.empty(); });
   for (std::size_t i = 0; !any && i < runs.size(); ++i) runs[i]->label = fmt::format("run {}", i + 1);
 }
 

@@ -28,6 +28,12 @@ struct ImageOf {
     return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) * 3;
   }
 };
+/// Pixels with an opacity; colours are not multiplied with it.
+struct ClearImage {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> rgba;  ///< (height * width * 4), rows from top to bottom
+};
 using Image = ImageOf<std::uint8_t>;
 using DeepImage = ImageOf<std::uint16_t>;
 

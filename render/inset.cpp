@@ -21,36 +21,37 @@ const std::vector<Tick> kHalves{{0, "0"}, {0.5, "0.5"}, {1, "1"}};
 }  // namespace
 
 Curve order_curve(const RodPicture& picture) {
-  const OrderHistory& history = picture.history;
+  const OrderHistory& history = picture.captions.history;
   return {.title = picture.cell.species.size() > 1 ? "Nematic order S of the first species" : "Nematic order S",
           .x = history.time,
           .y = history.order,
           .x_ticks = {{history.start, fmt::format("{:.4g} s", history.start)},
                       {history.end, fmt::format("{:.4g} s", history.end)}},
           .y_ticks = kHalves,
-          .dot = Vec2(picture.time, picture.order)};
+          .dot = Vec2(picture.frame.time, picture.found.order)};
 }
 
 Curve angle_curve(const RodPicture& picture) {
-  const std::vector<Vec3> directors = picture.cell.of_species(0, picture.director);
+  const std::vector<Vec3> directors = picture.cell.of_species(0, picture.frame.director);
   // As fine as the number of rods allows: so that a bin's own scatter stays small.
   analysis::AngleDistribution distribution(directors.size() < 200 ? 18 : 36);
   distribution.accumulate(directors);
   const analysis::AnglePdf pdf = distribution.reduce();
-  Curve curve{.title = "P(\u03b8) [1/rad]",
-              .y = pdf.density,
+  Curve curve{.title = "P(\u03b8) (1/\u00b0)",
               .x_ticks = {{-90, "\u221290\u00b0"}, {0, "0\u00b0"}, {90, "90\u00b0"}},
               .y_ticks = {},
               .is_area = true};
   for (const double theta : pdf.theta) curve.x.push_back(theta * 180 / kPi);
+  for (const double density : pdf.density) curve.y.push_back(density * kPi / 180);
   // +90 and -90 degrees are one angle: the curve goes on from either end to the other.
   const double width = 180 / static_cast<double>(curve.x.size());
   curve.x.insert(curve.x.begin(), curve.x.front() - width / 2);
   curve.x.push_back(curve.x.back() + width / 2);
-  const double at_end = (pdf.density.front() + pdf.density.back()) / 2;
+  const double at_end = (curve.y.front() + curve.y.back()) / 2;
   curve.y.insert(curve.y.begin(), at_end);
   curve.y.push_back(at_end);
-  const double most = std::max({*std::max_element(curve.y.begin(), curve.y.end()), picture.axes.density, 1 / kPi});
+  const double most =
+      std::max({*std::max_element(curve.y.begin(), curve.y.end()), picture.captions.axes.density, 1 / 180.0});
   const double step = tick_step(most, 3), top = std::ceil(most / step - 1e-9) * step;
   for (const double value : ticks(0, top, step)) curve.y_ticks.push_back({value, tick_text(value)});
   return curve;
@@ -58,9 +59,9 @@ Curve angle_curve(const RodPicture& picture) {
 
 Curve g2_curve(const RodPicture& picture) {
   constexpr int kBins = 40;
-  const std::vector<Vec3> positions = picture.cell.of_species(0, picture.position);
+  const std::vector<Vec3> positions = picture.cell.of_species(0, picture.frame.position);
   analysis::OrientationCorrelation correlation(kBins, picture.cell.box_side / 2);
-  correlation.accumulate(positions, picture.cell.of_species(0, picture.director),
+  correlation.accumulate(positions, picture.cell.of_species(0, picture.frame.director),
                          analysis::Region(picture.cell.box_side, picture.cell.walls));
   analysis::OrientationCurve pairs = correlation.reduce();
   const double r_max = picture.cell.box_side / 2, step = tick_step(r_max, 3);
@@ -75,14 +76,14 @@ Curve g2_curve(const RodPicture& picture) {
 }
 
 Curve g2_map(const RodPicture& picture) {
-  const std::vector<Vec3> positions = picture.cell.of_species(0, picture.position);
+  const std::vector<Vec3> positions = picture.cell.of_species(0, picture.frame.position);
   const double range = std::min(2 * picture.rod_length(), picture.cell.box_side / 2);
   // As fine as leaves some twenty pairs to a bin; odd, so that one is about 0.
   const double per_area = static_cast<double>(positions.size()) / (picture.cell.box_side * picture.cell.box_side);
   const double pairs = per_area * static_cast<double>(positions.size()) * (2 * range) * (2 * range);
   const int bins = 2 * std::clamp(static_cast<int>(std::sqrt(pairs / 20) / 2), 4, 20) + 1;
   analysis::PairMap map({.bins = bins, .range = range, .strip = range, .box_side = picture.cell.box_side});
-  map.accumulate(positions, picture.cell.of_species(0, picture.director));
+  map.accumulate(positions, picture.cell.of_species(0, picture.frame.director));
   const std::vector<double> g2 = map.reduce().g2;
   // The part of the scale that most cells need: among aligned rods all are near 1.
   std::vector<double> known;
@@ -91,7 +92,7 @@ Curve g2_map(const RodPicture& picture) {
   const double low = known.empty() ? 0 : known[known.size() / 50];
   const double bottom = low >= 0.8 ? 0.8 : low >= 0.5 ? 0.5 : low >= -0.1 ? 0 : -1;
   const std::string end = fmt::format("{:.3g}", range);
-  return {.title = "G\u2082 along (\u2194) and across N [mm]",
+  return {.title = "G\u2082 along (\u2194) and across N (mm)",
           .x_ticks = {{-range, "\u2212" + end}, {0, "0"}, {range, end}},
           .y_ticks = {{-range, "\u2212" + end}, {0, "0"}, {range, end}},
           .cells = Curve::Cells{.columns = static_cast<std::size_t>(bins),
@@ -115,21 +116,21 @@ std::vector<Tick> axis_over(const std::vector<double>& values) {
 
 }  // namespace
 
-Curve sweep_curve(const RodPicture& picture) {
-  const SweepMap& map = *picture.sweep;
+Curve sweep_curve(const Captions& captions) {
+  const SweepMap& map = *captions.sweep;
   const Colouring& order = *find_colouring("order");
   Curve curve;
   curve.title = map.y.empty() ? fmt::format("S over {}", map.x) : fmt::format("{} over {}, by S", map.y, map.x);
-  std::vector<double> x{picture.sweep_point.x()}, y{picture.sweep_point.y()};
-  Vec2 here = picture.sweep_point;
+  std::vector<double> x{captions.sweep_point.x()}, y{captions.sweep_point.y()};
+  Vec2 here = captions.sweep_point;
   for (const SweepMap::Point& point : map.points) {
     x.push_back(point.at.x());
     y.push_back(point.at.y());
     if (map.y.empty() && point.at.x() == here.x()) here.y() = point.order;
     if (map.y.empty() && std::isnan(point.order)) continue;
-    curve.dots.push_back(
-        {Vec2(point.at.x(), map.y.empty() ? point.order : point.at.y()),
-         std::isnan(point.order) ? palette(Theme::kLight).page : order.colour(point.order, order.range)});
+    curve.dots.push_back({Vec2(point.at.x(), map.y.empty() ? point.order : point.at.y()),
+                          std::isnan(point.order) ? page_colours(Theme::kLight).page
+                                                  : order.colour(point.order, order.range, Palette::kSafe)});
   }
   curve.x_ticks = axis_over(x);
   curve.y_ticks = map.y.empty() ? kHalves : axis_over(y);
@@ -142,9 +143,9 @@ bool has_inset(const RodPicture& picture, const PictureStyle& style) {
     case Inset::kNone:
       return false;
     case Inset::kOrder:
-      return !picture.history.time.empty();
+      return !picture.captions.history.time.empty();
     case Inset::kSweep:
-      return picture.sweep != nullptr;
+      return picture.captions.sweep != nullptr;
     case Inset::kG2Map:
       return picture.count(0) > 1 && !picture.cell.walls;
     case Inset::kAngles:
@@ -157,7 +158,7 @@ bool has_inset(const RodPicture& picture, const PictureStyle& style) {
 void draw_inset(const Canvas& canvas, const Rect& place, double unit, const RodPicture& picture,
                 const PictureStyle& style, bool is_on_rods) {
   if (!has_inset(picture, style)) return;
-  const Palette colours = palette(style.theme);
+  const PageColours colours = page_colours(style.theme);
   if (is_on_rods) {
     canvas.colour(colours.page);
     canvas.fill(place);
@@ -170,7 +171,7 @@ void draw_inset(const Canvas& canvas, const Rect& place, double unit, const RodP
   const Rect inner{place.x + edge, place.y + edge, place.width - 2 * edge, place.height - 1.5 * edge};
   draw_curve(canvas, inner, unit,
              style.inset == Inset::kOrder    ? order_curve(picture)
-             : style.inset == Inset::kSweep  ? sweep_curve(picture)
+             : style.inset == Inset::kSweep  ? sweep_curve(picture.captions)
              : style.inset == Inset::kAngles ? angle_curve(picture)
              : style.inset == Inset::kG2Map  ? g2_map(picture)
                                              : g2_curve(picture),

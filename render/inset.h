@@ -10,7 +10,7 @@ namespace shaken::render {
 
 /// S(t) so far, with a dot at the present, on an axis as long as the run.
 Curve order_curve(const RodPicture& picture);
-/// P(theta) of this instant, as a run measures it (analysis/angles.h) [1/rad], against degrees.
+/// P(theta) of this instant, as a run measures it (analysis/angles.h) [1/degree], against degrees.
 Curve angle_curve(const RodPicture& picture);
 /// G2(r) of this instant, as a run measures it (analysis/g2.h), up to half a box [mm].
 Curve g2_curve(const RodPicture& picture);
@@ -20,7 +20,7 @@ Curve g2_curve(const RodPicture& picture);
 Curve g2_map(const RodPicture& picture);
 
 /// The points of the sweep, coloured by S, with a ring round this run's.
-Curve sweep_curve(const RodPicture& picture);
+Curve sweep_curve(const Captions& captions);
 
 /// Whether there is anything to draw for the inset that the style asks for.
 bool has_inset(const RodPicture& picture, const PictureStyle& style);

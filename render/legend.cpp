@@ -77,30 +77,30 @@ void draw_title(const Canvas& canvas, const Rect& place, double unit, std::strin
 
 /// Where there is no room for how many rods have which colour: the colours alone.
 void draw_narrow_legend(const Canvas& canvas, const Rect& place, double unit, const Colouring& colouring,
-                        const Vec2& range, const Palette& colours) {
+                        const Vec2& range, const PictureStyle& style) {
+  const PageColours colours = page_colours(style.theme);
   canvas.colour(colours.ink);
   draw_title(canvas, place, unit, colouring.title, place.width);
-  draw_colour_bar(canvas, {place.x, place.y + 20 * unit, place.width, 10 * unit}, unit, colouring, range, colours);
+  draw_colour_bar(canvas, {place.x, place.y + 20 * unit, place.width, 10 * unit}, unit, colouring, range, style);
 }
 
-void draw_line_legend(const Canvas& canvas, const Rect& place, double unit, const RodPicture& picture,
-                      const Colouring& colouring, const Vec2& range, const Palette& colours) {
+void draw_line_legend(const Canvas& canvas, const Rect& place, double unit, const Histogram& histogram,
+                      const Findings& found, const FilmAxes& axes, const Colouring& colouring, const Vec2& range,
+                      const PictureStyle& style) {
+  const PageColours colours = page_colours(style.theme);
   constexpr double kLeast = 28;  // units; lower bars say nothing
-  if (place.height < (kLeast + 62) * unit) return draw_narrow_legend(canvas, place, unit, colouring, range, colours);
-  const Histogram histogram(picture, colouring, range);
-  const bool is_angle = std::string_view(colouring.unit) == "\u00b0";
+  if (place.height < (kLeast + 62) * unit) return draw_narrow_legend(canvas, place, unit, colouring, range, style);
   const bool is_relative = std::string_view(colouring.name) == "layers";
   canvas.colour(colours.ink);
-  std::string title = colouring.title;
-  if (!is_angle && !std::string_view(colouring.unit).empty()) title += fmt::format(" [{}]", colouring.unit);
+  const std::string title = title_of(colouring);
   draw_title(canvas, place, unit, title + ", % of rods", place.width - (is_relative ? 44 * unit : 0));
   if (is_relative && !histogram.is_empty) {
-    draw_axis(canvas, place.right() - 18 * unit, place.y + 10 * unit, picture.director_angle, unit);
+    draw_axis(canvas, place.right() - 18 * unit, place.y + 10 * unit, found.director_angle, unit);
   }
 
   const double above = 28 * unit, gap = 4 * unit, bar = 10 * unit, words = 20 * unit, left = 26 * unit;
   const Rect plot{place.x + left, place.y + above, place.width - left, place.height - above - gap - bar - words};
-  const double most = std::max({histogram.most(), picture.axes.share, 1e-3});
+  const double most = std::max({histogram.most(), axes.share, 1e-3});
   // Upwards to the tick at or above the highest bar.
   const double step = tick_step(100 * most, plot.height < 60 * unit ? 1 : 3);
   const double top = std::ceil(100 * most / step - 1e-9) * step;
@@ -116,7 +116,7 @@ void draw_line_legend(const Canvas& canvas, const Rect& place, double unit, cons
   const auto height_of = [&](int i) { return histogram.share[static_cast<std::size_t>(i)] * 100 / top * plot.height; };
   for (int i = 0; i < bins; ++i) {
     if (height_of(i) <= 0) continue;
-    canvas.colour(colouring.colour(range.x() + (i + 0.5) / bins * (range.y() - range.x()), range));
+    canvas.colour(colouring.colour(range.x() + (i + 0.5) / bins * (range.y() - range.x()), range, style.palette));
     canvas.fill({plot.x + i * width, plot.bottom() - height_of(i), width, height_of(i)});
   }
   // The bars' outline keeps pale ones visible on a white page.
@@ -129,17 +129,18 @@ void draw_line_legend(const Canvas& canvas, const Rect& place, double unit, cons
   cairo_set_line_width(cr, 0.6 * unit);
   cairo_stroke(cr);
 
-  draw_colour_bar(canvas, {plot.x, plot.bottom() + gap, plot.width, bar}, unit, colouring, range, colours,
+  draw_colour_bar(canvas, {plot.x, plot.bottom() + gap, plot.width, bar}, unit, colouring, range, style,
                   histogram.is_below, histogram.is_above);
 }
 
 /// Half a circle of 180 degrees, or a whole one of 360.
-void draw_circle_legend(const Canvas& canvas, const Rect& place, double unit, const RodPicture& picture,
-                        const Colouring& colouring, const Vec2& range, const Palette& colours) {
+void draw_circle_legend(const Canvas& canvas, const Rect& place, double unit, const Histogram& histogram,
+                        const Findings& found, const FilmAxes& axes, const Colouring& colouring, const Vec2& range,
+                        const PictureStyle& style) {
+  const PageColours colours = page_colours(style.theme);
   constexpr double kLeast = 40;  // units; a smaller rose cannot be read
-  if (place.height < (kLeast + 46) * unit) return draw_narrow_legend(canvas, place, unit, colouring, range, colours);
-  const Histogram histogram(picture, colouring, range);
-  const double most = std::max({histogram.most(), picture.axes.share, 1e-9});
+  if (place.height < (kLeast + 46) * unit) return draw_narrow_legend(canvas, place, unit, colouring, range, style);
+  const double most = std::max({histogram.most(), axes.share, 1e-9});
   const bool is_half = colouring.scale == Scale::kHalfTurn;
   const double turn = range.y() * kRadians;
 
@@ -157,7 +158,7 @@ void draw_circle_legend(const Canvas& canvas, const Rect& place, double unit, co
     const double from = i * turn / shades;
     // Each piece reaches a little under the next, so no seam shows.
     const double to = std::min((i + 1.5) * turn / shades, turn);
-    canvas.colour(colouring.colour((i + 0.5) / shades * range.y(), range));
+    canvas.colour(colouring.colour((i + 0.5) / shades * range.y(), range, style.palette));
     cairo_arc_negative(cr, x, y, outer, -from, -to);
     cairo_arc(cr, x, y, inner, -to, -from);
     cairo_close_path(cr);
@@ -167,16 +168,16 @@ void draw_circle_legend(const Canvas& canvas, const Rect& place, double unit, co
   for (int i = 0; i < bins; ++i) {
     // The area of a sector, not its radius, shows the share.
     const double radius = rose * std::sqrt(histogram.share[static_cast<std::size_t>(i)] / most);
-    canvas.colour(colouring.colour((i + 0.5) / bins * range.y(), range));
+    canvas.colour(colouring.colour((i + 0.5) / bins * range.y(), range, style.palette));
     cairo_move_to(cr, x, y);
     cairo_arc_negative(cr, x, y, radius, -i * turn / bins, -(i + 1) * turn / bins);
     cairo_close_path(cr);
     cairo_fill(cr);
   }
   constexpr double kLeastOrder = 0.2;  // below that a few hundred rods have a mean axis by chance
-  if (is_half && !histogram.is_empty && picture.order >= kLeastOrder) {
+  if (is_half && !histogram.is_empty && found.order >= kLeastOrder) {
     // The director, drawn over the upper half.
-    const double angle = picture.director_angle < 0 ? picture.director_angle + kPi : picture.director_angle;
+    const double angle = found.director_angle < 0 ? found.director_angle + kPi : found.director_angle;
     canvas.colour(colours.ink);
     canvas.line(x, y, x + outer * std::cos(angle), y - outer * std::sin(angle), 1.6 * unit);
     canvas.text(x + (outer + 12 * unit) * std::cos(angle), y - (outer + 12 * unit) * std::sin(angle) + 4 * unit, "N",
@@ -204,9 +205,11 @@ const Colouring& background_scale(Theme theme) {
     scale.colour = colour;
     return scale;
   };
-  static const Colouring light = make([](double s, const Vec2&) { return order_background(s, Theme::kLight); });
-  static const Colouring print = make([](double s, const Vec2&) { return order_background(s, Theme::kPrint); });
-  static const Colouring dark = make([](double s, const Vec2&) { return order_background(s, Theme::kDark); });
+  static const Colouring light =
+      make([](double s, const Vec2&, Palette) { return order_background(s, Theme::kLight); });
+  static const Colouring print =
+      make([](double s, const Vec2&, Palette) { return order_background(s, Theme::kPrint); });
+  static const Colouring dark = make([](double s, const Vec2&, Palette) { return order_background(s, Theme::kDark); });
   return theme == Theme::kDark ? dark : theme == Theme::kPrint ? print : light;
 }
 
@@ -216,12 +219,18 @@ bool shows_background_alone(const PictureStyle& style) {
 
 }  // namespace
 
+std::string title_of(const Colouring& colouring) {
+  const std::string_view unit = colouring.unit;
+  return unit.empty() || unit == "\u00b0" ? colouring.title : fmt::format("{} ({})", colouring.title, unit);
+}
+
 void draw_colour_bar(const Canvas& canvas, const Rect& bar, double unit, const Colouring& colouring, const Vec2& range,
-                     const Palette& colours, bool is_below, bool is_above) {
+                     const PictureStyle& style, bool is_below, bool is_above) {
+  const PageColours colours = page_colours(style.theme);
   const bool is_angle = std::string_view(colouring.unit) == "\u00b0";
   const int shades = 240;
   for (int i = 0; i < shades; ++i) {
-    canvas.colour(colouring.colour(range.x() + (i + 0.5) / shades * (range.y() - range.x()), range));
+    canvas.colour(colouring.colour(range.x() + (i + 0.5) / shades * (range.y() - range.x()), range, style.palette));
     const double from = std::round(bar.x + i * bar.width / shades);
     canvas.fill({from, bar.y, std::round(bar.x + (i + 1) * bar.width / shades) - from, bar.height});
   }
@@ -255,22 +264,13 @@ double highest_bar(const RodPicture& picture, const PictureStyle& style) {
 
 void draw_legend(const Canvas& canvas, const Rect& place, double unit, const RodPicture& picture,
                  const PictureStyle& style) {
-  const Palette colours = palette(style.theme);
-  if (shows_background_alone(style)) {
-    const Colouring& scale = background_scale(style.theme);
-    return draw_line_legend(canvas, place, unit, picture, scale, scale.range, colours);
-  }
-  const Colouring& colouring = colouring_of(picture, style);
-  const Vec2 range = range_of(colouring, style);
-  switch (colouring.scale) {
-    case Scale::kLine:
-      return draw_line_legend(canvas, place, unit, picture, colouring, range, colours);
-    case Scale::kHalfTurn:
-    case Scale::kFullTurn:
-      return draw_circle_legend(canvas, place, unit, picture, colouring, range, colours);
-    case Scale::kNames:
-      return;
-  }
+  const bool is_background = shows_background_alone(style);
+  const Colouring& colouring = is_background ? background_scale(style.theme) : colouring_of(picture, style);
+  if (colouring.scale == Scale::kNames) return;
+  const Vec2 range = is_background ? colouring.range : range_of(colouring, style);
+  (colouring.scale == Scale::kLine ? draw_line_legend : draw_circle_legend)(
+      canvas, place, unit, Histogram(picture, colouring, range), picture.found, picture.captions.axes, colouring, range,
+      style);
 }
 
 }  // namespace shaken::render

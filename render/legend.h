@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
+
 #include "render/canvas.h"
 #include "render/colourings.h"
 #include "render/picture.h"
@@ -14,10 +16,13 @@ bool has_scale(const RodPicture& picture, const PictureStyle& style);
 /// The largest share of the rods that one bar of the legend has; 0 if it has none.
 double highest_bar(const RodPicture& picture, const PictureStyle& style);
 
+/// What a scale is called, with its unit if that does not stand at its ticks: "Velocity along the axis (mm/s)".
+std::string title_of(const Colouring& colouring);
+
 /// A scale's colours, continuous, with ticks below them. `is_below`, `is_above`: whether its ends stand for values
 /// beyond it, too.
 void draw_colour_bar(const Canvas& canvas, const Rect& bar, double unit, const Colouring& colouring, const Vec2& range,
-                     const Palette& colours, bool is_below = false, bool is_above = false);
+                     const PictureStyle& style, bool is_below = false, bool is_above = false);
 
 /// What the colours mean, and how many rods have each. A scale from low to high gets a histogram over an axis in the
 /// colouring's unit, the share of rods in percent upwards, and the colours below the axis; a circle gets a rose of

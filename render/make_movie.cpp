@@ -79,7 +79,7 @@ class Workshop {
         waiting_.pop_front();
       }
       Drawn drawn{*painter ? (*painter)->paint(next.second, style_) : Result<Image>(painter->error()),
-                  picture_texts(next.second)};
+                  picture_texts(next.second.frame, next.second.captions)};
       {
         const std::lock_guard lock(mutex_);
         drawn_.emplace(next.first, std::move(drawn));

@@ -8,6 +8,8 @@ namespace {
 
 constexpr Colour kBlack{0.06, 0.07, 0.09};
 constexpr Colour kWhite{1, 1, 1};
+constexpr Colour kRim{0.47, 0.47, 0.47};  // as far from white as from black, and so from every page
+constexpr double kRimWidth = 3;           // of both rims, in units
 
 /// Runs `outline` with the mark's own axes: x along its direction, lengths in units.
 template <class Outline>
@@ -21,12 +23,15 @@ void in_mark_frame(const Canvas& canvas, double x, double y, double direction, d
   cairo_restore(cr);
 }
 
-/// Fills the present path with `inner` inside a rim of `outer`, so that the mark stands out on any colour.
-void fill_with_rim(const Canvas& canvas, const Colour& inner, const Colour& outer, double rim) {
+/// Fills the present path with `inner` inside a rim of `outer`, so that the mark stands out on rods of any colour, and
+/// that inside a grey one, so that its outline is seen on light and dark pages.
+void fill_with_rim(const Canvas& canvas, const Colour& inner, const Colour& outer) {
   cairo_t* cr = canvas.cairo();
-  canvas.colour(outer);
-  cairo_set_line_width(cr, 2 * rim);
-  cairo_stroke_preserve(cr);
+  for (const bool is_outer : {true, false}) {
+    canvas.colour(is_outer ? kRim : outer);
+    cairo_set_line_width(cr, 2 * (is_outer ? kRimWidth : 1.8));
+    cairo_stroke_preserve(cr);
+  }
   canvas.colour(inner);
   cairo_fill(cr);
 }
@@ -41,7 +46,7 @@ void draw_plus_half(const Canvas& canvas, double x, double y, double direction, 
     cairo_arc(cr, 0, 0, kHead, touch, 2 * kPi - touch);
     cairo_line_to(cr, kTip, 0);
     cairo_close_path(cr);
-    fill_with_rim(canvas, kBlack, kWhite, 1.8);
+    fill_with_rim(canvas, kBlack, kWhite);
     canvas.colour(kWhite);
     canvas.line(12, 0, 20, 0, 1.4);
     cairo_arc(cr, 0, 0, 2.2, 0, 2 * kPi);
@@ -63,7 +68,7 @@ void draw_minus_half(const Canvas& canvas, double x, double y, double direction,
       cairo_line_to(cr, kWaist * std::cos(between), kWaist * std::sin(between));
     }
     cairo_close_path(cr);
-    fill_with_rim(canvas, kWhite, kBlack, 1.8);
+    fill_with_rim(canvas, kWhite, kBlack);
   });
 }
 

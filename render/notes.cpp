@@ -8,9 +8,7 @@
 #include "base/text.h"
 
 namespace shaken::render {
-namespace {
-
-std::string escaped_for_xml(const std::string& text) {
+std::string xml_text(const std::string& text) {
   std::string escaped;
   for (const char c : printable(text, Lines::kMany)) {
     switch (c) {
@@ -31,23 +29,23 @@ std::string escaped_for_xml(const std::string& text) {
   return escaped;
 }
 
-}  // namespace
-
 std::string notes_text(const Notes& notes) {
   std::string text;
   for (const auto& [key, value] : notes) text.append(text.empty() ? "" : "; ").append(key).append(": ").append(value);
   return text;
 }
 
-Result<void> add_notes_to_svg(const std::filesystem::path& file, const std::string& title, const Notes& notes) {
+Result<void> add_words_to_svg(const std::filesystem::path& file, const std::string& title, const Notes& notes,
+                              const std::string& elements) {
   std::ifstream in(file, std::ios::binary);
   std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
   const std::size_t root = text.find("<svg"), end = root == std::string::npos ? root : text.find('>', root);
   if (!in || end == std::string::npos) return Error{"Cairo has written no SVG"};
   std::string words;
-  if (!title.empty()) words += "\n<title>" + escaped_for_xml(title) + "</title>";
-  if (!notes.empty()) words += "\n<desc>" + escaped_for_xml(notes_text(notes)) + "</desc>";
+  if (!title.empty()) words += "\n<title>" + xml_text(title) + "</title>";
+  if (!notes.empty()) words += "\n<desc>" + xml_text(notes_text(notes)) + "</desc>";
   text.insert(end + 1, words);
+  if (const std::size_t last = text.rfind("</svg>"); last != std::string::npos) text.insert(last, elements);
   std::ofstream out(file, std::ios::binary | std::ios::trunc);
   out << text << std::flush;
   if (!out) return Error{"no room on the disk"};

@@ -23,7 +23,7 @@ namespace shaken::render {
 namespace {
 
 void draw_frame(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style,
-                const Palette& colours) {
+                const PageColours& colours) {
   cairo_t* cr = canvas.cairo();
   const double line = std::max(1.0, std::round(1.2 * layout.unit));
   const View box = box_in(picture, style);
@@ -37,9 +37,9 @@ void draw_frame(const Canvas& canvas, const Layout& layout, const RodPicture& pi
 }
 
 /// The label on one line, smaller if need be, cut short if that does not help.
-void draw_label(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const Palette& colours) {
+void draw_label(const Canvas& canvas, const Layout& layout, const Captions& captions, const PageColours& colours) {
   const double u = layout.unit, width = layout.label.width;
-  std::string label = picture.label;
+  std::string label = captions.label;
   double size = 18 * u;
   if (const double needed = canvas.text_width(label, size, true); needed > width) {
     size = std::max(12 * u, size * width / needed);
@@ -53,14 +53,14 @@ void draw_label(const Canvas& canvas, const Layout& layout, const RodPicture& pi
   }
   canvas.colour(colours.ink);
   canvas.text(layout.label.x, layout.label.y + 15 * u, label, size, Canvas::Align::kLeft, true);
-  if (picture.subtitle.empty() || layout.label.height < 38 * u) return;
+  if (captions.subtitle.empty() || layout.label.height < 38 * u) return;
   canvas.colour(colours.faint);
-  canvas.text(layout.label.x, layout.label.y + 34 * u, picture.subtitle, 13 * u);
+  canvas.text(layout.label.x, layout.label.y + 34 * u, captions.subtitle, 13 * u);
 }
 
 /// Names and values in rows, each value under its name.
 void draw_numbers(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style,
-                  const Palette& colours) {
+                  const PageColours& colours) {
   const double u = layout.unit;
   const Rect& place = layout.numbers;
   const std::vector<Number> numbers = numbers_of(picture, style);
@@ -82,7 +82,7 @@ void draw_numbers(const Canvas& canvas, const Layout& layout, const RodPicture& 
 }
 
 void draw_key(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style,
-              const Palette& colours) {
+              const PageColours& colours) {
   const double u = layout.unit;
   const bool stacked = layout.key.height > 40 * u;
   const double x = layout.key.x, y = layout.key.y + 11 * u;
@@ -100,7 +100,8 @@ void draw_key(const Canvas& canvas, const Layout& layout, const RodPicture& pict
 }
 
 /// What the tracks and the ground under pale rods mean.
-void draw_ground_key(const Canvas& canvas, const Layout& layout, const PictureStyle& style, const Palette& colours) {
+void draw_ground_key(const Canvas& canvas, const Layout& layout, const PictureStyle& style,
+                     const PageColours& colours) {
   const double u = layout.unit, size = 13 * u;
   double y = layout.ground.y + 11 * u;
   const bool stacked = layout.ground.height > 40 * u;
@@ -135,7 +136,7 @@ void draw_ground_key(const Canvas& canvas, const Layout& layout, const PictureSt
 
 /// A rod of each species, seen from above in one scale, and what is to be said of it; pale where the scale colours it.
 void draw_species(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style,
-                  const Palette& colours) {
+                  const PageColours& colours) {
   const double u = layout.unit;
   const Colouring& colouring = colouring_of(picture, style);
   const bool by_name = std::string_view(colouring.name) == "species";
@@ -159,7 +160,7 @@ void draw_species(const Canvas& canvas, const Layout& layout, const RodPicture& 
       canvas.colour(rim         ? colours.faint
                     : by_name   ? name_colour(species)
                     : has_scale ? layer_colour(0)
-                                : rod_colour(picture, example, colouring, range_of(colouring, style)));
+                                : rod_colour(picture, example, colouring, range_of(colouring, style), style.palette));
       for (std::size_t i = 0; i < beads.offset.size(); ++i) {
         cairo_new_sub_path(cr);
         cairo_arc(cr, centre + scale * beads.offset[i], y, scale * beads.radius[i] + (rim ? 0.5 : -0.5) * u, 0,
@@ -169,13 +170,13 @@ void draw_species(const Canvas& canvas, const Layout& layout, const RodPicture& 
     }
     canvas.colour(colours.ink);
     const double x = layout.species.x + scale * longest + 10 * u, size = 13 * u;
-    const std::string text = species_text(picture, species);
+    const std::string text = species_text(picture.cell, picture.frame, species);
     canvas.text(x, y + 5 * u, text, size * std::min(1.0, (layout.species.right() - x) / canvas.text_width(text, size)));
   }
 }
 
 void draw_scale_bar(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style,
-                    const Palette& colours) {
+                    const PageColours& colours) {
   const double u = layout.unit;
   const bool is_top = style.view == ViewPoint::kTop;
   const int height = is_top ? layout.box_side : layout.stage_height;
@@ -193,7 +194,7 @@ void draw_scale_bar(const Canvas& canvas, const Layout& layout, const RodPicture
   canvas.colour(colours.ink);
   canvas.fill({layout.scale_bar.x, bottom - 5 * u, length * scale, 5 * u});
   canvas.text(layout.scale_bar.x, bottom - 11 * u, fmt::format("{:g} mm{}", length, words), 14 * u);
-  const std::string speed = playback_text(picture.playback);
+  const std::string speed = playback_text(picture.captions.playback);
   if (speed.empty() || layout.is_bar_on_rods) return;
   // The sign of playing before the words.
   const double right = layout.scale_bar.right(), size = 14 * u;
@@ -211,30 +212,30 @@ void draw_scale_bar(const Canvas& canvas, const Layout& layout, const RodPicture
 
 std::vector<Number> numbers_of(const RodPicture& picture, const PictureStyle& style) {
   // In slow motion the last digit should be seen to move.
-  const int digits = picture.playback > 0 && picture.playback < 0.05 ? 4 : 2;
+  const int digits = picture.captions.playback > 0 && picture.captions.playback < 0.05 ? 4 : 2;
   const Cell& cell = picture.cell;
   const bool has_axes = cell.has_axes(), is_mixture = cell.species.size() > 1;
-  std::vector<Number> numbers{{"time", fmt::format("{:.{}f} s", picture.time, digits)}};
+  std::vector<Number> numbers{{"time", fmt::format("{:.{}f} s", picture.frame.time, digits)}};
   // Of a mixture S and lengths belong to its species, beside which they stand (species_text).
-  if (has_axes && !is_mixture) numbers.push_back({"order S", fmt::format("{:.3f}", picture.order)});
+  if (has_axes && !is_mixture) numbers.push_back({"order S", fmt::format("{:.3f}", picture.found.order)});
   std::size_t seen = 0;
-  for (const Vec3& at : picture.position) seen += is_in_view(picture, style, at.head<2>()) ? 1 : 0;
+  for (const Vec3& at : picture.frame.position) seen += is_in_view(picture, style, at.head<2>()) ? 1 : 0;
   numbers.push_back(
       {is_mixture ? "bodies"
        : has_axes ? "rods"
                   : "spheres",
        seen == picture.n_rods() ? fmt::format("{}", seen) : fmt::format("{}/{}", seen, picture.n_rods())});
   if (!is_mixture) {
-    numbers.push_back({has_axes ? "rod length" : "diameter", fmt::format("{:.4g} mm", picture.rod_length())});
+    numbers.push_back({has_axes ? "length \u2113" : "diameter d", fmt::format("{:.4g} mm", picture.rod_length())});
   }
   numbers.push_back({"packing \u03c6", fmt::format("{:.2f}", picture.area_fraction())});
-  numbers.push_back({"gap", fmt::format("{:.4g} mm", cell.gap)});
+  numbers.push_back({"gap w", fmt::format("{:.4g} mm", cell.gap)});
   return numbers;
 }
 
 std::string defects_text(const RodPicture& picture, const PictureStyle& style, double charge) {
   std::size_t all = 0, seen = 0;
-  for (const analysis::Defect& defect : picture.defects) {
+  for (const analysis::Defect& defect : picture.found.defects) {
     if (defect.charge * charge < 0) continue;
     ++all;
     seen += is_in_view(picture, style, defect.position) ? 1 : 0;
@@ -243,10 +244,10 @@ std::string defects_text(const RodPicture& picture, const PictureStyle& style, d
   return seen == all ? fmt::format("{}: {}", name, all) : fmt::format("{}: in view {} of {}", name, seen, all);
 }
 
-std::string species_text(const RodPicture& picture, std::size_t species) {
-  const std::size_t n = picture.count(species);
-  if (!picture.cell.species[species].has_axis()) return fmt::format("{} {}", n, n == 1 ? "sphere" : "spheres");
-  const std::vector<Vec3> of_it = picture.cell.of_species(species, picture.director);
+std::string species_text(const Cell& cell, const Frame& frame, std::size_t species) {
+  const std::vector<Vec3> of_it = cell.of_species(species, frame.director);
+  const std::size_t n = of_it.size();
+  if (!cell.species[species].has_axis()) return fmt::format("{} {}", n, n == 1 ? "sphere" : "spheres");
   const double order = analysis::nematic_order(std::span<const Vec3>(of_it)).order;
   return fmt::format("{} {}, S = {:.3f}", n, n == 1 ? "rod" : "rods", order);
 }
@@ -270,19 +271,19 @@ std::string playback_text(double playback) {
   return fmt::format("{:.2g}\u00d7 speed", playback);
 }
 
-void draw_time_bar(const Canvas& canvas, const RodPicture& picture, const PictureStyle& style) {
-  if (!style.time_bar || picture.film_share < 0) return;
-  const Palette colours = palette(style.theme);
+void draw_time_bar(const Canvas& canvas, const Captions& captions, const PictureStyle& style) {
+  if (!style.time_bar || captions.film_share < 0) return;
+  const PageColours colours = page_colours(style.theme);
   const double height = std::max(3.0, std::round(std::min(style.width, style.height) / 180.0));
   const double width = style.width;
   canvas.colour(colours.faint, 0.35);
   canvas.fill({0, style.height - height, width, height});
   canvas.colour(colours.ink, 0.8);
-  canvas.fill({0, style.height - height, std::min(picture.film_share, 1.0) * width, height});
+  canvas.fill({0, style.height - height, std::min(captions.film_share, 1.0) * width, height});
 }
 
 void draw_overlay(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style) {
-  const Palette colours = palette(style.theme);
+  const PageColours colours = page_colours(style.theme);
   if (style.view == ViewPoint::kTop) {
     draw_lines(canvas, layout, picture, style);
     draw_tracks(canvas, layout, picture, style);
@@ -290,7 +291,7 @@ void draw_overlay(const Canvas& canvas, const Layout& layout, const RodPicture& 
     if (style.mark_defects) draw_defects(canvas, layout, picture, style);
     draw_frame(canvas, layout, picture, style, colours);
   }
-  if (layout.label.width > 0) draw_label(canvas, layout, picture, colours);
+  if (layout.label.width > 0) draw_label(canvas, layout, picture.captions, colours);
   if (layout.numbers.width > 0) draw_numbers(canvas, layout, picture, style, colours);
   if (layout.history.width > 0) draw_curve(canvas, layout.history, layout.unit, order_curve(picture), colours);
   if (layout.legend.width > 0) draw_legend(canvas, layout.legend, layout.unit, picture, style);

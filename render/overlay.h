@@ -23,10 +23,10 @@ std::vector<Number> numbers_of(const RodPicture& picture, const PictureStyle& st
 /// How many defects of the sign of `charge` there are, and how many of them are in view.
 std::string defects_text(const RodPicture& picture, const PictureStyle& style, double charge);
 /// How many rods of one species there are, and their S.
-std::string species_text(const RodPicture& picture, std::size_t species);
+std::string species_text(const Cell& cell, const Frame& frame, std::size_t species);
 
 /// Of a film: how far it is, as a bar along the picture's lower edge.
-void draw_time_bar(const Canvas& canvas, const RodPicture& picture, const PictureStyle& style);
+void draw_time_bar(const Canvas& canvas, const Captions& captions, const PictureStyle& style);
 
 /// How fast a film plays, "1/10 speed", "6× speed", from simulated seconds per second; nothing if it is not known.
 std::string playback_text(double playback);

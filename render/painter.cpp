@@ -21,12 +21,14 @@ namespace {
 
 Layout layout_for(const RodPicture& picture, const PictureStyle& style) {
   const Contents contents{
-      .history = !picture.history.time.empty() && style.inset != Inset::kOrder,
-      .label = !picture.label.empty(),
+      .history = !picture.captions.history.time.empty() && style.inset != Inset::kOrder,
+      .label = !picture.captions.label.empty(),
       .species = picture.cell.species.size() > 1 ? static_cast<int>(picture.cell.species.size()) : 0,
       .scale = has_scale(picture, style)};
   return style.view != ViewPoint::kTop ? stage_layout_of(style, contents) : layout_of(style, contents);
 }
+
+constexpr int kLeastSide = 40;  // of a box among others [pixels]
 
 /// Of a picture and those beside it, the one of panel `i`.
 const RodPicture& panel_of(const RodPicture& picture, std::size_t i) {
@@ -51,7 +53,6 @@ Result<void> check(const PictureStyle& style, const RodPicture& picture) {
   if (!picture.beside.empty() && style.view != ViewPoint::kTop) {
     return Error{"several runs are drawn beside each other from above only, not in perspective"};
   }
-  constexpr int kLeastSide = 40;  // [pixels]
   if (!picture.beside.empty() && panel_grid(style, 1 + picture.beside.size()).panels.front().box_side < kLeastSide) {
     return Error{"there is no room for " + std::to_string(1 + picture.beside.size()) +
                  " runs: make the picture larger"};
@@ -71,15 +72,57 @@ template <class Channel>
 Result<ImageOf<Channel>> Painter::paint(const RodPicture& picture, const PictureStyle& style) {
   if (auto done = check(style, picture); !done) return done.error();
   const PictureStyle drawn = drawable(style, picture);
-  Sheet<Channel> sheet(drawn.width, drawn.height, palette(drawn.theme).page);
+  Sheet<Channel> sheet(drawn.width, drawn.height, ground_colours(drawn).page);
   const Result<void> done =
       picture.beside.empty() ? paint_one(sheet, picture, drawn) : paint_panels(sheet, picture, drawn);
   if (!done) return done.error();
-  draw_time_bar(sheet.over(), picture, drawn);
+  draw_time_bar(sheet.over(), picture.captions, drawn);
   return sheet.image();
 }
 template Result<Image> Painter::paint(const RodPicture& picture, const PictureStyle& style);
 template Result<DeepImage> Painter::paint(const RodPicture& picture, const PictureStyle& style);
+
+Result<ClearImage> Painter::paint_clear(const RodPicture& picture, PictureStyle style) {
+  // What is seen of the ground where it is white, and not where it is black, is what shines through.
+  style.ground = Colour{0, 0, 0};
+  const Result<Image> on_black = paint(picture, style);
+  if (!on_black) return on_black.error();
+  style.ground = Colour{1, 1, 1};
+  const Result<Image> on_white = paint(picture, style);
+  if (!on_white) return on_white.error();
+  ClearImage clear{on_black->width, on_black->height, {}};
+  clear.rgba.reserve(on_black->rgb.size() / 3 * 4);
+  for (std::size_t i = 0; i < on_black->rgb.size(); i += 3) {
+    int through = 0;  // of three times 255
+    for (std::size_t c = i; c < i + 3; ++c) through += on_white->rgb[c] - on_black->rgb[c];
+    const int opacity = std::clamp(255 - (through + 1) / 3, 0, 255);
+    for (std::size_t c = i; c < i + 3; ++c) {
+      const int colour = opacity > 0 ? (on_black->rgb[c] * 255 + opacity / 2) / opacity : 0;
+      clear.rgba.push_back(static_cast<std::uint8_t>(std::min(colour, 255)));
+    }
+    clear.rgba.push_back(static_cast<std::uint8_t>(opacity));
+  }
+  return clear;
+}
+
+Result<Image> Painter::paint_map(const PhaseMap& map, const PictureStyle& style) {
+  if (auto done = render::check(style); !done) return done.error();
+  const MapLayout layout = map_layout(map, style);
+  if (layout.side < kLeastSide) {
+    return Error{"there is no room for " + std::to_string(map.x.values.size()) + " x " +
+                 std::to_string(map.y.values.size()) + " pictures: make the map larger"};
+  }
+  Sheet<std::uint8_t> sheet(style.width, style.height, page_colours(style.theme).page);
+  for (const PhaseMap::Cell& cell : map.cells) {
+    if (!cell.picture) continue;
+    const Result<Image> rods = rods_.draw<std::uint8_t>(*cell.picture, style, layout.side, layout.side);
+    if (!rods) return rods.error();
+    const Vec2 at = layout.corner(cell);
+    sheet.paste(*rods, static_cast<int>(at.x()), static_cast<int>(at.y()), 1);
+  }
+  draw_map_words(sheet.over(), layout, map, style);
+  return sheet.image();
+}
 
 template <class Channel>
 Result<void> Painter::paint_one(Sheet<Channel>& sheet, const RodPicture& picture, const PictureStyle& style) {
@@ -128,8 +171,9 @@ Result<void> write_vector(const std::filesystem::path& file, const RodPicture& p
     return Error{"cannot write " + file.string() + ": " + why};
   };
   Result<Canvas> canvas =
-      Canvas::vector(unfinished, file.extension().string(), style.width, style.height, palette(style.theme).page,
-                     picture.label, picture.notes, style.dpi.value_or(72));
+      Canvas::vector(unfinished, file.extension().string(), style.width, style.height,
+                     style.transparent ? std::nullopt : std::optional(page_colours(style.theme).page),
+                     picture.captions.label, picture.captions.notes, style.dpi.value_or(72));
   if (!canvas) return failed(canvas.error().message);
   const auto draw_box = [&](const Layout& layout, const RodPicture& one) {
     draw_ground(*canvas, layout, one, style);
@@ -149,7 +193,8 @@ Result<void> write_vector(const std::filesystem::path& file, const RodPicture& p
   }
   if (auto done = canvas->finish(); !done) return failed(done.error().message);
   if (file.extension() == ".svg") {
-    if (auto done = add_notes_to_svg(unfinished, picture.label, picture.notes); !done) {
+    if (auto done = add_words_to_svg(unfinished, picture.captions.label, picture.captions.notes, canvas->svg_words());
+        !done) {
       return failed(done.error().message);
     }
   }

@@ -7,6 +7,7 @@
 #include "base/core/result.h"
 #include "render/canvas.h"
 #include "render/image.h"
+#include "render/phase_map.h"
 #include "render/picture.h"
 #include "render/picture_layout.h"
 #include "render/rods_pass.h"
@@ -23,6 +24,12 @@ class Painter {
   /// With 8 bits a colour, or with 16: the rods are then drawn as finely, and the words laid over them.
   template <class Channel = std::uint8_t>
   Result<ImageOf<Channel>> paint(const RodPicture& picture, const PictureStyle& style);
+
+  /// Without page and floor; shadows are dark and half clear. `style.transparent` need not be set.
+  Result<ClearImage> paint_clear(const RodPicture& picture, PictureStyle style);
+
+  /// The rods of each point of a sweep over its place on the axes. Fails if there is no room for so many.
+  Result<Image> paint_map(const PhaseMap& map, const PictureStyle& style);
 
  private:
   explicit Painter(RodsPass rods) : rods_(std::move(rods)) {}

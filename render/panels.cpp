@@ -69,46 +69,45 @@ PanelGrid panel_grid(const PictureStyle& style, std::size_t n_panels) {
 bool have_one_time(const RodPicture& picture) {
   constexpr double kShown = 0.005;  // half of the last digit [s]
   return std::all_of(picture.beside.begin(), picture.beside.end(),
-                     [&](const RodPicture& other) { return std::abs(other.time - picture.time) < kShown; });
+                     [&](const RodPicture& other) { return std::abs(other.frame.time - picture.frame.time) < kShown; });
 }
 
 void draw_panel_words(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style,
                       bool with_time) {
   RodPicture quiet = picture;
   quiet.beside.clear();
-  quiet.playback = 0;
-  quiet.subtitle.clear();
+  quiet.captions.playback = 0;
+  quiet.captions.subtitle.clear();
   Layout words = layout;
   if (!style.scale_bar) words.scale_bar = {};
   draw_overlay(canvas, words, quiet, style);
   if (!style.caption) return;
-  canvas.colour(palette(style.theme).ink);
+  canvas.colour(page_colours(style.theme).ink);
   canvas.text(layout.box_x + layout.box_side, layout.scale_bar.bottom(),
-              fmt::format("{}{}{}", with_time ? fmt::format("t = {:.2f} s", picture.time) : "",
+              fmt::format("{}{}{}", with_time ? fmt::format("t = {:.2f} s", picture.frame.time) : "",
                           with_time && picture.cell.has_axes() ? ", " : "",
-                          picture.cell.has_axes() ? fmt::format("S = {:.3f}", picture.order) : ""),
+                          picture.cell.has_axes() ? fmt::format("S = {:.3f}", picture.found.order) : ""),
               14 * layout.unit, Canvas::Align::kRight);
 }
 
 void draw_footer(const Canvas& canvas, const PanelGrid& grid, const RodPicture& first, const PictureStyle& style) {
   const double u = grid.unit, bottom = grid.footer.bottom();
-  const Palette colours = palette(style.theme);
+  const PageColours colours = page_colours(style.theme);
   if (style.caption) {
     canvas.colour(colours.ink);
     if (have_one_time(first)) {
-      canvas.text(grid.footer.x, bottom - 6 * u, fmt::format("t = {:.2f} s", first.time), 20 * u);
+      canvas.text(grid.footer.x, bottom - 6 * u, fmt::format("t = {:.2f} s", first.frame.time), 20 * u);
     }
     canvas.colour(colours.faint);
-    canvas.text(grid.footer.right(), bottom - 6 * u, playback_text(first.playback), 14 * u, Canvas::Align::kRight);
+    canvas.text(grid.footer.right(), bottom - 6 * u, playback_text(first.captions.playback), 14 * u,
+                Canvas::Align::kRight);
   }
   if (!style.legend || !has_scale(first, style)) return;
   const Colouring& colouring = colouring_of(first, style);
   const Vec2 range = range_of(colouring, style);
   const Rect strip{grid.footer.x + 0.4 * grid.footer.width, bottom - 23 * u, 0.3 * grid.footer.width, 10 * u};
-  draw_colour_bar(canvas, strip, u, colouring, range, colours);
-  const std::string unit =
-      *colouring.unit != 0 && std::string_view(colouring.unit) != "\u00b0" ? fmt::format(" [{}]", colouring.unit) : "";
-  canvas.text(strip.x + strip.width / 2, strip.y - 5 * u, colouring.title + unit, 12 * u, Canvas::Align::kCentre);
+  draw_colour_bar(canvas, strip, u, colouring, range, style);
+  canvas.text(strip.x + strip.width / 2, strip.y - 5 * u, title_of(colouring), 12 * u, Canvas::Align::kCentre);
 }
 
 }  // namespace shaken::render

@@ -62,15 +62,15 @@ double defined_share(const analysis::DirectorField& field, const Vec2& place) {
   return (1 - v) * ((1 - u) * at(0, 0) + u * at(1, 0)) + v * ((1 - u) * at(0, 1) + u * at(1, 1));
 }
 
-void draw_order(const Canvas& canvas, const Plane& plane, const RodPicture& picture, Theme theme) {
+void draw_order(const Canvas& canvas, const Plane& plane, const analysis::DirectorField& field, Theme theme) {
   // Nodes half a mesh apart in the view, or as many as pixels show.
   const View& view = plane.view();
-  const int n = std::clamp(static_cast<int>(std::ceil(2 * view.side / picture.field->mesh())), 8, 400);
+  const int n = std::clamp(static_cast<int>(std::ceil(2 * view.side / field.mesh())), 8, 400);
   Image image(n + 1, n + 1);
   for (int j = 0; j <= n; ++j) {
     for (int i = 0; i <= n; ++i) {
       const Vec2 place = view.corner + view.side / n * Vec2(i, n - j);
-      const double order = defined_share(*picture.field, place) * 2 * picture.field->q_at(place).norm();
+      const double order = defined_share(field, place) * 2 * field.q_at(place).norm();
       const Colour colour = order_background(order, theme);
       for (std::size_t c = 0; c < 3; ++c)
         image.pixel(i, j)[c] = static_cast<std::uint8_t>(std::lround(255 * colour[c]));
@@ -94,16 +94,19 @@ void arena_path(cairo_t* cr, const Plane& plane, const SideWalls& walls, double 
   cairo_arc(cr, middle.x(), middle.y(), walls.inner / 2 * plane.scale(), 0, 2 * kPi);
 }
 
-void draw_walls(const Canvas& canvas, const Plane& plane, const RodPicture& picture, const Palette& colours,
-                double unit) {
+void draw_walls(const Canvas& canvas, const Plane& plane, const Cell& cell, const PageColours& colours, double unit,
+                bool has_ground) {
   cairo_t* cr = canvas.cairo();
   cairo_rectangle(cr, plane.box().x, plane.box().y, plane.box().width, plane.box().height);
-  arena_path(cr, plane, *picture.cell.walls, picture.cell.box_side);
+  arena_path(cr, plane, *cell.walls, cell.box_side);
   cairo_set_fill_rule(cr, CAIRO_FILL_RULE_EVEN_ODD);
-  canvas.colour(colours.walls);
-  cairo_fill(cr);
+  if (has_ground) {
+    canvas.colour(colours.walls);
+    cairo_fill(cr);
+  }
+  cairo_new_path(cr);
   cairo_set_fill_rule(cr, CAIRO_FILL_RULE_WINDING);
-  arena_path(cr, plane, *picture.cell.walls, picture.cell.box_side);
+  arena_path(cr, plane, *cell.walls, cell.box_side);
   canvas.colour(colours.ink);
   cairo_set_line_width(cr, 1.5 * unit);
   cairo_stroke(cr);
@@ -163,8 +166,8 @@ std::optional<Vec2> director_at(const analysis::DirectorField& field, const Vec2
   return n.dot(before) < 0 ? Vec2(-n) : n;
 }
 
-void draw_bars(const Canvas& canvas, const Plane& plane, const RodPicture& picture, const Palette& colours,
-               double unit) {
+void draw_bars(const Canvas& canvas, const Plane& plane, const analysis::DirectorField& field,
+               const PageColours& colours, double unit) {
   constexpr double kAcross = 34;  // bars along each side of the view
   const View& view = plane.view();
   const double mesh = view.side / kAcross;
@@ -174,24 +177,24 @@ void draw_bars(const Canvas& canvas, const Plane& plane, const RodPicture& pictu
   for (double j = first(view.corner.y()); j * mesh < view.corner.y() + view.side; ++j) {
     for (double i = first(view.corner.x()); i * mesh < view.corner.x() + view.side; ++i) {
       const Vec2 place((i + 0.5) * mesh, (j + 0.5) * mesh);
-      const std::optional<Vec2> n = director_at(*picture.field, place, Vec2(1, 0));
+      const std::optional<Vec2> n = director_at(field, place, Vec2(1, 0));
       if (!n) continue;
       const Vec2 from = plane.pixel(place - view.corner - 0.36 * mesh * *n);
       const Vec2 to = plane.pixel(place - view.corner + 0.36 * mesh * *n);
-      canvas.colour(colours.ink, 0.25 + 0.75 * std::min(1.0, 2 * picture.field->q_at(place).norm()));
+      canvas.colour(colours.ink, 0.25 + 0.75 * std::min(1.0, 2 * field.q_at(place).norm()));
       canvas.line(from.x(), from.y(), to.x(), to.y(), 2 * unit);
     }
   }
   cairo_set_line_cap(cr, CAIRO_LINE_CAP_BUTT);
 }
 
-void draw_streamlines(const Canvas& canvas, const Plane& plane, const RodPicture& picture, const Palette& colours,
-                      double unit) {
+void draw_streamlines(const Canvas& canvas, const Plane& plane, const analysis::DirectorField& field,
+                      const PageColours& colours, double unit) {
   cairo_t* cr = canvas.cairo();
   canvas.colour(colours.ink, 0.8);
   cairo_set_line_width(cr, 1.3 * unit);
   cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
-  for (const Streamline& line : streamlines(*picture.field, plane.view().side / 44)) {
+  for (const Streamline& line : streamlines(field, plane.view().side / 44)) {
     Vec2 low = line.front(), high = line.front();
     for (const Vec2& point : line) {
       low = low.cwiseMin(point);
@@ -199,8 +202,8 @@ void draw_streamlines(const Canvas& canvas, const Plane& plane, const RodPicture
     }
     const Vec2 middle = (low + high) / 2;
     View view = plane.view();
-    view.period =
-        picture.cell.walls ? 0 : picture.cell.box_side;  // the field goes on beyond the box, also where rods do not
+    view.period = field.region().is_periodic() ? field.region().box_side()
+                                               : 0;  // the field goes on beyond the box, also where rods do not
     for_images(view, middle, (high - low).maxCoeff() / 2, [&](const Vec2& at) {
       for (const Vec2& point : line) {
         const Vec2 p = plane.pixel(at + point - middle);
@@ -236,27 +239,29 @@ std::vector<Vec2> half_outline(BeadRow beads, double flat) {
 
 void draw_ground(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style) {
   const Plane plane(canvas, layout, picture, style);
-  const Palette colours = palette(style.theme);
+  const PageColours colours = ground_colours(style);
   canvas.colour(colours.floor);
-  canvas.fill(plane.box());
-  if (style.background == Background::kOrder && picture.field) draw_order(canvas, plane, picture, style.theme);
-  if (picture.cell.walls) draw_walls(canvas, plane, picture, colours, layout.unit);
+  if (!style.transparent || style.ground) canvas.fill(plane.box());
+  if (style.background == Background::kOrder && picture.found.field)
+    draw_order(canvas, plane, *picture.found.field, style.theme);
+  if (picture.cell.walls)
+    draw_walls(canvas, plane, picture.cell, colours, layout.unit, !style.transparent || style.ground);
 }
 
 void draw_flat_rods(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style) {
   const Plane plane(canvas, layout, picture, style);
-  const Palette colours = palette(style.theme);
+  const PageColours colours = page_colours(style.theme);
   const Colouring& colouring = colouring_of(picture, style);
   const Vec2 range = range_of(colouring, style);
   cairo_t* cr = canvas.cairo();
   cairo_set_line_width(cr, 0.5 * layout.unit);
   for (std::size_t i = 0; i < picture.n_rods(); ++i) {
-    const Vec3& n = picture.director[i];
+    const Vec3& n = picture.frame.director[i];
     const double flat = n.head<2>().norm();
     const Vec2 along = flat > 1e-6 ? Vec2(n.head<2>() / flat) : Vec2(1, 0), across(-along.y(), along.x());
     const std::vector<Vec2> outline = half_outline(picture.cell.beads_of(i), flat);
-    const Colour colour = rod_colour(picture, i, colouring, range);
-    for_images(plane.view(), picture.position[i].head<2>(), std::abs(outline.front().x()) + outline.back().x(),
+    const Colour colour = rod_colour(picture, i, colouring, range, style.palette);
+    for_images(plane.view(), picture.frame.position[i].head<2>(), std::abs(outline.front().x()) + outline.back().x(),
                [&](const Vec2& at) {
                  const auto add = [&](const Vec2& point, double side) {
                    const Vec2 p = plane.pixel(at + point.x() * along + side * point.y() * across);
@@ -274,15 +279,15 @@ void draw_flat_rods(const Canvas& canvas, const Layout& layout, const RodPicture
 }
 
 void draw_lines(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style) {
-  if (style.lines == FieldLines::kNone || !picture.field) return;
+  if (style.lines == FieldLines::kNone || !picture.found.field) return;
   const Plane plane(canvas, layout, picture, style);
-  (style.lines == FieldLines::kBars ? draw_bars : draw_streamlines)(canvas, plane, picture, palette(style.theme),
-                                                                    layout.unit);
+  (style.lines == FieldLines::kBars ? draw_bars : draw_streamlines)(canvas, plane, *picture.found.field,
+                                                                    page_colours(style.theme), layout.unit);
 }
 
 void draw_tracks(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style) {
   const Plane plane(canvas, layout, picture, style);
-  for (const DefectTrail& trail : picture.tracks) {
+  for (const DefectTrail& trail : picture.found.tracks) {
     const Colour colour = diverging_colour(trail.charge > 0 ? 1 : -1);
     const auto width_at = [&](double age) { return (2 + 3 * (1 - age)) * layout.unit; };
     for (std::size_t k = 1; k < trail.places.size(); ++k) {
@@ -302,7 +307,7 @@ void draw_tracks(const Canvas& canvas, const Layout& layout, const RodPicture& p
 void draw_defects(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style) {
   const Plane plane(canvas, layout, picture, style);
   const double unit = layout.unit * std::min(std::sqrt(std::max(style.zoom, 1.0)), 2.0);
-  for (const analysis::Defect& defect : picture.defects) {
+  for (const analysis::Defect& defect : picture.found.defects) {
     for_images(plane.view(), defect.position, kMarkReach * unit / plane.scale(), [&](const Vec2& at) {
       const Vec2 p = plane.pixel(at);
       (defect.charge > 0 ? draw_plus_half : draw_minus_half)(canvas, p.x(), p.y(), defect.direction, unit);
@@ -316,9 +321,9 @@ void draw_displacements(const Canvas& canvas, const Layout& layout, const RodPic
   cairo_t* cr = canvas.cairo();
   const double unit = layout.unit * std::min(std::sqrt(std::max(style.zoom, 1.0)), 2.0);
   const double longest_head = 6 * unit, thickness = 1.3 * unit;
-  const Colour ink = palette(style.theme).ink, page = palette(style.theme).page;
-  for (std::size_t i = 0; i < picture.displacement.size(); ++i) {
-    const Vec2 way = picture.displacement[i], middle = picture.position[i].head<2>() - way / 2;
+  const Colour ink = page_colours(style.theme).ink, page = page_colours(style.theme).page;
+  for (std::size_t i = 0; i < picture.frame.displacement.size(); ++i) {
+    const Vec2 way = picture.frame.displacement[i], middle = picture.frame.position[i].head<2>() - way / 2;
     const double length = way.norm() * plane.scale();  // [pixels]
     // A way through many boxes would be drawn in many pieces, and shows nothing.
     if (length < 1 || way.norm() > 3 * picture.cell.box_side) continue;

@@ -32,7 +32,8 @@ Result<void> check_drawable(const RodPicture& picture, const PictureStyle& style
   }
   if (!(picture.cell.box_side > 0)) return Error{"the box has no size"};
   if (style.view != ViewPoint::kTop && !(picture.cell.gap > 0)) return Error{"there is no gap to look into"};
-  if (picture.director.size() != picture.position.size()) return Error{"as many directors as positions are needed"};
+  if (picture.frame.director.size() != picture.frame.position.size())
+    return Error{"as many directors as positions are needed"};
   for (const BeadRow& beads : picture.cell.species) {
     if (beads.offset.empty() || beads.offset.size() != beads.radius.size() ||
         beads.offset.size() > RodsPass::kMaxBeads) {
@@ -50,8 +51,8 @@ Result<void> check_drawable(const RodPicture& picture, const PictureStyle& style
 }
 
 /// Whether one sees where the floor ends: at side walls, or around a box that is not repeated.
-bool has_end(const RodPicture& picture, const Camera& camera) {
-  return picture.cell.walls || (camera.period == 0 && !camera.is_parallel);
+bool has_end(const Cell& cell, const Camera& camera) {
+  return cell.walls || (camera.period == 0 && !camera.is_parallel);
 }
 
 /// All rods of one species, and their periodic images, of which a part may be seen; relative to the eye.
@@ -65,12 +66,12 @@ RodBatch seen_rods(const RodPicture& picture, std::size_t species, const Picture
   const Vec2 range = range_of(colouring, style);
   for (std::size_t i = 0; i < picture.n_rods(); ++i) {
     if (picture.cell.species_of(i) != species) continue;
-    const Vec3 &x = picture.position[i], &n_rod = picture.director[i];
+    const Vec3 &x = picture.frame.position[i], &n_rod = picture.frame.director[i];
     double towards = 0;  // how far the rod reaches towards the eye
     for (std::size_t k = 0; k < beads.offset.size(); ++k) {
       towards = std::max(towards, beads.radius[k] - beads.offset[k] * n_rod.dot(camera.forward));
     }
-    const Colour colour = rod_colour(picture, i, colouring, range);
+    const Colour colour = rod_colour(picture, i, colouring, range, style.palette);
     for_images(camera.low, camera.high, camera.period, x.head<2>(), around, [&](const Vec2& at) {
       const Vec3 place(at.x(), at.y(), x.z()), seen = camera.seen(place);
       if (!camera.is_parallel) {
@@ -85,7 +86,8 @@ RodBatch seen_rods(const RodPicture& picture, std::size_t species, const Picture
 }
 
 /// Hands over what all programs may ask for; `program` is then in use.
-void set_scene(GLuint program, const RodPicture& picture, const PictureStyle& style, const Camera& camera, int height) {
+void set_scene(GLuint program, const Cell& cell, const Frame& frame, const PictureStyle& style, const Camera& camera,
+               int height) {
   glUseProgram(program);
   const auto at = [program](const char* name) { return glGetUniformLocation(program, name); };
   const auto number = [&](const char* name, double value) { glUniform1f(at(name), static_cast<float>(value)); };
@@ -112,12 +114,11 @@ void set_scene(GLuint program, const RodPicture& picture, const PictureStyle& st
   number("nearest", camera.is_parallel ? -1e9 : camera.nearest);
   pair("fade", camera.nearest, camera.farthest);
 
-  const Cell& cell = picture.cell;
-  const double base = picture.base - camera.eye.z();
+  const double base = frame.base - camera.eye.z();
   pair("heights", camera.heights.x() - camera.eye.z(), camera.heights.y() - camera.eye.z());
   number("base", base);
   pair("plates", base, base + cell.gap);
-  glUniform1i(at("has_lid"), picture.has_lid ? 1 : 0);
+  glUniform1i(at("has_lid"), frame.has_lid ? 1 : 0);
   number("cut", camera.is_cut ? camera.nearest : 0);
   number("grid", camera.is_parallel ? 0 : 5);
   number("plate", camera.fades || camera.is_parallel ? 1e6 : cell.box_side);
@@ -127,7 +128,7 @@ void set_scene(GLuint program, const RodPicture& picture, const PictureStyle& st
   pair("middle", cell.box_side / 2 - camera.eye.x(), cell.box_side / 2 - camera.eye.y());
   number("size", walls.size);
   number("inner", walls.inner);
-  const Palette colours = palette(style.theme);
+  const PageColours colours = ground_colours(style);
   three("page", colours.page);
   three("floor_colour", colours.floor);
   three("cut_colour", colours.walls);
@@ -165,7 +166,7 @@ Result<ImageOf<Channel>> RodsPass::draw(const RodPicture& picture, const Picture
   const Camera camera = camera_of(picture, style, static_cast<double>(width) / height);
   std::string seen, lit;  // what has to be worked out of it
   if (camera.fades) seen += "#define FADES\n";
-  if (has_end(picture, camera)) seen += "#define ENDS\n";
+  if (has_end(picture.cell, camera)) seen += "#define ENDS\n";
   for (const auto& [name, is_on] :
        {std::pair{"GLOSS", light.gloss}, {"OCCLUSION", light.occlusion}, {"SMOOTH", light.smooth}}) {
     if (is_on) lit.append("#define ").append(name).append("\n");
@@ -183,7 +184,7 @@ Result<ImageOf<Channel>> RodsPass::draw(const RodPicture& picture, const Picture
   const auto draw_with = [&](GLuint program) {
     for (const RodBatch& batch : batches) {
       if (batch.rods.empty()) continue;
-      set_scene(program, picture, style, camera, height);
+      set_scene(program, picture.cell, picture.frame, style, camera, height);
       const auto at = [&](const char* name) { return glGetUniformLocation(program, name); };
       const Vec2 shift = -0.48 * batch.thick * light_in(camera).head<2>();
       glUniform1f(at("margin"), static_cast<float>(kMargin * batch.thick));
@@ -194,11 +195,11 @@ Result<ImageOf<Channel>> RodsPass::draw(const RodPicture& picture, const Picture
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_ALWAYS);
   glDisable(GL_BLEND);
-  const Colour floor = palette(style.theme).floor;
+  const Colour floor = ground_colours(style).floor;
   glClearColor(static_cast<float>(floor[0]), static_cast<float>(floor[1]), static_cast<float>(floor[2]), 1);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   if (!camera.is_parallel || picture.cell.walls) {  // else there is nothing but floor
-    set_scene(*plates, picture, style, camera, height);
+    set_scene(*plates, picture.cell, picture.frame, style, camera, height);
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
   }
   glDepthFunc(GL_LESS);

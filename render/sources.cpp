@@ -40,7 +40,7 @@ Result<void> check_sizes(const std::string& who, const RodPicture& picture, cons
   constexpr double kMostNodes = 4096;
   if (auto done = scene::check_cell(picture.cell, picture.n_rods()); !done)
     return Error{who + " " + done.error().message};
-  const double mesh = picture.grid > 0 ? picture.grid : scene::MeasureDefects{}.grid_for(picture.rod_length());
+  const double mesh = asked.grid > 0 ? asked.grid : scene::MeasureDefects{}.grid_for(picture.rod_length());
   if ((asked.defects || asked.field) && picture.cell.box_side / mesh > kMostNodes) {
     return Error{
         fmt::format("a box of {} mm is too large for a picture of rods of {} mm with defects on this mesh (at most {} "
@@ -149,30 +149,30 @@ std::vector<double> TrajectorySource::orders(double first, double last) const {
   return orders;
 }
 
-Result<RodPicture> TrajectorySource::bare_picture(const Snapshot& frame, const Asked& asked) const {
+Result<RodPicture> TrajectorySource::bare_picture(const Snapshot& frame, Asked asked) const {
   RodPicture picture;
   picture.cell = reader_.header().cell;
-  picture.time = frame.time;
+  picture.frame.time = frame.time;
   if (plan_) {
     const System& system = plan_->system;
     // z_base = a cos(2 pi f t) + a (sim/motion/plates.h)
-    picture.base = system.amplitude * (1 + std::cos(2 * kPi * system.frequency * picture.time));
-    picture.has_lid = system.lid;
+    picture.frame.base = system.amplitude * (1 + std::cos(2 * kPi * system.frequency * picture.frame.time));
+    picture.frame.has_lid = system.lid;
     const scene::MeasureDefects defects = plan_->defects.value_or(scene::MeasureDefects{});
-    picture.smoothing = defects.smoothing;
-    picture.grid = defects.grid;
+    asked.smoothing = defects.smoothing;
+    asked.grid = defects.grid;
   }
-  picture.position = frame.position;
-  picture.director = frame.director;
-  picture.velocity = frame.velocity;
+  picture.frame.position = frame.position;
+  picture.frame.director = frame.director;
+  picture.frame.velocity = frame.velocity;
   if (auto done = check_sizes(file_.string() + " has", picture, asked); !done) return done.error();
   const std::optional<double> gamma = plan_ ? scene::gamma_of(plan_->system) : std::nullopt;
-  picture.settings = settings_of(picture);
+  picture.captions.settings = settings_of(picture);
   if (gamma) {
-    picture.settings.emplace_back("\u0393", fmt::format("{:.4g}", *gamma));
-    picture.settings.emplace_back("f", fmt::format("{:.4g} Hz", plan_->system.frequency));
+    picture.captions.settings.emplace_back("\u0393", fmt::format("{:.4g}", *gamma));
+    picture.captions.settings.emplace_back("f", fmt::format("{:.4g} Hz", plan_->system.frequency));
   }
-  name_runs({&picture});
+  name_runs({&picture.captions});
   measure(picture, asked);
   return picture;
 }
@@ -183,7 +183,7 @@ Result<const std::vector<analysis::Defect>*> TrajectorySource::defects_of(std::s
   if (!frame) return frame.error();
   Result<RodPicture> picture = bare_picture(*frame, {.defects = true});
   if (!picture) return picture.error();
-  return &(defects_[index] = std::move(picture->defects));
+  return &(defects_[index] = std::move(picture->found.defects));
 }
 
 Result<void> TrajectorySource::link(std::size_t first, std::size_t last) {
@@ -266,35 +266,35 @@ Result<RodPicture> TrajectorySource::picture_of(const Snapshot& frame, std::size
   Result<RodPicture> made = bare_picture(frame, asked);
   if (!made) return made.error();
   RodPicture& picture = *made;
-  if (known != defects_.end() && style.mark_defects) picture.defects = known->second;
-  picture.notes = notes_;
-  if (followed_) picture.followed = followed_->at(picture.time);
+  if (known != defects_.end() && style.mark_defects) picture.found.defects = known->second;
+  picture.captions.notes = notes_;
+  if (followed_) picture.found.followed = followed_->at(picture.frame.time);
   if (style.displacements > 0) {
     Result<std::vector<Vec2>> ways = displacements(frame, index, style.displacements);
     if (!ways) return ways.error();
-    picture.displacement = std::move(*ways);
+    picture.frame.displacement = std::move(*ways);
   }
   if (style.mark_defects && style.tracks > 0) {
-    if (is_recorded) defects_[index] = picture.defects;
+    if (is_recorded) defects_[index] = picture.found.defects;
     std::size_t first = index;
     for (; first > 0; --first) {
       const Result<double> before = time_of(first - 1);
       if (!before) return before.error();
-      if (picture.time - *before > style.tracks) break;
+      if (picture.frame.time - *before > style.tracks) break;
     }
     if (auto done = link(first, index); !done) return done.error();
     defects_.erase(defects_.begin(), defects_.lower_bound(first));  // a film does not go back
-    picture.tracks = links_->trails(picture.time, style.tracks);
+    picture.found.tracks = links_->trails(picture.frame.time, style.tracks);
   }
   if (history_.time.size() > 1) {
-    picture.history.start = history_.start;
-    picture.history.end = history_.end;
-    for (std::size_t k = 0; k < history_.time.size() && history_.time[k] < picture.time; ++k) {
-      picture.history.time.push_back(history_.time[k]);
-      picture.history.order.push_back(history_.order[k]);
+    picture.captions.history.start = history_.start;
+    picture.captions.history.end = history_.end;
+    for (std::size_t k = 0; k < history_.time.size() && history_.time[k] < picture.frame.time; ++k) {
+      picture.captions.history.time.push_back(history_.time[k]);
+      picture.captions.history.order.push_back(history_.order[k]);
     }
-    picture.history.time.push_back(picture.time);
-    picture.history.order.push_back(picture.order);
+    picture.captions.history.time.push_back(picture.frame.time);
+    picture.captions.history.order.push_back(picture.found.order);
   }
   return made;
 }
@@ -335,24 +335,25 @@ Result<RodPicture> live_picture(const std::string& lcm_url, const std::string& j
 
   const Asked asked = asked_by(style);
   RodPicture picture;
-  picture.time = frame->sim_time_s;
+  picture.frame.time = frame->sim_time_s;
   const std::optional<Cell> cell = proto::decode_cell(*constants);
   if (!cell) return Error{"the job's messages have numbers of beads that contradict each other"};
   picture.cell = *cell;
   picture.cell.box_side = frame->box_side_mm;
   for (const proto::RodPose& rod : frame->rods) {
     const std::array<double, 3> axis = rod.axis();
-    picture.position.emplace_back(rod.x, rod.y, cell->gap / 2);
-    picture.director.emplace_back(axis[0], axis[1], axis[2]);
+    picture.frame.position.emplace_back(rod.x, rod.y, cell->gap / 2);
+    picture.frame.director.emplace_back(axis[0], axis[1], axis[2]);
   }
   if (auto done = check_sizes("the job's messages have", picture, asked); !done) return done.error();
-  picture.settings = settings_of(picture);
-  name_runs({&picture});
+  picture.captions.settings = settings_of(picture);
+  name_runs({&picture.captions});
   if (!constants->label.empty()) {
-    picture.subtitle = picture.label;
-    picture.label = headline(printable(constants->label));
+    picture.captions.subtitle = picture.captions.label;
+    picture.captions.label = headline(printable(constants->label));
   }
-  picture.notes = {{"Software", fmt::format("Shaken {}", run::version())}, {"Run id", printable(constants->job_id)}};
+  picture.captions.notes = {{"Software", fmt::format("Shaken {}", run::version())},
+                            {"Run id", printable(constants->job_id)}};
   measure(picture, asked);
   return picture;
 }

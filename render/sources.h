@@ -68,7 +68,7 @@ class TrajectorySource {
   Result<const std::vector<analysis::Defect>*> defects_of(std::size_t index);
   /// How far each rod has come, from the frame nearest to `span` seconds before the one of `index`, to `now`.
   Result<std::vector<Vec2>> displacements(const Snapshot& now, std::size_t index, double span) const;
-  Result<RodPicture> bare_picture(const Snapshot& frame, const Asked& asked) const;
+  Result<RodPicture> bare_picture(const Snapshot& frame, Asked asked) const;
   /// Of a frame at, or next to, the recorded one of `index`.
   Result<RodPicture> picture_of(const Snapshot& frame, std::size_t index, const PictureStyle& style);
 

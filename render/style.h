@@ -7,6 +7,7 @@
 
 #include "base/core/result.h"
 #include "base/core/types.h"
+#include "base/palettes.h"
 
 namespace shaken::render {
 
@@ -62,8 +63,11 @@ struct PictureStyle {
   std::optional<double> dpi;    ///< pixels per inch that a PNG or a PDF has; if not given a PDF has 72
   std::string colour = "auto";  ///< a row of colourings(), or "auto": chosen_colour() decides
   std::optional<Vec2> range;    ///< ends of its scale, in the colouring's unit; the colouring's own if not given
+  Palette palette = Palette::kSafe;
   Theme theme = Theme::kLight;
-  double rods = 1;  ///< opacity of floor and rods over the background, in [0, 1]; at 0 no rod is drawn
+  bool transparent = false;      ///< no page, no floor: a picture is laid over something else
+  std::optional<Colour> ground;  ///< of page, floor and what lies beyond walls; the theme's if not given. No key
+  double rods = 1;               ///< opacity of floor and rods over the background, in [0, 1]; at 0 no rod is drawn
   Background background = Background::kNone;
   FieldLines lines = FieldLines::kNone;
   Light light;

@@ -116,7 +116,13 @@ std::vector<StyleKey> rows() {
               "none"),
       colour(),
       pair<&Style::range>("range", "LOW,HIGH", "Ends of the colour scale, in its unit (--range=-5,5)"),
+      word<&Style::palette>("palette", {"safe", "paper"},
+                            "Colours of the two sides of the director: orange and blue, which the colour-blind tell "
+                            "apart, or the paper's red and magenta"),
       word<&Style::theme>("theme", {"light", "dark", "print"}, "Colours of page, floor and text"),
+      on_or_off(
+          "transparent", at<&Style::transparent>,
+          "No page and no floor, for slides and posters: a PNG then has an alpha channel (not films, not --depth 16)"),
       number<&Style::rods>("rods", "OPACITY", 0, 1, "Opacity of the rods over the background; 0: none"),
       keys::whole("samples", at<&Style::light, &Light::samples>, 1, 3,
                   "Rays along each side of a pixel; 1 is for a first look"),

@@ -21,8 +21,8 @@ View view_of(const RodPicture& picture, const PictureStyle& style);
 View box_in(const RodPicture& picture, const PictureStyle& style);
 /// Whether a point, or an image of it, is in the view from above; other views show the whole box.
 bool is_in_view(const RodPicture& picture, const PictureStyle& style, const Vec2& point);
-/// The rod that the view follows, if the picture has it.
-std::optional<std::size_t> followed_rod(const RodPicture& picture, const PictureStyle& style);
+/// The rod that the view follows, if the frame has it.
+std::optional<std::size_t> followed_rod(const Frame& frame, const PictureStyle& style);
 
 /// Calls `visit(place)` for each image of `point` that lies in the rectangle or within `reach` of it; images are
 /// `period` apart, and none but the point itself if that is 0.

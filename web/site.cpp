@@ -98,21 +98,21 @@ Json defects_json(const defects_t& m) {
   return {{"time_s", number(m.sim_time_s)}, {"defects", list}};
 }
 
-/// The colours of the terminal's live view, evenly spaced along each scale.
+/// The colours of rods (base/palettes.h), evenly spaced along each scale: angles to the director from -90 to 90
+/// degrees, angles in the box over half a turn, n_z from -0.3 to 0.3; and those of species, beside angles and alone.
 Json palettes() {
   constexpr double kPi = std::numbers::pi;
-  constexpr int kSteps = 24;
-  const auto scale = [](auto tone_at) {
+  const auto scale = [](std::size_t steps, auto colour_at) {
     Json colours = Json::array();
-    for (int i = 0; i < kSteps; ++i) colours.push_back(client::ink_of(tone_at(static_cast<double>(i))));
+    for (std::size_t i = 0; i < steps; ++i) colours.push_back(client::ink_of(colour_at(i)));
     return colours;
   };
-  Json species = Json::array();
-  for (std::size_t i = 0; i < 3; ++i) species.push_back(client::ink_of(client::species_tone(i)));
-  return {{"layers", scale([&](double i) { return client::layer_tone((i / (kSteps - 1) - 0.5) * kPi / 6); })},
-          {"wheel", scale([&](double i) { return client::wheel_tone(i / kSteps * kPi); })},
-          {"tilt", scale([&](double i) { return client::tilt_tone(i / (kSteps - 1) / 2); })},
-          {"species", species},
+  const auto part = [](std::size_t i, int of) { return static_cast<double>(i) / of; };
+  return {{"layers", scale(73, [&](std::size_t i) { return layer_colour((part(i, 72) - 0.5) * kPi); })},
+          {"wheel", scale(24, [&](std::size_t i) { return wheel_colour(part(i, 24) * kPi); })},
+          {"tilt", scale(25, [&](std::size_t i) { return diverging_colour(2 * part(i, 24) - 1); })},
+          {"species", scale(3, name_colour)},
+          {"others", scale(3, species_colour)},
           {"floor", client::ink_of(client::kFloorTone)},
           {"wall", client::ink_of(client::kWallTone)}};
 }

@@ -4,34 +4,39 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
+#include <iterator>
 #include <numbers>
 
 namespace shaken::client {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr int kLayerSteps = 4;   // on either side
+constexpr double kLayerDegrees[] = {0, 3.75, 7.5, 11.25, 15, 60, 75, 90};  // on either side: it grows, stays, fades
+constexpr int kLayerSteps = static_cast<int>(std::size(kLayerDegrees)) - 1;
 constexpr int kWheelSteps = 24;  // of half a turn
-constexpr int kTiltSteps = 5;
-constexpr double kFullAngle = 15 * kPi / 180;
-constexpr double kFullTilt = 0.5;
-
-// Equal steps in OKLab (Ottosson 2020) from one end to the other.
-constexpr std::array<Ink, 2 + 2 * kLayerSteps + 1 + kWheelSteps + kTiltSteps + 3> kInks{
-    0x16181C, 0x7A7F8A,                                // floor, wall
-    0x2F8FFF, 0x67A8FB, 0x95BEF5, 0xC1D4EE, 0xECE8E4,  // right of the director to along it
-    0xF3D4BA, 0xF9BE8E, 0xFDA85E, 0xFF9000,            // and on to the left of it
-    0xF08B7C, 0xEC8F67, 0xE59654, 0xDA9E45, 0xCBA640, 0xB8AE45, 0xA2B654, 0x89BC68,  // the wheel from 0 degrees
-    0x6EC17E, 0x4FC495, 0x2DC4AC, 0x05C3C2, 0x0FC0D5, 0x34BBE5, 0x54B5F1, 0x71AEF9,  //
-    0x8AA7FB, 0xA19FF7, 0xB698EF, 0xC892E2, 0xD68DD2, 0xE289BE, 0xEA88A9, 0xEF8893,  //
-    0x2A5F9E, 0x5F839F, 0x93A49C, 0xC8C592, 0xFFE680,                                // flat to steep
-    0xECE8E4, 0x6FA3A8, 0x9A7FB8,                                                    // first, second, third species
-};
-static_assert(std::ssize(kInks) == kToneCount);
+constexpr int kTiltSteps = 4;    // on either side
 constexpr int kLayerMiddle = 2 + kLayerSteps;
 constexpr int kWheelBegin = kLayerMiddle + kLayerSteps + 1;
-constexpr int kTiltBegin = kWheelBegin + kWheelSteps;
-constexpr int kSpeciesBegin = kTiltBegin + kTiltSteps;
+constexpr int kTiltMiddle = kWheelBegin + kWheelSteps + kTiltSteps;
+constexpr int kSpeciesBegin = kTiltMiddle + kTiltSteps + 1;
+constexpr int kOtherBegin = kSpeciesBegin + 3;
+static_assert(kOtherBegin + 2 == kToneCount);
+
+std::array<Ink, kToneCount> inks() {
+  std::array<Ink, kToneCount> all{0x16181C, 0x7A7F8A};  // floor, wall
+  const auto set = [&](int tone, const shaken::Colour& colour) {
+    all[static_cast<std::size_t>(tone)] = ink_of(colour);
+  };
+  for (int i = -kLayerSteps; i <= kLayerSteps; ++i) {
+    set(kLayerMiddle + i, layer_colour((i < 0 ? -1 : 1) * kLayerDegrees[std::abs(i)] * kPi / 180));
+  }
+  for (int i = 0; i < kWheelSteps; ++i) set(kWheelBegin + i, wheel_colour(i * kPi / kWheelSteps));
+  for (int i = -kTiltSteps; i <= kTiltSteps; ++i) set(kTiltMiddle + i, diverging_colour(double(i) / kTiltSteps));
+  for (int i = 0; i < 3; ++i) set(kSpeciesBegin + i, name_colour(static_cast<std::size_t>(i)));
+  for (int i = 0; i < 2; ++i) set(kOtherBegin + i, species_colour(static_cast<std::size_t>(i + 1)));
+  return all;
+}
 
 }  // namespace
 
@@ -41,8 +46,10 @@ const char* name_of(Colouring colouring) {
 }
 
 Tone layer_tone(double theta) {
-  const double part = std::clamp(theta / kFullAngle, -1.0, 1.0);
-  return static_cast<Tone>(kLayerMiddle + std::lround(part * kLayerSteps));
+  const double degrees = std::abs(theta) * 180 / kPi;
+  long step = 0;
+  while (step < kLayerSteps && degrees > (kLayerDegrees[step] + kLayerDegrees[step + 1]) / 2) ++step;
+  return static_cast<Tone>(kLayerMiddle + (theta < 0 ? -step : step));
 }
 
 Tone wheel_tone(double angle) {
@@ -51,18 +58,30 @@ Tone wheel_tone(double angle) {
 }
 
 Tone tilt_tone(double n_z) {
-  const double part = std::min(std::abs(n_z) / kFullTilt, 1.0);
-  return static_cast<Tone>(kTiltBegin + std::lround(part * (kTiltSteps - 1)));
+  return static_cast<Tone>(kTiltMiddle + std::lround(std::clamp(n_z / kFullTilt, -1.0, 1.0) * kTiltSteps));
 }
 
 Tone species_tone(std::size_t species) { return static_cast<Tone>(kSpeciesBegin + std::min<std::size_t>(species, 2)); }
 
-Ink ink_of(Tone tone) { return kInks[tone]; }
+Tone other_tone(std::size_t species) {
+  return static_cast<Tone>(kOtherBegin + std::clamp<std::size_t>(species, 1, 2) - 1);
+}
+
+Ink ink_of(const shaken::Colour& colour) {
+  Ink ink = 0;
+  for (const double part : colour) ink = ink << 8 | static_cast<Ink>(std::lround(255 * part));
+  return ink;
+}
+
+Ink ink_of(Tone tone) {
+  static const std::array<Ink, kToneCount> kInks = inks();
+  return kInks[tone];
+}
 
 Ink ink_of(Tone tone, double share) {
   Ink mixed = 0;
   for (const int shift : {16, 8, 0}) {
-    const double floor = kInks[kFloorTone] >> shift & 0xFF, top = kInks[tone] >> shift & 0xFF;
+    const double floor = ink_of(kFloorTone) >> shift & 0xFF, top = ink_of(tone) >> shift & 0xFF;
     mixed |= static_cast<Ink>(std::lround(floor + share * (top - floor))) << shift;
   }
   return mixed;

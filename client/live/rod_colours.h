@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/palettes.h"
 #include "client/live/ink.h"
 
 namespace shaken::client {
@@ -13,7 +14,7 @@ enum class Colouring {
   kAuto,     ///< kLayers where there is order, kWheel where there is none
   kLayers,   ///< the angle to the director: orange to the left, blue to the right, pale along it
   kWheel,    ///< the angle in the box, on a circle of period 180 degrees
-  kTilt,     ///< how steeply they stand: |n_z|
+  kTilt,     ///< which end is raised: n_z, orange if it is the head, blue if the tail
   kSpecies,  ///< one colour for each species
 };
 const char* name_of(Colouring colouring);
@@ -23,16 +24,23 @@ const char* name_of(Colouring colouring);
 using Tone = std::uint8_t;
 inline constexpr Tone kFloorTone = 0;  ///< the floor
 inline constexpr Tone kWallTone = 1;
-inline constexpr int kToneCount = 43;
+inline constexpr int kToneCount = 55;
 
-/// The colours change from pale over the first 15 degrees (`theta` in [-pi/2, pi/2], in radians). Orange and blue are
-/// told apart by people who confuse red and green.
+// The colours are those of base/palettes.h, as in the pictures of shaken-render.
+
+/// `theta` in [-pi/2, pi/2] [rad].
 Tone layer_tone(double theta);
-/// 24 colours of one lightness and chroma for half a turn (OKLab, Ottosson 2020), as in the pictures of shaken-render.
+/// 24 for half a turn.
 Tone wheel_tone(double angle);
-/// From blue (flat) to yellow (|n_z| = 0.5 and more).
+/// The tilt n_z at which its scale ends, on either side.
+inline constexpr double kFullTilt = 0.3;
 Tone tilt_tone(double n_z);
+/// Of rods that are coloured by species.
 Tone species_tone(std::size_t species);
+/// Of all rods of another species than the first, where those have colours of angles.
+Tone other_tone(std::size_t species);
+
+Ink ink_of(const shaken::Colour& colour);
 
 Ink ink_of(Tone tone);
 /// `share` of `tone` over the floor, 0 to 1.

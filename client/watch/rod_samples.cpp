@@ -18,7 +18,8 @@ Tone tone_of(const RodFrame& frame, std::size_t rod, Colouring colouring) {
   const std::size_t species = frame.cell.species_of(rod);
   const proto::RodPose& pose = frame.rods[rod];
   if (colouring == Colouring::kTilt) return tilt_tone(pose.n_z);
-  if (species > 0 || colouring == Colouring::kSpecies) return species_tone(species);
+  if (colouring == Colouring::kSpecies) return species_tone(species);
+  if (species > 0) return other_tone(species);
   if (colouring == Colouring::kWheel) return wheel_tone(pose.theta);
   return layer_tone(folded(pose.theta - frame.director, kHalfTurn));
 }

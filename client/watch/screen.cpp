@@ -121,7 +121,7 @@ void put_legend(const WatchContent& content, const Area& area, const Area& pictu
     case Colouring::kAuto:
     case Colouring::kLayers:
       put("−15° ");
-      put_colours({layer_tone(-1), layer_tone(-0.13), layer_tone(0), layer_tone(0.13), layer_tone(1)});
+      put_colours({layer_tone(-0.3), layer_tone(-0.13), layer_tone(0), layer_tone(0.13), layer_tone(0.3)});
       put(" +15°");
       if (constexpr std::string_view kOf = " to the director"; column + std::ssize(kOf) <= end) put(std::string(kOf));
       break;
@@ -132,9 +132,9 @@ void put_legend(const WatchContent& content, const Area& area, const Area& pictu
       put(" 180°");
       break;
     case Colouring::kTilt:
-      put("flat ");
-      put_colours({tilt_tone(0), tilt_tone(0.125), tilt_tone(0.25), tilt_tone(0.375), tilt_tone(0.5)});
-      put(" 30°");
+      put("tail up −0.3 ");
+      put_colours({tilt_tone(-0.3), tilt_tone(-0.15), tilt_tone(0), tilt_tone(0.15), tilt_tone(0.3)});
+      put(" 0.3 head up");
       break;
     case Colouring::kSpecies:
       for (std::size_t i = 0; i < content.rods->outlines.size(); ++i) {

@@ -123,6 +123,9 @@ void make_film(const Options& options) {
   if (style.small && std::filesystem::path(out).extension() == ".gif") {
     throw Failure(ExitCode::kBadInput, "--small is of .mp4 and .webm: a .gif has one kind of compression");
   }
+  if (style.transparent) {
+    throw Failure(ExitCode::kBadInput, "--transparent is for pictures: films have no opacity");
+  }
   const Cut cut = cut_of(options, style, source);
   const double begin = cut.times.front(), end = cut.times.back();
   for (TrajectorySource& each : runs.all()) done_or_fail(each.read_history());
@@ -130,13 +133,13 @@ void make_film(const Options& options) {
   // One colouring for the whole film.
   if (style.colour == "auto") {
     std::vector<double> orders = source.orders(begin, end);
-    if (orders.empty()) orders = {last.order};
+    if (orders.empty()) orders = {last.found.order};
     style.colour = chosen_colour(last, orders, style.mark_defects);
   }
   runs.prepare(style, begin, end);
 
   MovieOptions movie;
-  movie.title = options.labels.empty() ? last.label : headline(printable(options.labels.front()));
+  movie.title = options.labels.empty() ? last.captions.label : headline(printable(options.labels.front()));
   movie.notes = notes_of(source, style, cut);
   movie.n_threads =
       options.n_threads > 0 ? options.n_threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
@@ -150,10 +153,10 @@ void make_film(const Options& options) {
     Result<RodPicture> rods =
         runs.joint_picture(style, [&](TrajectorySource& each) { return each.picture_at(cut.times[k], style); });
     if (!rods) return rods;
-    rods->playback = cut.playback;
-    rods->film_share = end > begin ? (cut.times[k] - begin) / (end - begin) : 1;
-    rods->axes = axes;
-    for (RodPicture& beside : rods->beside) beside.axes = axes;
+    rods->captions.playback = cut.playback;
+    rods->captions.film_share = end > begin ? (cut.times[k] - begin) / (end - begin) : 1;
+    rods->captions.axes = axes;
+    for (RodPicture& beside : rods->beside) beside.captions.axes = axes;
     return rods;
   };
   const std::size_t n_frames = cut.times.size();

@@ -20,7 +20,10 @@
 namespace shaken::render {
 namespace {
 
-void check_picture_name(const Options& options) {
+void check_picture_name(const Options& options, const PictureStyle& style) {
+  if (style.transparent && options.depth != 8) {
+    throw Failure(ExitCode::kBadInput, "--transparent is for 8 bits a colour, not for --depth 16");
+  }
   const std::string ending = std::filesystem::path(options.out).extension().string();
   if (options.depth != 8 && ending != ".png" && !options.out.empty()) {
     throw Failure(ExitCode::kBadInput, fmt::format("--depth {} is for .png, not for '{}'", options.depth, options.out));
@@ -38,9 +41,14 @@ void paint_to_file(const Options& options, const PictureStyle& style, const RodP
     Painter painter = value_or_fail(Painter::create(), ExitCode::kFailed);
     const auto paint = [&]<class Channel>(Channel) {
       const ImageOf<Channel> image = value_or_fail(painter.paint<Channel>(picture, style), ExitCode::kFailed);
-      done_or_fail(write_png(out, image, picture_texts(picture), style.dpi.value_or(0)));
+      done_or_fail(write_png(out, image, picture_texts(picture.frame, picture.captions), style.dpi.value_or(0)));
     };
-    options.depth == 16 ? paint(std::uint16_t{}) : paint(std::uint8_t{});
+    if (style.transparent) {
+      const ClearImage image = value_or_fail(painter.paint_clear(picture, style), ExitCode::kFailed);
+      done_or_fail(write_png(out, image, picture_texts(picture.frame, picture.captions), style.dpi.value_or(0)));
+    } else {
+      options.depth == 16 ? paint(std::uint16_t{}) : paint(std::uint8_t{});
+    }
   }
   report(options, out, 1, style, watch.seconds());
 }
@@ -66,7 +74,7 @@ std::size_t frame_in(const Options& options, const Runs& runs, std::size_t n_fra
 void make_picture(const Options& options) {
   const Stopwatch watch;
   PictureStyle style = style_of(options);
-  check_picture_name(options);
+  check_picture_name(options, style);
   Runs runs(options);
   const double time = options.time.empty() ? 0 : seconds_in(options.time, "--time");
   // Of several runs, one that has ended before shows its last frame beside the others.
@@ -89,7 +97,7 @@ void make_picture(const Options& options) {
   RodPicture picture = value_or_fail(runs.joint_picture(style, picture_of));
   // One colouring for all panels, as there is one legend.
   if (runs.are_several() && style.colour == "auto") {
-    style.colour = chosen_colour(picture, std::vector{picture.order}, style.mark_defects);
+    style.colour = chosen_colour(picture, std::vector{picture.found.order}, style.mark_defects);
   }
   paint_to_file(options, style, picture, runs.out_or("picture.png"), watch);
 }
@@ -106,11 +114,11 @@ void make_live_picture(const Options& options) {
   if (style.inset == Inset::kOrder) {
     throw Failure(ExitCode::kBadInput, "messages do not tell S(t): of a running job the inset is angles, g2 or g2-map");
   }
-  check_picture_name(options);
+  check_picture_name(options, style);
   const auto timeout = std::chrono::milliseconds(std::llround(options.timeout_s * 1000));
   RodPicture picture = value_or_fail(live_picture(options.lcm_url, options.sources.front(), timeout, style));
   check_picture(style, picture);
-  set_label(options, 0, picture);
+  set_label(options, 0, picture.captions);
   paint_to_file(options, style, picture, options.out, watch);
 }
 

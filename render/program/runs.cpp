@@ -58,18 +58,18 @@ Result<RodPicture> Runs::joint_picture(const PictureStyle& style,
     Result<RodPicture> picture = picture_of(sources_[i]);
     if (!picture) return picture;
     check_picture(style, *picture);
-    picture->sweep = places_.map;
-    if (places_.map) picture->sweep_point = places_.here[i];
+    picture->captions.sweep = places_.map;
+    if (places_.map) picture->captions.sweep_point = places_.here[i];
     pictures.push_back(std::move(*picture));
   }
-  std::vector<RodPicture*> runs;
-  for (RodPicture& picture : pictures) runs.push_back(&picture);
+  std::vector<Captions*> runs;
+  for (RodPicture& picture : pictures) runs.push_back(&picture.captions);
   name_runs(runs);
-  for (std::size_t i = 0; i < pictures.size(); ++i) set_label(options_, i, pictures[i]);
+  for (std::size_t i = 0; i < pictures.size(); ++i) set_label(options_, i, pictures[i].captions);
   RodPicture first = std::move(pictures.front());
   for (std::size_t i = 1; i < pictures.size(); ++i) {
-    for (const auto& [key, value] : pictures[i].notes) {
-      if (key != "Software") first.notes.emplace_back(fmt::format("{} ({})", key, i + 1), value);
+    for (const auto& [key, value] : pictures[i].captions.notes) {
+      if (key != "Software") first.captions.notes.emplace_back(fmt::format("{} ({})", key, i + 1), value);
     }
   }
   first.beside.assign(std::make_move_iterator(pictures.begin() + 1), std::make_move_iterator(pictures.end()));
@@ -87,10 +87,10 @@ void check_picture(const PictureStyle& style, const RodPicture& picture) {
   }
 }
 
-void set_label(const Options& options, std::size_t run, RodPicture& picture) {
+void set_label(const Options& options, std::size_t run, Captions& captions) {
   if (run >= options.labels.size() || options.labels[run].empty()) return;
-  if (picture.subtitle.empty()) picture.subtitle = picture.label;
-  picture.label = headline(printable(options.labels[run]));
+  if (captions.subtitle.empty()) captions.subtitle = captions.label;
+  captions.label = headline(printable(options.labels[run]));
 }
 
 void report(const Options& options, const std::string& path, std::size_t n_frames, const PictureStyle& style,

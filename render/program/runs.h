@@ -38,7 +38,7 @@ class Runs {
 void check_picture(const PictureStyle& style, const RodPicture& picture);
 
 /// The headline that the command line gives a run, above what was its own.
-void set_label(const Options& options, std::size_t run, RodPicture& picture);
+void set_label(const Options& options, std::size_t run, Captions& captions);
 
 /// Says on stdout what was written: the path, or all of it as JSON.
 void report(const Options& options, const std::string& path, std::size_t n_frames, const PictureStyle& style,

@@ -12,12 +12,12 @@ uniform sampler2D layers, wheel, tilt;
 uniform vec3 speciesColour[3];
 const float pi = 3.14159265358979;
 vec3 colourOf(float theta, float nz, float species) {
-  if (colouring == 3 || (colouring == 0 && species > 0.5)) return speciesColour[min(int(species), 2)];
+  if (colouring == 3 || (colouring < 2 && species > 0.5)) return speciesColour[min(int(species), 2)];
   float turned = (theta - director) / pi;
   turned -= floor(turned + 0.5);
-  if (colouring == 0) return texture(layers, vec2(clamp(turned * 6.0 + 0.5, 0.0, 1.0), 0.5)).rgb;
+  if (colouring == 0) return texture(layers, vec2(turned + 0.5, 0.5)).rgb;
   if (colouring == 1) return texture(wheel, vec2(theta / pi, 0.5)).rgb;
-  return texture(tilt, vec2(min(abs(nz) * 2.0, 1.0), 0.5)).rgb;
+  return texture(tilt, vec2(clamp(nz / 0.6 + 0.5, 0.0, 1.0), 0.5)).rgb;
 }`;
 
 /** A program with the places of its uniforms: {program, at: {name: location}}. Throws what the compiler says. */
@@ -74,7 +74,8 @@ export function makeTextures(gl, palettes) {
 export function useForRods(gl, {program, at}, palettes, frame, colouring) {
   gl.useProgram(program);
   kTextures.forEach((name, unit) => gl.uniform1i(at[name], unit));
-  gl.uniform3fv(at.speciesColour, palettes.species.flatMap(rgb).map((c) => c / 255));
+  const ofSpecies = palettes[colouring === "species" ? "species" : "others"];
+  gl.uniform3fv(at.speciesColour, ofSpecies.flatMap(rgb).map((c) => c / 255));
   gl.uniform3fv(at.outline, frame.outlines.slice(0, 8).flat());
   gl.uniform1f(at.director, frame.director_rad);
   gl.uniform1i(at.colouring, kColourings.indexOf(colouring));

@@ -11,7 +11,7 @@ import {RodCanvas, angleToDirector, unpack, unpackText} from "/page/rods.js";
 const kBins = 36;
 const kPlayEvery = 50;  // ms
 const kLegends = {
-  layers: ["−15°", "15° to the director"], wheel: ["0°", "180° in the box"], tilt: ["flat", "|n_z| = 0.5"], species: ["", ""],
+  layers: ["−90°", "90° to the director"], wheel: ["0°", "180° in the box"], tilt: ["tail up, n_z = −0.3", "0.3, head up"], species: ["", ""],
 };
 
 export class RunPanel {

@@ -92,6 +92,7 @@ TEST(BadArguments, AreAllExitCodeTwo) {
                                                                      {"movie", "x", "--frame", "-3"},
                                                                      {"movie", "x", "--frame", "1", "--live"},
                                                                      {"picture", "x", "--frame", "1", "--time", "2"},
+                                                                     {"picture", "s1", "--map", "--time", "2"},
                                                                      {"export", "x"},
                                                                      {"export", "--format", "gsd"},
                                                                      {"record", "-o", "x", "--size", "large"},

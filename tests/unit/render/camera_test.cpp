@@ -76,7 +76,7 @@ TEST(OrbitView, RodsAreSeenWhereTheyAreAndNowhereElse) {
         double inside = -1e9;  // how deep in the body the ray goes [mm]
         const BeadRow& beads = picture.cell.species[0];
         for (std::size_t i = 0; i < beads.offset.size(); ++i) {
-          const Vec3 centre = picture.position[0] + beads.offset[i] * picture.director[0] - camera.eye;
+          const Vec3 centre = picture.frame.position[0] + beads.offset[i] * picture.frame.director[0] - camera.eye;
           inside = std::max(inside, beads.radius[i] - (centre - centre.dot(ray) * ray).norm());
         }
         const std::uint8_t* p = image.pixel(x, y);
@@ -94,7 +94,7 @@ TEST(OrbitView, AroundThePlateThereIsNothing) {
   RodsPass pass = RodsPass::create().value();
   const RodPicture picture = empty_picture(12);
   const Image image = pass.draw(picture, orbit(0, 40), 300, 200).value();
-  const Palette colours = palette(Theme::kLight);
+  const PageColours colours = page_colours(Theme::kLight);
   for (std::size_t c = 0; c < 3; ++c) {
     EXPECT_NEAR(image.pixel(3, 3)[c], 255 * colours.page[c], 1) << "beyond the plate";
     EXPECT_NEAR(image.pixel(296, 196)[c], 255 * colours.page[c], 1);

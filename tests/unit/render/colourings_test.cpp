@@ -36,8 +36,8 @@ TEST(Colourings, ValuesAreWhatTheirNamesSay) {
   add_rod(picture, 5, 5, 50 * kDegree, 0.2);
   add_rod(picture, 9, 5, 230 * kDegree, 0.2);  // head and tail changed
   add_rod(picture, 9, 9, -70 * kDegree);
-  picture.director_angle = 40 * kDegree;
-  picture.velocity = {3 * picture.director[0], 3 * picture.director[0], Vec3(0, 0, 5)};
+  picture.found.director_angle = 40 * kDegree;
+  picture.frame.velocity = {3 * picture.frame.director[0], 3 * picture.frame.director[0], Vec3(0, 0, 5)};
   EXPECT_NEAR(value("layers", picture, 0), 10, 1e-9);
   EXPECT_NEAR(value("layers", picture, 1), 10, 1e-9);
   EXPECT_NEAR(value("layers", picture, 2), 70, 1e-9) << "-110 is the same axis";
@@ -49,11 +49,11 @@ TEST(Colourings, ValuesAreWhatTheirNamesSay) {
   EXPECT_NEAR(value("heading", picture, 2), 290, 1e-9);
   EXPECT_NEAR(value("tilt", picture, 0), 0.2, 1e-12);
   EXPECT_NEAR(value("speed", picture, 0), 3, 1e-9);
-  EXPECT_NEAR(value("speed", picture, 1), 3 * picture.director[0].dot(picture.director[1]), 1e-9);
+  EXPECT_NEAR(value("speed", picture, 1), 3 * picture.frame.director[0].dot(picture.frame.director[1]), 1e-9);
   EXPECT_NEAR(value("speed", picture, 2), 0, 1e-9) << "across the axis";
   EXPECT_EQ(value("species", picture, 1), 0);
   EXPECT_EQ(value("id", picture, 2), 2);
-  picture.velocity.clear();
+  picture.frame.velocity.clear();
   EXPECT_TRUE(std::isnan(value("speed", picture, 0))) << "a live picture knows none";
   EXPECT_TRUE(std::isnan(value("order", picture, 0))) << "not asked for";
   EXPECT_TRUE(std::isnan(value("density", picture, 0))) << "not asked for";
@@ -72,7 +72,7 @@ TEST(Colourings, LocalOrderAndDensityOfAnOrderedHalf) {
   const auto near = [&](double x, double y) {
     std::size_t best = 0;
     for (std::size_t i = 0; i < picture.n_rods(); ++i) {
-      const auto away = [&](std::size_t k) { return (picture.position[k].head<2>() - Vec2(x, y)).norm(); };
+      const auto away = [&](std::size_t k) { return (picture.frame.position[k].head<2>() - Vec2(x, y)).norm(); };
       if (away(i) < away(best)) best = i;
     }
     return best;
@@ -94,13 +94,15 @@ TEST(Colourings, RodsWithoutAValueHaveTheColourOfTheirSpecies) {
   add_rod(picture, 9, 9, 0.3);
   picture.cell.species_of_rod = {0, 1, 2};
   for (const char* name : {"layers", "angle"}) {
-    EXPECT_EQ(rod_colour(picture, 1, by(name), by(name).range), species_colour(1)) << name;
-    EXPECT_EQ(rod_colour(picture, 2, by(name), by(name).range), species_colour(2)) << name;
+    EXPECT_EQ(rod_colour(picture, 1, by(name), by(name).range, Palette::kSafe), species_colour(1)) << name;
+    EXPECT_EQ(rod_colour(picture, 2, by(name), by(name).range, Palette::kSafe), species_colour(2)) << name;
   }
-  EXPECT_EQ(rod_colour(picture, 1, by("heading"), {0, 360}), species_colour(1)) << "a sphere has no head";
-  EXPECT_EQ(rod_colour(picture, 2, by("heading"), {0, 360}), heading_colour(0.3)) << "this rod has one";
-  EXPECT_EQ(rod_colour(picture, 0, by("speed"), {-20, 20}), no_value_colour());
-  EXPECT_NE(rod_colour(picture, 0, by("species"), {0, 2}), rod_colour(picture, 1, by("species"), {0, 2}));
+  EXPECT_EQ(rod_colour(picture, 1, by("heading"), {0, 360}, Palette::kSafe), species_colour(1))
+      << "a sphere has no head";
+  EXPECT_EQ(rod_colour(picture, 2, by("heading"), {0, 360}, Palette::kSafe), heading_colour(0.3)) << "this rod has one";
+  EXPECT_EQ(rod_colour(picture, 0, by("speed"), {-20, 20}, Palette::kSafe), no_value_colour());
+  EXPECT_NE(rod_colour(picture, 0, by("species"), {0, 2}, Palette::kSafe),
+            rod_colour(picture, 1, by("species"), {0, 2}, Palette::kSafe));
 }
 
 TEST(ChosenColour, FollowsTheOrder) {
@@ -108,10 +110,10 @@ TEST(ChosenColour, FollowsTheOrder) {
   EXPECT_EQ(chosen_colour(picture, std::vector<double>{0.9}, true), "layers");
   EXPECT_EQ(chosen_colour(picture, std::vector<double>{0.69}, true), "angle");
   EXPECT_EQ(chosen_colour(picture, {}, true), "angle");
-  picture.defects = {{Vec2(1, 1), 0.5, 0}};
+  picture.found.defects = {{Vec2(1, 1), 0.5, 0}};
   EXPECT_EQ(chosen_colour(picture, std::vector<double>{0.9}, true), "angle");
   EXPECT_EQ(chosen_colour(picture, std::vector<double>{0.9}, false), "layers");
-  picture.defects.clear();
+  picture.found.defects.clear();
   std::vector<double> film(10, 0.9);
   film[0] = 0.1;
   EXPECT_EQ(chosen_colour(picture, film, true), "layers") << "nine of ten";

@@ -97,7 +97,7 @@ TEST(Follow, APlantedPlusHalfStaysInTheMiddle) {
   for (int k = 0; k < 12; ++k) {
     places.emplace_back(33.0 + 1.3 * k, 12.0 + 0.7 * k);
     frames.push_back(planted(places.back()));
-    frames.back().time = 0.1 * k;
+    frames.back().frame.time = 0.1 * k;
   }
   plant_frames(folder.path(), frames);
   TrajectorySource source = TrajectorySource::open(folder.path()).value();
@@ -110,15 +110,15 @@ TEST(Follow, APlantedPlusHalfStaysInTheMiddle) {
   ASSERT_TRUE(source.follow(*style.followed_defect, 0, 11));
   for (std::size_t k = 0; k < frames.size(); ++k) {
     const RodPicture picture = source.picture(k, style).value();
-    const Vec2 off = *picture.followed - places[k];
+    const Vec2 off = *picture.found.followed - places[k];
     // The director field is smoothed over a rod length.
     EXPECT_LT(std::hypot(std::remainder(off.x(), 40), std::remainder(off.y(), 40)), 1) << "frame " << k;
     // The white core of the comet is in the middle of the picture, and its rim is round it.
     const Image image = painter().paint(picture, style).value();
     EXPECT_GT(image.pixel(200, 200)[1], 250) << "frame " << k;
-    ASSERT_EQ(picture.tracks.size(), k < 1 ? 0U : 2U) << "frame " << k;
+    ASSERT_EQ(picture.found.tracks.size(), k < 1 ? 0U : 2U) << "frame " << k;
     if (k < 1) continue;
-    EXPECT_EQ(picture.tracks[0].places.size(), std::min<std::size_t>(k + 1, 6)) << "frame " << k;
+    EXPECT_EQ(picture.found.tracks[0].places.size(), std::min<std::size_t>(k + 1, 6)) << "frame " << k;
   }
   const auto none = source.follow({0.5, 1}, 0, 11);
   ASSERT_FALSE(none);

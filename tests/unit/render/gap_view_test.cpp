@@ -67,7 +67,7 @@ TEST(GapView, ARodIsWhereAndAsLargeAsItIs) {
     add_rod(picture, kBox / 2 + 1, kBox / 2 + depth, 0);
     const Extent extent = extent_of(look(picture));
     // A sphere's outline is a little wider than its equator's, by a factor 1 / cos of half the angle it fills.
-    const Vec3& centre = picture.position[0];
+    const Vec3& centre = picture.frame.position[0];
     EXPECT_NEAR(extent.left, pixel_of(picture, centre - Vec3(2.25, 0, 0)).x(), 4) << depth;
     EXPECT_NEAR(extent.right, pixel_of(picture, centre + Vec3(2.25, 0, 0)).x(), 4) << depth;
     EXPECT_NEAR(extent.top, pixel_of(picture, centre + Vec3(0, 0, 0.4)).y(), 3) << depth;
@@ -92,7 +92,7 @@ TEST(GapView, ATiltedRodHasItsHeadUp) {
 TEST(GapView, ThePlatesAreDrawnWhereTheyAre) {
   RodPicture picture = empty_picture(kBox);
   for (const double base : {0.0, 0.087}) {
-    picture.base = base;
+    picture.frame.base = base;
     const Image image = look(picture);
     // From the middle of the gap down to the cut edge of the base, and up to that of the lid.
     const auto is_ink = [&](int y) { return image.pixel(kWidth / 4, y)[0] < 120; };
@@ -102,9 +102,9 @@ TEST(GapView, ThePlatesAreDrawnWhereTheyAre) {
     EXPECT_NEAR(down, pixel_of(picture, Vec3(0, kBox / 2, base)).y(), 2);
     EXPECT_NEAR(up, pixel_of(picture, Vec3(0, kBox / 2, base + picture.cell.gap)).y(), 2);
   }
-  picture.has_lid = false;
+  picture.frame.has_lid = false;
   const Image open = look(picture);
-  const Colour page = palette(Theme::kLight).page;
+  const Colour page = page_colours(Theme::kLight).page;
   EXPECT_NEAR(open.pixel(kWidth / 4, 5)[0], 255 * page[0], 1) << "nothing above";
 }
 
@@ -145,7 +145,7 @@ TEST(GapView, TheNearerRodHidesTheFarther) {
   for (const bool orange_in_front : {true, false}) {
     picture.cell.species_of_rod = orange_in_front ? std::vector<std::uint8_t>{1, 0} : std::vector<std::uint8_t>{0, 1};
     const Image image = look(picture);
-    const Vec2 middle = pixel_of(picture, picture.position[1]);
+    const Vec2 middle = pixel_of(picture, picture.frame.position[1]);
     EXPECT_EQ(is_rod(image.pixel(int(middle.x()), int(middle.y()))), orange_in_front);
   }
 }

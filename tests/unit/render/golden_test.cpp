@@ -47,13 +47,13 @@ RodPicture lattice(int columns, int rows, const std::function<double(double, dou
       const double tilt = 0.3 * (scatter.next() - 0.5);
       const double turn = 0.1 * (scatter.next() - 0.5);
       add_rod(picture, x, y, angle(x, y) + turn, tilt);
-      picture.velocity.emplace_back(30 * (scatter.next() - 0.5), 0, 0);
+      picture.frame.velocity.emplace_back(30 * (scatter.next() - 0.5), 0, 0);
     }
   }
-  picture.label = "\u03c6 = 0.8, \u2113 = 4.5 mm";
-  picture.subtitle = "\u0393 = 7, f = 200 Hz";
-  picture.time = 12.34;
-  picture.base = 0.04;
+  picture.captions.label = "\u03c6 = 0.8, \u2113 = 4.5 mm";
+  picture.captions.subtitle = "\u0393 = 7, f = 200 Hz";
+  picture.frame.time = 12.34;
+  picture.frame.base = 0.04;
   return picture;
 }
 
@@ -90,6 +90,7 @@ struct Case {
 
 const Case kCases[] = {
     {"layers", layered, R"({"style": "layers"})"},
+    {"layers_of_the_paper", layered, R"({"style": "layers", "palette": "paper"})"},
     {"layers_tall_dark", layered, R"({"style": "layers", "theme": "dark", "size": [270, 480]})"},
     {"defects", paired, R"({"style": "defects"})"},
     {"tracks",
@@ -101,7 +102,7 @@ const Case kCases[] = {
          plus.places.push_back({Vec2(12 - 14 * age, 19 + 3 * std::sin(6 * age)), age});  // from beyond the border
          minus.places.push_back({Vec2(26 + 4 * std::sin(9 * age), 19 - 8 * age), age});
        }
-       picture.tracks = {plus, minus};
+       picture.found.tracks = {plus, minus};
        return picture;
      },
      R"({"style": "defects", "caption": false, "legend": false, "scale_bar": false})"},
@@ -121,10 +122,10 @@ const Case kCases[] = {
     {"panels",
      [] {
        RodPicture first = layered();
-       first.playback = 0.1;
+       first.captions.playback = 0.1;
        first.beside = {paired(), mixed()};
-       first.beside[1].label = "a mixture in a disc";
-       first.beside[1].time = first.time;
+       first.beside[1].captions.label = "a mixture in a disc";
+       first.beside[1].frame.time = first.frame.time;
        return first;
      },
      R"({"colour": "angle", "defects": true})"},
@@ -134,8 +135,8 @@ const Case kCases[] = {
     {"inset_order",
      [] {
        RodPicture first = layered(), second = paired();
-       first.history = {{0, 5, 12.34}, {0.2, 0.7, 0.9}, 0, 20};
-       second.history = {{0, 5, 12.34}, {0.2, 0.4, 0.3}, 0, 20};
+       first.captions.history = {{0, 5, 12.34}, {0.2, 0.7, 0.9}, 0, 20};
+       second.captions.history = {{0, 5, 12.34}, {0.2, 0.4, 0.3}, 0, 20};
        first.beside = {second};
        return first;
      },
@@ -150,8 +151,8 @@ const Case kCases[] = {
            map.points.push_back({Vec2(phi, length), is_done ? phi * length / 4 : std::nan("")});
          }
        }
-       picture.sweep = std::make_shared<const SweepMap>(map);
-       picture.sweep_point = Vec2(0.75, 3.5);
+       picture.captions.sweep = std::make_shared<const SweepMap>(map);
+       picture.captions.sweep_point = Vec2(0.75, 3.5);
        return picture;
      },
      R"({"colour": "layers", "defects": false, "inset": "sweep"})"},

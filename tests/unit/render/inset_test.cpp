@@ -33,10 +33,11 @@ TEST(Inset, AnglesAreThoseToTheDirectorWhateverItIs) {
     const auto right = std::max_element(curve.y.begin() + static_cast<std::ptrdiff_t>(middle), curve.y.end());
     EXPECT_NEAR(curve.x[static_cast<std::size_t>(left - curve.y.begin())], -17.2, 2.6);
     EXPECT_NEAR(curve.x[static_cast<std::size_t>(right - curve.y.begin())], 17.2, 2.6);
-    // All rods lie in two bins of 5 degrees: 1 / (2 * 5 degrees) = 5.73 per rad.
-    EXPECT_NEAR(*left, 5.73, 0.01);
-    EXPECT_NEAR(*right, 5.73, 0.01);
-    EXPECT_GE(curve.y_ticks.back().at, *left) << "the axis reaches above the curve";
+    // All rods lie in two bins of 5 degrees: 1 / (2 * 5 degrees).
+    EXPECT_NEAR(*left, 0.1, 2e-4);
+    EXPECT_NEAR(*right, 0.1, 2e-4);
+    EXPECT_EQ(curve.title, "P(\u03b8) (1/\u00b0)") << "as its axis has it";
+    EXPECT_GE(curve.y_ticks.back().at, *left - 1e-9) << "the axis reaches above the curve";
     EXPECT_NEAR(curve.x.front(), -90, 1e-9);
     EXPECT_NEAR(curve.x.back(), 90, 1e-9);
   }
@@ -55,7 +56,7 @@ TEST(FilmAxes, StandStillWhereEachFrameAloneWouldHaveItsOwn) {
   EXPECT_LT(highest_bar(low, style), highest_bar(high, style));
   EXPECT_LT(angle_curve(low).y_ticks.back().at, angle_curve(high).y_ticks.back().at);
   EXPECT_EQ(axes->share, highest_bar(high, style));
-  low.axes = high.axes = *axes;
+  low.captions.axes = high.captions.axes = *axes;
   EXPECT_EQ(angle_curve(low).y_ticks.back().at, angle_curve(high).y_ticks.back().at);
 }
 
@@ -114,11 +115,11 @@ TEST(Inset, TheOrderOfTheRunEndsAtThePresent) {
   PictureStyle style;
   style.inset = Inset::kOrder;
   EXPECT_FALSE(has_inset(picture, style)) << "nothing is known of the time before";
-  picture.time = 3;
-  picture.history = {{0, 1, 3}, {0.1, 0.6, 1}, 0, 10};
+  picture.frame.time = 3;
+  picture.captions.history = {{0, 1, 3}, {0.1, 0.6, 1}, 0, 10};
   EXPECT_TRUE(has_inset(picture, style));
   const Curve curve = order_curve(picture);
-  EXPECT_EQ(*curve.dot, Vec2(3, picture.order));
+  EXPECT_EQ(*curve.dot, Vec2(3, picture.found.order));
   EXPECT_EQ(curve.x_ticks.back().text, "10 s");
 }
 
@@ -128,9 +129,9 @@ TEST(Inset, ASweepHasItsPointsAndARingRoundThisOne) {
                                           1)
                                  .value();
   RodPicture picture = two_angles(0, 0);
-  picture.sweep = places.map;
-  picture.sweep_point = places.here[0];
-  Curve curve = sweep_curve(picture);
+  picture.captions.sweep = places.map;
+  picture.captions.sweep_point = places.here[0];
+  Curve curve = sweep_curve(picture.captions);
   EXPECT_EQ(curve.title, "\u2113 over \u03c6, by S");
   ASSERT_EQ(curve.dots.size(), 3U);
   EXPECT_EQ(*curve.ring, Vec2(0.8, 4.5));
@@ -143,9 +144,9 @@ TEST(Inset, ASweepHasItsPointsAndARingRoundThisOne) {
       sweep_places(
           R"({"x": "plates.gamma", "y": "", "points": [[5, null, 0.2], [7, null, null]], "here": [[5, null]]})", 1)
           .value();
-  picture.sweep = line.map;
-  picture.sweep_point = line.here[0];
-  curve = sweep_curve(picture);
+  picture.captions.sweep = line.map;
+  picture.captions.sweep_point = line.here[0];
+  curve = sweep_curve(picture.captions);
   ASSERT_EQ(curve.dots.size(), 1U);
   EXPECT_EQ(curve.dots[0].at, Vec2(5, 0.2));
   EXPECT_EQ(*curve.ring, Vec2(5, 0.2));

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/canvas.h"
 #include "render/colourings.h"
 #include "render/colours.h"
+#include "render/marks.h"
 #include "render/picture_layout.h"
 #include "render/rods_pass.h"
 #include "render/view.h"
@@ -37,11 +39,52 @@ int grey_at(const Image& image, const Vec2& place, double distance, double angle
 // The floor is brighter than kDark and darker than white.
 constexpr int kDark = 60, kWhite = 252;
 
+/// Relative luminance (WCAG 2.1, IEC 61966-2-1).
+double luminance(const Colour& colour) {
+  const auto linear = [](double x) { return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4); };
+  return 0.2126 * linear(colour[0]) + 0.7152 * linear(colour[1]) + 0.0722 * linear(colour[2]);
+}
+
+double contrast(const Colour& a, const Colour& b) {
+  const auto [low, high] = std::minmax({luminance(a), luminance(b)});
+  return (high + 0.05) / (low + 0.05);
+}
+
+// Whoever comes from the page meets a colour that stands out, before all others; and the next stands out from that.
+TEST(Marks, OutlinesHoldContrastOnEveryPage) {
+  for (const Theme theme : {Theme::kLight, Theme::kDark, Theme::kPrint}) {
+    for (const Colour& page : {page_colours(theme).page, page_colours(theme).floor}) {
+      for (const bool is_plus : {true, false}) {
+        Canvas canvas(400, 400, page);
+        (is_plus ? draw_plus_half : draw_minus_half)(canvas, 200, 200, 0, 6);
+        const Image image = canvas.image();
+        // To the left of the middle are the head of the comet and the gap between two arms.
+        std::vector<Colour> met;
+        int since = 0;
+        for (int x = 0; x <= 200; ++x) {
+          const std::uint8_t *now = image.pixel(x, 200), *before = image.pixel(std::max(x - 1, 0), 200);
+          since = std::equal(now, now + 3, before) ? since + 1 : 0;
+          const Colour colour{now[0] / 255.0, now[1] / 255.0, now[2] / 255.0};
+          if (since == 2 && (met.empty() || met.back() != colour)) met.push_back(colour);
+        }
+        ASSERT_GE(met.size(), 4u) << "page, rim, rim, body";
+        for (std::size_t k = 1; k < 4; ++k) EXPECT_GE(contrast(met[k - 1], met[k]), 3) << k << ' ' << is_plus;
+      }
+    }
+  }
+}
+
+TEST(Typeset, MinusAndMicroAreThoseOfPrint) {
+  EXPECT_EQ(typeset("-3 mm, x = -0.5, 1e-3"), "\u22123 mm, x = \u22120.5, 1e-3");
+  EXPECT_EQ(typeset("dt = 4 us, 2 um"), "dt = 4 \u00b5s, 2 \u00b5m");
+  EXPECT_EQ(typeset("run-2 of 3 users"), "run-2 of 3 users");
+}
+
 TEST(Overlay, APlusHalfIsACometWithItsTailAlongItsDirection) {
   for (const double direction : {0.0, 2.0, -1.2}) {
     RodPicture picture = empty_picture(kBox);
     const Vec2 place(6, 15);
-    picture.defects = {{place, 0.5, direction}};
+    picture.found.defects = {{place, 0.5, direction}};
     const Image image = painter().paint(picture, bare()).value();
     EXPECT_GE(grey_at(image, place, 0, 0), kWhite) << "the core";
     EXPECT_LT(grey_at(image, place, 5, direction + kPi), kDark);
@@ -58,7 +101,7 @@ TEST(Overlay, AMinusHalfHasThreeArms) {
   for (const double direction : {0.0, 0.9}) {
     RodPicture picture = empty_picture(kBox);
     const Vec2 place(12, 4);
-    picture.defects = {{place, -0.5, direction}};
+    picture.found.defects = {{place, -0.5, direction}};
     const Image image = painter().paint(picture, bare()).value();
     EXPECT_GE(grey_at(image, place, 0, 0), kWhite);
     for (int arm = 0; arm < 3; ++arm) {
@@ -72,7 +115,7 @@ TEST(Overlay, AMinusHalfHasThreeArms) {
 
 TEST(Overlay, AMarkAcrossTheBorderShowsOnBothSides) {
   RodPicture picture = empty_picture(kBox);
-  picture.defects = {{Vec2(0.02, 10), 0.5, kPi}};
+  picture.found.defects = {{Vec2(0.02, 10), 0.5, kPi}};
   const Image image = painter().paint(picture, bare()).value();
   EXPECT_LT(grey_at(image, Vec2(0.02, 10), 3, 0), kDark);
   EXPECT_LT(grey_at(image, Vec2(kBox, 10), 10, kPi), kDark);
@@ -80,7 +123,7 @@ TEST(Overlay, AMarkAcrossTheBorderShowsOnBothSides) {
 
 TEST(Overlay, UnmarkedDefectsAreNotDrawn) {
   RodPicture with = empty_picture(kBox);
-  with.defects = {{Vec2(6, 15), 0.5, 0}};
+  with.found.defects = {{Vec2(6, 15), 0.5, 0}};
   PictureStyle style = bare();
   style.mark_defects = false;
   EXPECT_EQ(painter().paint(with, style).value(), painter().paint(empty_picture(kBox), style).value());
@@ -90,9 +133,9 @@ TEST(Overlay, NoTextOnTheRods) {
   RodPicture picture = empty_picture(kBox);
   for (int i = 0; i < 20; ++i) add_rod(picture, i, i, 0.3 * i);
   measure(picture, {});
-  picture.time = 1234.56;
-  picture.label = "rods.length=4.5 rods.area_fraction=0.80 plates.gamma=7 replica=3";
-  picture.history = {{0, 1000, 1234.56}, {0.2, 0.8, picture.order}, 0, 6000};
+  picture.frame.time = 1234.56;
+  picture.captions.label = "rods.length=4.5 rods.area_fraction=0.80 plates.gamma=7 replica=3";
+  picture.captions.history = {{0, 1000, 1234.56}, {0.2, 0.8, picture.found.order}, 0, 6000};
   RodsPass rods = RodsPass::create().value();
   for (const auto& [width, height] : {std::pair{1280, 720}, {1000, 1000}, {640, 360}, {800, 1200}, {1024, 768}}) {
     for (const std::string& colour : colour_names()) {
@@ -198,11 +241,11 @@ TEST(Overlay, FilmsSayHowFastTheyPlay) {
   EXPECT_EQ(playback_text(0), "");
   RodPicture picture = empty_picture(kBox);
   const Image still = painter().paint(picture, {}).value();
-  picture.playback = 0.1;
+  picture.captions.playback = 0.1;
   EXPECT_NE(painter().paint(picture, {}).value(), still);
   PictureStyle bare_style = bare();
   const Image film = painter().paint(picture, bare_style).value();
-  picture.playback = 0;
+  picture.captions.playback = 0;
   EXPECT_EQ(painter().paint(picture, bare_style).value(), film) << "nothing is written on the rods";
 }
 
@@ -239,14 +282,14 @@ TEST(Overlay, EachSpeciesIsShownWithItsNumberAndItsOrder) {
     add_rod(picture, 3 * i + 1, 10, i == 4 ? kPi / 2 : 0);
     picture.cell.species_of_rod.push_back(static_cast<std::uint8_t>(i / 2));
   }
-  EXPECT_EQ(species_text(picture, 0), "2 rods, S = 1.000");
-  EXPECT_EQ(species_text(picture, 1), "2 spheres");
-  EXPECT_EQ(species_text(picture, 2), "2 rods, S = 0.000") << "at right angles to each other";
+  EXPECT_EQ(species_text(picture.cell, picture.frame, 0), "2 rods, S = 1.000");
+  EXPECT_EQ(species_text(picture.cell, picture.frame, 1), "2 spheres");
+  EXPECT_EQ(species_text(picture.cell, picture.frame, 2), "2 rods, S = 0.000") << "at right angles to each other";
   PictureStyle style;
   style.colour = "layers";
   for (const Number& number : numbers_of(picture, style)) {
     EXPECT_NE(number.name, "order S") << "of which of them?";
-    EXPECT_NE(number.name, "rod length");
+    EXPECT_NE(number.name, "length \u2113");
     EXPECT_TRUE(number.name != "bodies" || number.value == "6");
   }
   const Layout layout = layout_of(style, {.species = 3});
@@ -266,7 +309,7 @@ TEST(Overlay, EachSpeciesIsShownWithItsNumberAndItsOrder) {
 TEST(Overlay, AZoomedViewCountsWhatIsInView) {
   RodPicture picture = empty_picture(20);
   for (int i = 0; i < 4; ++i) add_rod(picture, 1 + 5 * i, 10, 0);
-  picture.defects = {{Vec2(1, 10), 0.5, 0}, {Vec2(11, 10), 0.5, 0}, {Vec2(1, 1), -0.5, 0}};
+  picture.found.defects = {{Vec2(1, 10), 0.5, 0}, {Vec2(11, 10), 0.5, 0}, {Vec2(1, 1), -0.5, 0}};
   PictureStyle style;
   const auto rods = [&] {
     for (const Number& number : numbers_of(picture, style)) {
@@ -289,9 +332,9 @@ TEST(Overlay, AZoomedViewCountsWhatIsInView) {
 TEST(Overlay, ALabelThatIsTooLongEndsInDots) {
   RodPicture picture = empty_picture(kBox);
   PictureStyle style;
-  picture.label = "a label of some words";
+  picture.captions.label = "a label of some words";
   const Image one = painter().paint(picture, style).value();
-  for (int i = 0; i < 20; ++i) picture.label += " and more";
+  for (int i = 0; i < 20; ++i) picture.captions.label += " and more";
   const Image cut = painter().paint(picture, style).value();
   EXPECT_NE(cut, one);
   const Layout layout = layout_of(style, {.label = true});
@@ -306,7 +349,7 @@ TEST(Overlay, ALabelThatIsTooLongEndsInDots) {
 
 TEST(Overlay, AFilmHasABarThatGrows) {
   RodPicture picture = empty_picture(kBox);
-  picture.film_share = 0.25;
+  picture.captions.film_share = 0.25;
   const auto dark = [&](const PictureStyle& style) {
     const Image image = painter().paint(picture, style).value();
     int n = 0;
@@ -314,7 +357,7 @@ TEST(Overlay, AFilmHasABarThatGrows) {
     return n;
   };
   EXPECT_NEAR(dark({}), 320, 1);
-  picture.film_share = 1;
+  picture.captions.film_share = 1;
   EXPECT_NEAR(dark({}), 1280, 1);
   PictureStyle style;
   style.time_bar = false;

@@ -130,11 +130,11 @@ TEST(PanelGrid, NothingOverlapsOrLeavesThePicture) {
 
 TEST(Panels, HaveOneClockOnlyIfTheyAreOfOneTime) {
   RodPicture picture;
-  picture.time = 120;
+  picture.frame.time = 120;
   picture.beside.resize(2);
-  for (RodPicture& other : picture.beside) other.time = 120.001;
+  for (RodPicture& other : picture.beside) other.frame.time = 120.001;
   EXPECT_TRUE(have_one_time(picture));
-  picture.beside[1].time = 300;
+  picture.beside[1].frame.time = 300;
   EXPECT_FALSE(have_one_time(picture)) << "then each panel says its own";
 }
 

@@ -18,7 +18,7 @@ TEST(RodPicture, LengthIsTipToTip) { EXPECT_DOUBLE_EQ(empty_picture(10).rod_leng
 TEST(RodPicture, AreaFractionOfThePapersSystem) {
   // Sharma & Soni (2024): 2109 rods of 4.5 mm in a box of 83.73 mm make 0.75, to within one rod.
   RodPicture picture = empty_picture(83.73);
-  picture.position.resize(2109);
+  picture.frame.position.resize(2109);
   EXPECT_NEAR(picture.area_fraction(), 0.75, 0.75 / 2109);
 }
 
@@ -26,7 +26,7 @@ TEST(RodPicture, AreaFractionOfASphereIsADiscs) {
   RodPicture picture;
   picture.cell.box_side = 2;
   picture.cell.species = {{{0}, {0.5}}};
-  picture.position.resize(1);
+  picture.frame.position.resize(1);
   EXPECT_NEAR(picture.area_fraction(), kPi * 0.25 / 4, 1e-12);
 }
 
@@ -35,7 +35,7 @@ TEST(RodPicture, AreaFractionIsOfAllKindsAndPerArena) {
   picture.cell.box_side = 40;
   picture.cell.species = {{{0}, {0.5}}, {{0}, {1}}};
   picture.cell.species_of_rod = {1, 0, 1};
-  picture.position.resize(3);
+  picture.frame.position.resize(3);
   const double discs = kPi * (0.25 + 1 + 1);
   EXPECT_NEAR(picture.area_fraction(), discs / 1600, 1e-12);
   for (const auto& [arena, area] :
@@ -59,18 +59,18 @@ TEST(Measure, AsksOnlyRodsOfTheFirstKind) {
     picture.cell.species_of_rod.push_back(i % 2 ? 0 : 1);
   }
   measure(picture, {.defects = true});
-  EXPECT_NEAR(picture.director_angle, 0.7, 1e-12);
-  EXPECT_NEAR(picture.order, 1, 1e-12);
-  EXPECT_TRUE(picture.defects.empty());
+  EXPECT_NEAR(picture.found.director_angle, 0.7, 1e-12);
+  EXPECT_NEAR(picture.found.order, 1, 1e-12);
+  EXPECT_TRUE(picture.found.defects.empty());
 }
 
 TEST(Measure, FindsOrderAndDirector) {
   RodPicture picture = empty_picture(20);
   for (int i = 0; i < 40; ++i) add_rod(picture, 0.5 * i, 0.5 * i, 0.7 + (i % 2 ? 0.2 : -0.2));
   measure(picture, {});
-  EXPECT_NEAR(picture.director_angle, 0.7, 1e-12);
-  EXPECT_NEAR(picture.order, std::cos(0.4), 1e-12);
-  EXPECT_TRUE(picture.defects.empty());
+  EXPECT_NEAR(picture.found.director_angle, 0.7, 1e-12);
+  EXPECT_NEAR(picture.found.order, std::cos(0.4), 1e-12);
+  EXPECT_TRUE(picture.found.defects.empty());
 }
 
 TEST(Measure, FindsAPlantedPairOfDefects) {
@@ -84,18 +84,16 @@ TEST(Measure, FindsAPlantedPairOfDefects) {
     }
   }
   measure(picture, {.defects = true});
-  ASSERT_EQ(picture.defects.size(), 2u);
-  for (const analysis::Defect& defect : picture.defects) {
+  ASSERT_EQ(picture.found.defects.size(), 2u);
+  for (const analysis::Defect& defect : picture.found.defects) {
     EXPECT_LT((defect.position - (defect.charge > 0 ? a : b)).norm(), 1.0);
   }
-  EXPECT_EQ(picture.defects[0].charge + picture.defects[1].charge, 0);
+  EXPECT_EQ(picture.found.defects[0].charge + picture.found.defects[1].charge, 0);
   measure(picture, {});
-  EXPECT_TRUE(picture.defects.empty());
+  EXPECT_TRUE(picture.found.defects.empty());
 
-  picture.smoothing = 20;  // as the run had it: more than the pair is apart
-  picture.grid = 1;
-  measure(picture, {.defects = true});
-  EXPECT_TRUE(picture.defects.empty());
+  measure(picture, {.defects = true, .smoothing = 20, .grid = 1});  // as the run had it: more than the pair is apart
+  EXPECT_TRUE(picture.found.defects.empty());
 }
 
 // One bead is a sphere: its director means nothing.
@@ -105,9 +103,9 @@ TEST(Measure, FindsNeitherOrderNorDefectsOfSpheres) {
   for (int i = 0; i < 400; ++i) add_rod(picture, 2 * (i % 20) + 1, 2 * (i / 20) + 1, 0.9 * i * i);
   measure(picture, {.defects = true, .field = true});
   EXPECT_FALSE(picture.cell.has_axes());
-  EXPECT_TRUE(std::isnan(picture.order));
-  EXPECT_TRUE(picture.defects.empty());
-  EXPECT_EQ(picture.field, nullptr);
+  EXPECT_TRUE(std::isnan(picture.found.order));
+  EXPECT_TRUE(picture.found.defects.empty());
+  EXPECT_EQ(picture.found.field, nullptr);
   EXPECT_STREQ(colouring_of(picture, {}).name, "species");
   // Whatever is asked for that needs axes leaves the picture as it is without.
   PictureStyle bare;
@@ -141,12 +139,12 @@ TEST(Measure, FindsNoDefectsBeyondTheWalls) {
     measure(picture, {.defects = true});
     return picture;
   };
-  const std::vector<analysis::Defect> everywhere = rods_within({}).defects;
+  const std::vector<analysis::Defect> everywhere = rods_within({}).found.defects;
   for (const Arena arena : {Arena::kDisc, Arena::kSquare, Arena::kAnnulus}) {
     const RodPicture picture = rods_within(SideWalls{arena, 40, 16});
-    EXPECT_FALSE(picture.defects.empty());
-    EXPECT_LT(picture.defects.size(), everywhere.size());
-    for (const analysis::Defect& defect : picture.defects) {
+    EXPECT_FALSE(picture.found.defects.empty());
+    EXPECT_LT(picture.found.defects.size(), everywhere.size());
+    for (const analysis::Defect& defect : picture.found.defects) {
       EXPECT_TRUE(is_inside(arena, defect.position - Vec2(30, 30)));
     }
   }
@@ -155,8 +153,8 @@ TEST(Measure, FindsNoDefectsBeyondTheWalls) {
 TEST(Measure, NoRods) {
   RodPicture picture = empty_picture(10);
   measure(picture, {.defects = true});
-  EXPECT_EQ(picture.order, 0);
-  EXPECT_TRUE(picture.defects.empty());
+  EXPECT_EQ(picture.found.order, 0);
+  EXPECT_TRUE(picture.found.defects.empty());
 }
 
 TEST(PictureStyle, SizesThatCannotBeAreRefused) {

@@ -60,7 +60,7 @@ TEST(PlantedPair, IsDrawnWhereAndAsItIsInEveryStyle) {
   for (const double turn : {0.0, 0.7, -1.1}) {
     RodPicture picture = planted_pair(turn);
     measure(picture, {.defects = true, .field = true});
-    ASSERT_EQ(picture.defects.size(), 2u);
+    ASSERT_EQ(picture.found.defects.size(), 2u);
     // Near the +1/2 theta = phi / 2 + (turn - pi / 2): radial where phi = 2 turn - pi. Near the -1/2
     // theta = -phi / 2 + turn: radial where phi = 2 turn / 3, and 120 degrees on.
     const double tail = 2 * turn - kPi, arm = 2 * turn / 3;
@@ -72,7 +72,7 @@ TEST(PlantedPair, IsDrawnWhereAndAsItIsInEveryStyle) {
       };
       // What it is drawn at is where it is found, to within a millimetre of where it was planted.
       const auto found = [&](double charge) {
-        return std::find_if(picture.defects.begin(), picture.defects.end(),
+        return std::find_if(picture.found.defects.begin(), picture.found.defects.end(),
                             [&](const analysis::Defect& d) { return d.charge == charge; })
             ->position;
       };
@@ -105,7 +105,7 @@ TEST(Streamlines, FollowTheDirectorAndCoverTheField) {
   RodPicture picture = planted_pair(0.4);
   measure(picture, {.field = true});
   const double distance = 1.5;
-  const std::vector<Streamline> lines = streamlines(*picture.field, distance);
+  const std::vector<Streamline> lines = streamlines(*picture.found.field, distance);
   ASSERT_GT(lines.size(), 20u);
   double length = 0;
   for (const Streamline& line : lines) {
@@ -113,7 +113,7 @@ TEST(Streamlines, FollowTheDirectorAndCoverTheField) {
       const Vec2 step = line[k + 1] - line[k], middle = (line[k] + line[k + 1]) / 2;
       length += step.norm();
       if ((middle - kPlus).norm() < 3 || (middle - kMinus).norm() < 3) continue;  // there the field bends sharply
-      const Vec2 q = picture.field->q_at(middle);
+      const Vec2 q = picture.found.field->q_at(middle);
       const double theta = std::atan2(q.y(), q.x()) / 2;
       EXPECT_GT(std::abs(step.normalized().dot(along(theta))), 0.99);
     }
@@ -127,7 +127,7 @@ TEST(Streamlines, KeepTheirDistance) {
   RodPicture picture = planted_pair(0);
   measure(picture, {.field = true});
   const double distance = 2;
-  const std::vector<Streamline> lines = streamlines(*picture.field, distance);
+  const std::vector<Streamline> lines = streamlines(*picture.found.field, distance);
   for (std::size_t a = 0; a < lines.size(); ++a) {
     for (std::size_t b = 0; b < a; ++b) {
       for (const Vec2& p : lines[a]) {
@@ -144,7 +144,7 @@ TEST(Streamlines, AUniformFieldGivesStraightLines) {
   RodPicture picture = empty_picture(20);
   for (int i = 0; i < 400; ++i) add_rod(picture, i % 20 + 0.5, i / 20 + 0.5, 0);
   measure(picture, {.field = true});
-  for (const Streamline& line : streamlines(*picture.field, 1)) {
+  for (const Streamline& line : streamlines(*picture.found.field, 1)) {
     for (const Vec2& point : line) ASSERT_NEAR(point.y(), line.front().y(), 1e-6);
   }
 }
@@ -154,7 +154,7 @@ TEST(Displacements, AreArrowsOfTrueLengthToTheRods) {
   RodPicture picture = empty_picture(kBox);
   add_rod(picture, 4, kBox / 2, kPi / 2);
   add_rod(picture, 20, 10, kPi / 2);
-  picture.displacement = {Vec2(8, 0), Vec2(0, 0)};
+  picture.frame.displacement = {Vec2(8, 0), Vec2(0, 0)};
   PictureStyle style = bare();
   style.rods = 0;
   const Image image = painter().paint(picture, style).value();
@@ -176,8 +176,8 @@ TEST(Displacements, AreArrowsOfTrueLengthToTheRods) {
 TEST(Tracks, FadeWithAge) {
   RodPicture picture = empty_picture(kBox);
   const double y = kBox / 6;
-  picture.tracks = {{0.5, {{Vec2(5, y), 0.95}, {Vec2(15, y), 0.85}, {Vec2(20, y), 0.15}, {Vec2(22, y), 0.05}}},
-                    {-0.5, {{Vec2(28, y), 0.15}, {Vec2(32, y), 0.05}}}};
+  picture.found.tracks = {{0.5, {{Vec2(5, y), 0.95}, {Vec2(15, y), 0.85}, {Vec2(20, y), 0.15}, {Vec2(22, y), 0.05}}},
+                          {-0.5, {{Vec2(28, y), 0.15}, {Vec2(32, y), 0.05}}}};
   const Image image = painter().paint(picture, bare()).value();
   const auto at = [&](double x) { return image.pixel(static_cast<int>(x / kBox * kSide), kSide - kSide / 6); };
   const auto vividness = [](const std::uint8_t* p) {
@@ -199,8 +199,8 @@ std::string bytes_of(const std::filesystem::path& file) {
 TEST(VectorFigure, IsASvgOrAPdf) {
   const ScratchFolder folder;
   RodPicture picture = planted_pair(0.2);
-  picture.label = "a <pair> & more";
-  picture.notes = {{"Run id", "1f0c"}, {"Seed", "7"}};
+  picture.captions.label = "a <pair> & more";
+  picture.captions.notes = {{"Run id", "1f0c"}, {"Seed", "7"}};
   measure(picture, {.defects = true, .field = true});
   PictureStyle style = bare("director");
   for (const char* name : {"a.svg", "a.pdf", "b.pdf"}) ASSERT_TRUE(write_vector(folder / name, picture, style));
@@ -222,6 +222,62 @@ TEST(VectorFigure, IsASvgOrAPdf) {
   EXPECT_GT(paths(bytes_of(folder / "a.svg")), paths(svg) + picture.n_rods());
 }
 
+// What is written can be searched, and changed in a drawing program.
+TEST(VectorFigure, TextIsTextInAnSvg) {
+  const ScratchFolder folder;
+  RodPicture picture = planted_pair(0.2);
+  picture.captions.label = "\u03c6 < 0.8";
+  measure(picture, {});
+  ASSERT_TRUE(write_vector(folder / "a.svg", picture, {}));
+  const std::string svg = bytes_of(folder / "a.svg");
+  EXPECT_NE(svg.find("font-family=\"DejaVu Sans, Verdana, Arial, sans-serif\""), std::string::npos);
+  EXPECT_NE(svg.find(">\u03c6 &lt; 0.8</text>"), std::string::npos);
+  EXPECT_EQ(svg.find("glyph"), std::string::npos) << "no outlines of letters";
+  EXPECT_LT(svg.find("<path"), svg.find("<text")) << "over everything";
+}
+
+TEST(VectorFigure, WithoutGroundHasNoPageAndNoFloor) {
+  const ScratchFolder folder;
+  const auto areas = [&](bool transparent) {
+    PictureStyle style = bare();
+    style.transparent = transparent;
+    EXPECT_TRUE(write_vector(folder / "a.svg", empty_picture(10), style));
+    const std::string svg = bytes_of(folder / "a.svg");
+    std::size_t n = 0;
+    for (auto at = svg.find("fill:rgb"); at != std::string::npos; at = svg.find("fill:rgb", at + 1)) ++n;
+    return n;
+  };
+  EXPECT_EQ(areas(false), 2u);
+  EXPECT_EQ(areas(true), 0u);
+}
+
+// Laid over a colour, it is the picture that has this colour as its ground.
+TEST(ClearPicture, LaidOverAColourIsThePictureOnIt) {
+  RodPicture picture = empty_picture(10);
+  for (const double y : {2.0, 4.0, 6.0}) add_rod(picture, 5, y, 0.1 * y);
+  measure(picture, {});
+  PictureStyle style = bare();
+  const ClearImage clear = painter().paint_clear(picture, style).value();
+  const Colour grey{0.5, 0.4, 0.6};
+  style.ground = grey;
+  const Image on_grey = painter().paint(picture, style).value();
+  ASSERT_EQ(clear.rgba.size(), on_grey.rgb.size() / 3 * 4);
+  double worst = 0;
+  std::size_t n_clear = 0, n_full = 0;
+  for (std::size_t i = 0; i < on_grey.rgb.size() / 3; ++i) {
+    const double opacity = clear.rgba[4 * i + 3] / 255.0;
+    n_clear += opacity == 0 ? 1 : 0;
+    n_full += opacity == 1 ? 1 : 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double laid = opacity * clear.rgba[4 * i + c] + (1 - opacity) * 255 * grey[c];
+      worst = std::max(worst, std::abs(laid - on_grey.rgb[3 * i + c]));
+    }
+  }
+  EXPECT_LT(worst, 3);
+  EXPECT_GT(n_clear, clear.rgba.size() / 4 / 2);
+  EXPECT_GT(n_full, clear.rgba.size() / 4 / 20) << "rods are not";
+}
+
 TEST(VectorFigure, AFolderThatDoesNotExistIsAnError) {
   const auto done = write_vector("/nowhere/at/all/a.svg", empty_picture(10), bare());
   ASSERT_FALSE(done);
@@ -230,7 +286,7 @@ TEST(VectorFigure, AFolderThatDoesNotExistIsAnError) {
 
 /// The rods of a picture as write_vector() draws them, on pixels.
 Image flat_image(const RodPicture& picture, const PictureStyle& style) {
-  Canvas canvas(style.width, style.height, palette(style.theme).page);
+  Canvas canvas(style.width, style.height, page_colours(style.theme).page);
   const Layout layout = layout_of(style, {});
   draw_ground(canvas, layout, picture, style);
   draw_flat_rods(canvas, layout, picture, style);
@@ -253,7 +309,7 @@ TEST(FlatRods, HaveTheOutlineThatTheRasterisedOnesHave) {
   style.mark_defects = false;
   style.light.shadows = false;
   const Image flat = flat_image(picture, style), round = painter().paint(picture, style).value();
-  const Colour floor = palette(style.theme).floor;
+  const Colour floor = page_colours(style.theme).floor;
   const auto is_rod = [&](const std::uint8_t* p) {
     return std::abs(p[0] - 255 * floor[0]) + std::abs(p[1] - 255 * floor[1]) + std::abs(p[2] - 255 * floor[2]) > 40;
   };

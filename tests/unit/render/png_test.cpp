@@ -99,9 +99,9 @@ TEST(Png, SixteenBitsComeBackAsTheyWere) {
 TEST(Png, APictureOf16BitsIsThatOf8WithMoreShades) {
   RodPicture picture = empty_picture(30);
   for (int i = 0; i < 60; ++i) add_rod(picture, 5 * (i % 6) + 2, 3 * (i / 6) + 1, 0.1 * i, 0.1);
-  picture.velocity.assign(picture.n_rods(), Vec3(1, 2, 0));
-  picture.label = "words";
-  picture.defects = {{Vec2(10, 10), 0.5, 1}};
+  picture.frame.velocity.assign(picture.n_rods(), Vec3(1, 2, 0));
+  picture.captions.label = "words";
+  picture.found.defects = {{Vec2(10, 10), 0.5, 1}};
   RodPicture both = picture;
   both.beside = {picture};
   for (const char* look : {"top", "pale", "gap", "panels"}) {
@@ -130,10 +130,10 @@ TEST(Png, APictureOf16BitsIsThatOf8WithMoreShades) {
 TEST(Png, TextsAreKept) {
   const ScratchFolder folder;
   RodPicture picture;
-  picture.time = 12.5;
-  picture.label = "\u03c6 = 0.80";
-  picture.notes = {{"Run id", "1f0c"}};
-  ASSERT_TRUE(write_png(folder / "a.png", pattern(8, 8), picture_texts(picture)));
+  picture.frame.time = 12.5;
+  picture.captions.label = "\u03c6 = 0.80";
+  picture.captions.notes = {{"Run id", "1f0c"}};
+  ASSERT_TRUE(write_png(folder / "a.png", pattern(8, 8), picture_texts(picture.frame, picture.captions)));
   const std::map<std::string, std::string> expected = {
       {"Run id", "1f0c"}, {"Simulated time", "12.500000 s"}, {"Title", "\u03c6 = 0.80"}};
   EXPECT_EQ(texts_of(folder / "a.png"), expected);

@@ -33,8 +33,8 @@ RodPicture empty_picture(double box_side) {
 
 void add_rod(RodPicture& picture, double x, double y, double angle, double n_z) {
   const double flat = std::sqrt(1 - n_z * n_z);
-  picture.position.emplace_back(x, y, picture.cell.gap / 2);
-  picture.director.emplace_back(flat * std::cos(angle), flat * std::sin(angle), n_z);
+  picture.frame.position.emplace_back(x, y, picture.cell.gap / 2);
+  picture.frame.director.emplace_back(flat * std::cos(angle), flat * std::sin(angle), n_z);
 }
 
 double half_width(const RodPicture& picture, double x) {
@@ -84,11 +84,11 @@ void plant_frames(const std::filesystem::path& directory, const std::vector<RodP
   ASSERT_TRUE(log) << log.error().message;
   for (const RodPicture& rods : frames) {
     Snapshot snapshot;
-    snapshot.tick = std::llround(rods.time / header.dt);
-    snapshot.time = rods.time;
+    snapshot.tick = std::llround(rods.frame.time / header.dt);
+    snapshot.time = rods.frame.time;
     snapshot.box_side = rods.cell.box_side;
-    snapshot.position = rods.position;
-    snapshot.director = rods.director;
+    snapshot.position = rods.frame.position;
+    snapshot.director = rods.frame.director;
     snapshot.image.resize(rods.n_rods());
     snapshot.velocity.assign(rods.n_rods(), Vec3::Zero());
     snapshot.angular_velocity.assign(rods.n_rods(), Vec3::Zero());
@@ -105,7 +105,7 @@ void plant_trajectory(const std::filesystem::path& directory, int n_frames, cons
   std::vector<RodPicture> frames;
   for (int f = 0; f < n_frames; ++f) {
     RodPicture rods = empty_picture(10);
-    rods.time = f * 0.05;
+    rods.frame.time = f * 0.05;
     for (int i = 0; i < 3; ++i) add_rod(rods, 5, 2 + 3 * i, f * kPi / 18, 0.1);
     frames.push_back(std::move(rods));
   }

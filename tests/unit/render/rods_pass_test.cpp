@@ -26,6 +26,7 @@ RodsPass& rods_pass() {
 PictureStyle layers() {
   PictureStyle style;
   style.colour = "layers";
+  style.palette = Palette::kPaper;  // red is told from the floor
   return style;
 }
 
@@ -49,7 +50,7 @@ int count(const Image& image, const std::function<bool(const std::uint8_t*)>& te
 /// A box whose director lies so that a rod along x is fully red.
 RodPicture red_picture() {
   RodPicture picture = empty_picture(kBox);
-  picture.director_angle = -kPi / 6;
+  picture.found.director_angle = -kPi / 6;
   return picture;
 }
 
@@ -90,7 +91,7 @@ TEST(RodsPass, YPointsUpAndXToTheRight) {
 
 TEST(RodsPass, ATurnedRodLiesAlongItsDirector) {
   RodPicture picture = empty_picture(kBox);
-  picture.director_angle = 0;
+  picture.found.director_angle = 0;
   add_rod(picture, 5, 5, kPi / 3);
   const Image image = draw(picture);
   const auto at = [&](double along, double across) {
@@ -140,7 +141,7 @@ TEST(RodsPass, BackgroundIsTheFloorAwayFromRods) {
   RodPicture picture = red_picture();
   add_rod(picture, 5, 5, 0);
   const Image image = draw(picture);
-  const Colour floor = palette(Theme::kLight).floor;
+  const Colour floor = page_colours(Theme::kLight).floor;
   for (const auto& [x, y] : {std::pair{0, 0}, {999, 999}, {500, 300}, {100, 500}}) {
     for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(image.pixel(x, y)[c], floor[c] * 255, 1) << x << ' ' << y;
   }
@@ -202,7 +203,7 @@ TEST(RodsPass, FewerSamplesShowTheSameWithHarderEdges) {
   EXPECT_NEAR(rods[0], rods[2], 0.01 * rods[2]);
   EXPECT_NEAR(rods[1], rods[2], 0.01 * rods[2]);
   // A pixel on the edge between rod and floor is one or the other with one sample, and between them with nine.
-  picture.director[0] = Vec3(1, 0, 0);
+  picture.frame.director[0] = Vec3(1, 0, 0);
   PictureStyle hard = layers();
   hard.light.samples = 1;
   hard.light.shadows = false;
@@ -276,8 +277,8 @@ TEST(RodsPass, TheHigherRodHidesTheLower) {
     RodPicture picture = empty_picture(kBox);
     add_rod(picture, 5, 5, 0.5);
     add_rod(picture, 5, 5, -0.5);
-    picture.position[0].z() = red_on_top ? 0.8 : 0.4;
-    picture.position[1].z() = red_on_top ? 0.4 : 0.8;
+    picture.frame.position[0].z() = red_on_top ? 0.8 : 0.4;
+    picture.frame.position[1].z() = red_on_top ? 0.4 : 0.8;
     EXPECT_EQ(is_red(draw(picture).pixel(500, 500)), red_on_top);
   }
 }
@@ -387,7 +388,7 @@ TEST(RodsPass, BeyondTheWallsTheFloorIsTinted) {
   for (const Theme theme : {Theme::kLight, Theme::kDark}) {
     PictureStyle style;
     style.theme = theme;
-    const Palette colours = palette(theme);
+    const PageColours colours = page_colours(theme);
     RodPicture picture = empty_picture(kBox);
     picture.cell.walls = SideWalls{Arena::kAnnulus, 8, 2};
     const Image annulus = draw(picture, style);
@@ -420,7 +421,7 @@ TEST(RodsPass, BeyondTheWallsTheFloorIsTinted) {
 TEST(RodsPass, NothingWrapsRoundAnArena) {
   RodPicture picture = second_kind({{0}, {0.5}}, 0);
   picture.cell.walls = SideWalls{Arena::kDisc, 8};
-  picture.position[0] = Vec3(5, 8.4, 0.6);  // at the upper wall
+  picture.frame.position[0] = Vec3(5, 8.4, 0.6);  // at the upper wall
   PictureStyle style = layers();
   style.zoom = 2;
   style.focus = Vec2(0.5, 0.1);  // from -1.5 to 3.5 mm upwards
@@ -432,7 +433,7 @@ TEST(RodsPass, NothingWrapsRoundAnArena) {
 TEST(RodsPass, NoShadowFallsBeyondAWallButRodsAtItAreWhole) {
   RodPicture picture = second_kind({{0}, {0.5}}, 0);
   picture.cell.walls = SideWalls{Arena::kSquare, 8};
-  picture.position[0] = Vec3(5, 1.5, 0.6);  // touches the lower wall
+  picture.frame.position[0] = Vec3(5, 1.5, 0.6);  // touches the lower wall
   const Image image = draw(picture);
   EXPECT_TRUE(is_floor(image, 500, 910)) << "here meaning: as any place beyond the walls";
   EXPECT_NEAR(static_cast<double>(coloured(image).size()), kPi * 0.25 * kScale * kScale, 0.03 * 7854);
@@ -452,7 +453,7 @@ TEST(RodsPass, RefusesWhatCannotBeDrawn) {
   many_beads.cell.species[0].radius.assign(RodsPass::kMaxBeads + 1, 1);
   EXPECT_NE(message(many_beads).find("256 beads"), std::string::npos);
   RodPicture uneven = red_picture();
-  uneven.position.emplace_back(1, 1, 1);
+  uneven.frame.position.emplace_back(1, 1, 1);
   EXPECT_NE(message(uneven).find("directors"), std::string::npos);
   RodPicture unknown_kind = second_kind({{0}, {0.5}}, 0);
   unknown_kind.cell.species_of_rod[0] = 2;

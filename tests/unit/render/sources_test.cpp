@@ -37,14 +37,14 @@ TEST(TrajectorySource, ReadsARunDirectoryOrItsFile) {
     EXPECT_EQ(source->n_frames(), 6u);
     const Result<RodPicture> picture = source->picture(4, plain());
     ASSERT_TRUE(picture) << picture.error().message;
-    EXPECT_DOUBLE_EQ(picture->time, 0.2);
+    EXPECT_DOUBLE_EQ(picture->frame.time, 0.2);
     EXPECT_DOUBLE_EQ(picture->cell.box_side, 10);
     EXPECT_DOUBLE_EQ(picture->rod_length(), 4.5);
-    EXPECT_NEAR(picture->director_angle, 40 * kDegree, 1e-5);
-    EXPECT_NEAR(picture->order, 1, 1e-6);
+    EXPECT_NEAR(picture->found.director_angle, 40 * kDegree, 1e-5);
+    EXPECT_NEAR(picture->found.order, 1, 1e-6);
     ASSERT_EQ(picture->n_rods(), 3u);
-    EXPECT_NEAR(picture->position[2].y(), 8, 1e-5);
-    EXPECT_TRUE(picture->history.time.empty());
+    EXPECT_NEAR(picture->frame.position[2].y(), 8, 1e-5);
+    EXPECT_TRUE(picture->captions.history.time.empty());
   }
 }
 
@@ -67,11 +67,11 @@ TEST(TrajectorySource, HistoryEndsAtThePresentFrame) {
   TrajectorySource source = TrajectorySource::open(folder.path()).value();
   ASSERT_TRUE(source.read_history());
   const RodPicture picture = source.picture(3, plain()).value();
-  ASSERT_EQ(picture.history.time.size(), 4u);
-  EXPECT_EQ(picture.history.order.size(), 4u);
-  EXPECT_DOUBLE_EQ(picture.history.time.back(), 0.15);
-  EXPECT_DOUBLE_EQ(picture.history.end, 0.25);
-  EXPECT_NEAR(picture.history.order[1], 1, 1e-6);
+  ASSERT_EQ(picture.captions.history.time.size(), 4u);
+  EXPECT_EQ(picture.captions.history.order.size(), 4u);
+  EXPECT_DOUBLE_EQ(picture.captions.history.time.back(), 0.15);
+  EXPECT_DOUBLE_EQ(picture.captions.history.end, 0.25);
+  EXPECT_NEAR(picture.captions.history.order[1], 1, 1e-6);
 }
 
 TEST(TrajectorySource, TakesShakingAndMovieFromTheScene) {
@@ -80,8 +80,8 @@ TEST(TrajectorySource, TakesShakingAndMovieFromTheScene) {
                    R"({"plates": {"gamma": 7.0, "frequency": 200.0}, "movie": {"every": 0.1, "size": [640, 360]}})");
   TrajectorySource source = TrajectorySource::open(folder.path()).value();
   const RodPicture first = source.picture(0, plain()).value();
-  EXPECT_EQ(first.label, "\u2113 = 4.5 mm, \u03c6 = 0.07, N = 3, w = 1.2 mm");
-  EXPECT_EQ(first.subtitle, "L = 10 mm, \u0393 = 7, f = 200 Hz");
+  EXPECT_EQ(first.captions.label, "\u2113 = 4.5 mm, \u03c6 = 0.07, N = 3, w = 1.2 mm");
+  EXPECT_EQ(first.captions.subtitle, "L = 10 mm, \u0393 = 7, f = 200 Hz");
   const std::optional<scene::Movie> request = source.movie_request();
   ASSERT_TRUE(request);
   EXPECT_DOUBLE_EQ(request->every, 0.1);
@@ -92,14 +92,14 @@ TEST(TrajectorySource, TakesShakingAndMovieFromTheScene) {
     plant_trajectory(folder.path(), 1, scene);
     TrajectorySource other = TrajectorySource::open(folder.path()).value();
     EXPECT_FALSE(other.movie_request()) << scene;
-    EXPECT_EQ(other.picture(0, plain())->subtitle, "L = 10 mm") << scene;
+    EXPECT_EQ(other.picture(0, plain())->captions.subtitle, "L = 10 mm") << scene;
   }
 }
 
 TEST(TrajectorySource, BetweenTwoFramesRodsAreOnTheirStraightWay) {
   const ScratchFolder folder;
   std::vector<RodPicture> frames(2, empty_picture(10));
-  frames[1].time = 0.1;
+  frames[1].frame.time = 0.1;
   add_rod(frames[0], 9.8, 5, 0);  // across the border
   add_rod(frames[1], 0.2, 5.4, 0.4);
   add_rod(frames[0], 2, 8, 3.1);  // turns through half a turn: its head is a label
@@ -110,19 +110,22 @@ TEST(TrajectorySource, BetweenTwoFramesRodsAreOnTheirStraightWay) {
   TrajectorySource source = TrajectorySource::open(folder.path()).value();
   PictureStyle style = plain();
   const RodPicture quarter = source.picture_at(0.025, style).value();
-  EXPECT_DOUBLE_EQ(quarter.time, 0.025);
+  EXPECT_DOUBLE_EQ(quarter.frame.time, 0.025);
   // The planted frames say nothing of the border's crossing: this rod has gone back through the box.
-  EXPECT_NEAR(quarter.position[0].x(), 9.8, 1e-5) << "farther than its length: not interpolated";
-  EXPECT_NEAR(std::remainder(std::atan2(quarter.director[1].y(), quarter.director[1].x()) - (3.1 + 0.25 * 0.1416), kPi),
-              0, 2e-3);
-  EXPECT_NEAR(std::atan2(quarter.director[2].y(), quarter.director[2].x()), 0, 1e-5) << "as the nearer frame has it";
+  EXPECT_NEAR(quarter.frame.position[0].x(), 9.8, 1e-5) << "farther than its length: not interpolated";
   EXPECT_NEAR(
-      std::atan2(source.picture_at(0.08, style)->director[2].y(), source.picture_at(0.08, style)->director[2].x()), 1.5,
-      1e-5);
-  for (const double time : {-1.0, 0.0}) EXPECT_DOUBLE_EQ(source.picture_at(time, style)->time, 0);
-  EXPECT_DOUBLE_EQ(source.picture_at(7, style)->time, 0.1);
+      std::remainder(std::atan2(quarter.frame.director[1].y(), quarter.frame.director[1].x()) - (3.1 + 0.25 * 0.1416),
+                     kPi),
+      0, 2e-3);
+  EXPECT_NEAR(std::atan2(quarter.frame.director[2].y(), quarter.frame.director[2].x()), 0, 1e-5)
+      << "as the nearer frame has it";
+  EXPECT_NEAR(std::atan2(source.picture_at(0.08, style)->frame.director[2].y(),
+                         source.picture_at(0.08, style)->frame.director[2].x()),
+              1.5, 1e-5);
+  for (const double time : {-1.0, 0.0}) EXPECT_DOUBLE_EQ(source.picture_at(time, style)->frame.time, 0);
+  EXPECT_DOUBLE_EQ(source.picture_at(7, style)->frame.time, 0.1);
   style.interpolate = false;
-  EXPECT_DOUBLE_EQ(source.picture_at(0.025, style)->time, 0);
+  EXPECT_DOUBLE_EQ(source.picture_at(0.025, style)->frame.time, 0);
 }
 
 TEST(Headlines, OfRunsSideBySideSayWhatDiffers) {
@@ -133,22 +136,22 @@ TEST(Headlines, OfRunsSideBySideSayWhatDiffers) {
     add_rod(*run, 5, 2, 0);
   }
   for (RodPicture* run : {&a, &b, &c}) {
-    run->settings = settings_of(*run);
-    run->settings.emplace_back("\u0393", "7");
+    run->captions.settings = settings_of(*run);
+    run->captions.settings.emplace_back("\u0393", "7");
   }
-  name_runs({&a, &b});
-  EXPECT_EQ(a.label, "\u03c6 = 0.02, N = 1");
-  EXPECT_EQ(b.label, "\u03c6 = 0.05, N = 2");
-  EXPECT_EQ(a.subtitle, "");
-  name_runs({&a, &b, &c});
-  EXPECT_EQ(c.label, "\u03c6 = 0.01, N = 2, L = 20 mm");
+  name_runs({&a.captions, &b.captions});
+  EXPECT_EQ(a.captions.label, "\u03c6 = 0.02, N = 1");
+  EXPECT_EQ(b.captions.label, "\u03c6 = 0.05, N = 2");
+  EXPECT_EQ(a.captions.subtitle, "");
+  name_runs({&a.captions, &b.captions, &c.captions});
+  EXPECT_EQ(c.captions.label, "\u03c6 = 0.01, N = 2, L = 20 mm");
   RodPicture twin = a;
-  name_runs({&a, &twin});
-  EXPECT_EQ(a.label, "run 1");
-  EXPECT_EQ(twin.label, "run 2");
-  name_runs({&a});
-  EXPECT_EQ(a.label, "\u2113 = 4.5 mm, \u03c6 = 0.02, N = 1, w = 1.2 mm");
-  EXPECT_EQ(a.subtitle, "L = 10 mm, \u0393 = 7");
+  name_runs({&a.captions, &twin.captions});
+  EXPECT_EQ(a.captions.label, "run 1");
+  EXPECT_EQ(twin.captions.label, "run 2");
+  name_runs({&a.captions});
+  EXPECT_EQ(a.captions.label, "\u2113 = 4.5 mm, \u03c6 = 0.02, N = 1, w = 1.2 mm");
+  EXPECT_EQ(a.captions.subtitle, "L = 10 mm, \u0393 = 7");
 }
 
 TEST(Interpolation, GoesAcrossTheBorderAndHitsEitherFrame) {
@@ -184,8 +187,10 @@ TEST(TrajectorySource, TakesTheDirectorFieldFromTheScene) {
   const ScratchFolder folder;
   plant_trajectory(folder.path(), 1, R"({"measure": {"defects": {"smoothing": 1.5, "grid": 0.25}}})");
   const RodPicture picture = TrajectorySource::open(folder.path())->picture(0, {}).value();
-  EXPECT_DOUBLE_EQ(picture.smoothing, 1.5);
-  EXPECT_DOUBLE_EQ(picture.grid, 0.25);
+  RodPicture expected = picture;
+  measure(expected, {.field = true, .smoothing = 1.5, .grid = 0.25});
+  EXPECT_DOUBLE_EQ(picture.found.field->mesh(), 0.25);
+  EXPECT_EQ(picture.found.field->q_at({5, 5}), expected.found.field->q_at({5, 5}));
 }
 
 // Such a box is as finite as any, but a rod would be drawn in it millions of times.
@@ -220,14 +225,14 @@ TEST(TrajectorySource, DisplacementsGoOnAcrossBorders) {
   Result<TrajectorySource> source = TrajectorySource::open(folder.path());
   ASSERT_TRUE(source) << source.error().message;
   PictureStyle style = plain();
-  EXPECT_TRUE(source->picture(2, style)->displacement.empty()) << "not asked for";
+  EXPECT_TRUE(source->picture(2, style)->frame.displacement.empty()) << "not asked for";
   for (const auto& [span, steps] : {std::pair{0.1, 1}, {0.2, 2}, {5.0, 2}}) {
     style.displacements = span;
     const Result<RodPicture> picture = source->picture(2, style);
     ASSERT_TRUE(picture) << picture.error().message;
-    ASSERT_EQ(picture->displacement.size(), 1u);
-    EXPECT_NEAR(picture->displacement[0].x(), 3 * steps, 1e-5) << span;
-    EXPECT_NEAR(picture->displacement[0].y(), -1 * steps, 1e-5) << span;
+    ASSERT_EQ(picture->frame.displacement.size(), 1u);
+    EXPECT_NEAR(picture->frame.displacement[0].x(), 3 * steps, 1e-5) << span;
+    EXPECT_NEAR(picture->frame.displacement[0].y(), -1 * steps, 1e-5) << span;
   }
   style.displacements = 0.01;
   const Result<RodPicture> refused = source->picture(2, style);
@@ -273,11 +278,11 @@ TEST(LivePicture, PutsTheFrameOfTheJobTogetherFromItsChunks) {
   const std::string url = record_two_jobs(folder / "live.lcmlog");
   const Result<RodPicture> picture = live_picture(url, "bbbb", std::chrono::seconds(10), plain());
   ASSERT_TRUE(picture) << picture.error().message;
-  EXPECT_EQ(picture->label, "job bbbb0002");
-  EXPECT_DOUBLE_EQ(picture->time, 2.5);
+  EXPECT_EQ(picture->captions.label, "job bbbb0002");
+  EXPECT_DOUBLE_EQ(picture->frame.time, 2.5);
   ASSERT_EQ(picture->n_rods(), 9000u);
-  EXPECT_NEAR(picture->director_angle, -0.4, 1e-4);
-  EXPECT_NEAR(picture->position[8999].x(), 17.998, 20.0 / 65536);
+  EXPECT_NEAR(picture->found.director_angle, -0.4, 1e-4);
+  EXPECT_NEAR(picture->frame.position[8999].x(), 17.998, 20.0 / 65536);
   EXPECT_DOUBLE_EQ(picture->rod_length(), 4.5);
 }
 
@@ -317,8 +322,8 @@ TEST(LivePicture, KnowsKindsOfRodsTheirHeadsAndTheWalls) {
   ASSERT_TRUE(picture) << picture.error().message;
   const Cell cell = *proto::decode_cell(mixed_constants());
   EXPECT_EQ(picture->cell, cell);
-  EXPECT_NEAR(picture->director_angle, 0.3, 1e-4) << "of the first species alone";
-  EXPECT_NEAR(picture->director[1].y(), -1, 1e-6);
+  EXPECT_NEAR(picture->found.director_angle, 0.3, 1e-4) << "of the first species alone";
+  EXPECT_NEAR(picture->frame.director[1].y(), -1, 1e-6);
 }
 
 TEST(LivePicture, RefusesAStaticPartThatContradictsItself) {

@@ -23,7 +23,7 @@ TEST(StyleFile, SetsWhatItNames) {
   const auto loaded = load_style(R"({
     // a comment
     "style": "defects", "colour": "speed", "range": [-5, 5], "size": [640, 480], "tracks": "500 ms",
-    "theme": "dark", "view": "follow:12", "legend": false, "speed": 0.1, "focus": [0.25, 0.75]
+    "theme": "dark", "palette": "paper", "view": "follow:12", "legend": false, "speed": 0.1, "focus": [0.25, 0.75]
   })",
                                  "mine.json", {});
   ASSERT_TRUE(loaded) << to_string(loaded.error());
@@ -33,6 +33,7 @@ TEST(StyleFile, SetsWhatItNames) {
   EXPECT_EQ(loaded->height, 480);
   EXPECT_DOUBLE_EQ(loaded->tracks, 0.5);
   EXPECT_EQ(loaded->theme, Theme::kDark);
+  EXPECT_EQ(loaded->palette, Palette::kPaper);
   EXPECT_EQ(loaded->followed, 12);
   EXPECT_DOUBLE_EQ(loaded->zoom, 4) << "a close-up";
   EXPECT_FALSE(loaded->legend);
