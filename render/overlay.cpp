@@ -46,8 +46,11 @@ void draw_label(const Canvas& canvas, const Layout& layout, const Captions& capt
   }
   if (canvas.text_width(label, size, true) > width) {
     const auto cut = [&] { return label + " \u2026"; };
+    // between settings, if it is made of some, so that none loses its unit
+    const std::string between = label.find(", ") != std::string::npos ? ", " : " ";
     while (!label.empty() && canvas.text_width(cut(), size, true) > width) {
-      label = label.substr(0, label.find_last_of(' ') == std::string::npos ? 0 : label.find_last_of(' '));
+      const std::size_t last = label.rfind(between);
+      label.resize(last == std::string::npos ? 0 : last);
     }
     label = label.empty() ? "" : cut();
   }

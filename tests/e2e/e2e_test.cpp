@@ -212,7 +212,7 @@ TEST(EndToEnd, SweepIsRunStreamedTabledPlottedAndDrawn) {
   }
   EXPECT_GE(n_plots, 3);
 
-  // a picture of the last frame: rods cover about their area fraction of the box, in red, magenta and what lies between
+  // a picture of the last frame: rods cover about their area fraction of the box, in orange, blue and what lies between
   const std::string job = rows.at(1).at("job");
   const auto png = out.path() / "last.png";
   const Finished drawn = daemon.shaken({"movie", job, "--frame", "last", "-o", png.string()});
