@@ -59,12 +59,13 @@ CONTRASTS = """
   return least;"""
 
 
-# What is further to the right than the window.
+# What is further to the right than the window, or than the panel that it is in.
 STICKS_OUT = """
   const most = document.documentElement.clientWidth;
   if (document.documentElement.scrollWidth > most) return ["the page"];
   return [...document.querySelectorAll("section, section > *, .chart, canvas, select, button")].filter(
-    (one) => one.checkVisibility() && one.getBoundingClientRect().right > most + 0.5 && !one.closest("#jobs-frame, #pictures")
+    (one) => one.checkVisibility() && !one.closest("#jobs-frame, #pictures") && one.getBoundingClientRect().right >
+      Math.min(most, one.parentElement.closest("section")?.getBoundingClientRect().right ?? most) + 0.5
   ).map((one) => one.outerHTML.slice(0, 60));"""
 
 
@@ -128,7 +129,8 @@ class Daemon:
         if job["state"] == "done":
             order = job["parameters"]["rods.area_fraction"] + 0.002 * (k % 2)
             summary = {"n_rods": 433, "sim_seconds": 20.0 if k % 7 else 30.0, "steady": k % 3 > 0,
-                       "order": {"mean": order, "sem": 0.01, "n_effective": 12.0}}
+                       "order": {"mean": order, "sem": 0.01, "n_effective": 12.0},
+                       "effects": {"an_observable_with_a_name_that_is_wider_than_any_panel_of_the_page": order}}
         return {**{key: job[key] for key in ("state", "label", "parameters", "replica", "sweep")}, "job": job["id"],
                 "directory": "", "summary": summary}
 
@@ -219,7 +221,7 @@ class Handler(http.server.BaseHTTPRequestHandler):
             return self.stream(urllib.parse.parse_qs(url.query).get("run", [""])[0])
         if url.path == "/palettes.json":
             hues = [sum(round(255 * c) << 8 * n for n, c in enumerate(colorsys.hsv_to_rgb(h / 24, 0.6, 0.9))) for h in range(24)]
-            return self.reply(json.dumps({name: hues for name in ("layers", "wheel", "tilt", "species")}
+            return self.reply(json.dumps({name: hues for name in ("layers", "wheel", "tilt", "species", "others")}
                                          | {"floor": 0, "wall": 0}).encode(), "application/json")
         if url.path.startswith(("/v1/", "/runs/", "/examples", "/cost")):
             answer = self.daemon.answer(url.path, urllib.parse.parse_qs(url.query))
