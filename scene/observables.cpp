@@ -20,8 +20,6 @@ constexpr double kSpare = 0.5;
 
 }  // namespace
 
-double Sizes::in_blocks(double bytes) const { return std::min(kBlocks, samples) * bytes; }
-
 double Sizes::spare_series(double columns) const {
   return std::min(kSeries, samples) * columns * kNumberBytes - series(columns);
 }
@@ -97,10 +95,10 @@ Observable order() {
     .doc = "Nematic order parameter S(t) in the plane.",
     .is_usual = true,
     .axis = AxisUse::kNeeded,
-    // t, S, and S times cosine and sine of twice the director's angle, which the file holds as one angle; its reduction
-    // looks for correlations, in copies of the series
+    // t, S, and S times cosine and sine of twice the director's angle, which the file holds as one angle; P(S) in 100
+    // bins; its reduction looks for correlations, in copies of the series
     .memory = [](const Sizes& s) -> MeasureMemory {
-      return {"", s.series(4), s.series(6), s.series(3), s.spare_series(4)}; },
+      return {"", s.series(4) + s.in_blocks(100 * kNumberBytes + 40), s.series(6), s.series(3), s.spare_series(4)}; },
     .remedy = "a longer `every`"};
 }
 
@@ -322,8 +320,13 @@ std::vector<MeasureMemory> measure_memory(const RunPlan& plan) {
     if (!every) continue;
     const double ticks = std::max(1.0, std::round(*every / plan.system.dt));
     const double samples = std::floor(plan.longest_time() / (ticks * plan.system.dt) * (1 + 1e-12)) + 1;
-    memory.push_back(one.memory({plan, samples, static_cast<double>(plan.system.n_rods)}));
+    double in_stretch = 1;
+    while (samples > kBlocks * in_stretch) in_stretch *= 2;
+    Sizes sizes{plan, samples, static_cast<double>(plan.system.n_rods), std::ceil(samples / in_stretch)};
+    memory.push_back(one.memory(sizes));
     memory.back().name = one.name;
+    sizes.stretches = std::min(kBlocks, samples);
+    memory.back().spare += one.memory(sizes).state - memory.back().state;
   }
   return memory;
 }

@@ -23,16 +23,17 @@ struct MeasureMemory {
   double state = 0;    ///< what it has gathered at the end of the run; all of it goes into each checkpoint
   double scratch = 0;  ///< what it needs besides while it takes a sample
   double file = 0;     ///< what it adds to observables.h5 beyond what a few samples make of it
-  double spare = 0;    ///< room that its growing arrays hold at most and do not fill at the end
+  double spare = 0;    ///< what it holds besides at some time before the end, or in arrays that are not full
 };
 
 /// What formulas of memory are made of.
 struct Sizes {
   const RunPlan& plan;
-  double samples = 0;  ///< of this measurement in the whole run
-  double rods = 0;     ///< that are measured
+  double samples = 0;    ///< of this measurement in the whole run
+  double rods = 0;       ///< that are measured
+  double stretches = 0;  ///< of time that sums are kept for; neighbours are merged now and then
 
-  double in_blocks(double bytes) const;
+  double in_blocks(double bytes) const { return stretches * bytes; }
   /// Columns of a BoundedSeries, that of times among them, at the end of the run, when neighbouring points may have
   /// been averaged in pairs; and the room that it holds beyond that.
   double series(double columns) const;

@@ -26,6 +26,7 @@ namespace {
 
 constexpr double kCpu = 0.02;    ///< for timing one kind of work, at most about [s]
 constexpr double kPart = 0.04;   ///< of the run's own time, for the steps of its probe; its samples take as much
+constexpr double kLeast = 0.03;  ///< for the steps of a probe: less tells little, and nobody feels it [s]
 constexpr double kPilot = 2e-3;  ///< for the first steps by which that is judged, about [s]
 constexpr int kFrames = 8;       ///< recorded to see what a frame costs
 constexpr double kCheckpointEvery =
@@ -88,7 +89,7 @@ class Prober {
       warm_up.ticks += stretch->ticks;
       warm_up.cpu += stretch->cpu;
       cpu_ = kPart * stretch->cpu / static_cast<double>(stretch->ticks) * cost_.run_ticks;
-      cpu_ = std::clamp(cpu_, kPilot, most);
+      cpu_ = std::clamp(cpu_, std::min(kLeast, most), most);
     } while (warm_up.cpu < part * cpu_);
     each_ = std::min(kCpu, cpu_ / 16);
     const auto timed = step_for(cpu_ / 2);

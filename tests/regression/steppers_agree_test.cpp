@@ -39,8 +39,11 @@ struct Case {
   ContactOrder order = ContactOrder::kSorted;
 
   friend void PrintTo(const Case& one, std::ostream* out) {
-    *out << one.n_rods << " rods of " << one.length << " mm, area fraction " << one.area_fraction << ", gamma "
-         << one.gamma << ", step " << one.dt_us << " us";
+    *out << one.n_rods << " rods of " << one.length << " mm, " << one.n_beads << " beads, end " << one.end_diameter
+         << ", area fraction " << one.area_fraction << ", gap " << one.gap << ", gamma " << one.gamma
+         << ", restitution " << one.restitution << ", friction " << one.friction << ", step " << one.dt_us
+         << " us, law " << static_cast<int>(one.law) << ", order " << static_cast<int>(one.order) << ", start "
+         << static_cast<int>(one.start);
   }
 };
 

@@ -86,6 +86,8 @@ struct Case {
   const char* name;
   std::function<RodPicture()> picture;
   const char* style;  ///< JSON
+
+  friend void PrintTo(const Case& one, std::ostream* out) { *out << one.name; }
 };
 
 const Case kCases[] = {
