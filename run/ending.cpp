@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <utility>
 
 #include "base/steadiness.h"
 #include "base/text.h"
 #include "run/files/directory.h"
 #include "run/files/observables_file.h"
+#include "scene/observables.h"
 
 namespace shaken::run {
 namespace {
@@ -51,28 +51,15 @@ std::string order_text(const Json& summary) {
   return text + fmt::format("\nRun longer, for example -s time.measure={:.3g}\n", 4 * number(summary, "sim_seconds"));
 }
 
-/// "curves: S(t), P(theta)": those that were measured, in the words that most people have for them.
+/// "curves of order, msd": the observables in the file.
 std::string curves_of(const std::filesystem::path& file) {
-  static constexpr std::pair<const char*, const char*> kCurves[] = {{"/order/order", "S(t)"},
-                                                                    {"/angles/density_per_rad", "P(theta)"},
-                                                                    {"/tilt/density", "P(n_z)"},
-                                                                    {"/g2/g2", "G2(r)"},
-                                                                    {"/g2/g", "g(r)"},
-                                                                    {"/pairs/g", "g(x, y)"},
-                                                                    {"/msd/total_mm2", "MSD"},
-                                                                    {"/velocity/c_v", "C_v"},
-                                                                    {"/rotation/c2", "C_2"},
-                                                                    {"/structure/factor", "S(q)"},
-                                                                    {"/defects/n_plus", "defects"},
-                                                                    {"/layers/spectrum_across", "layers"},
-                                                                    {"/fluctuations/std_n", "number fluctuations"}};
   const Result<Observables> arrays = read_observables(file);
-  if (!arrays) return "curves";
   std::string names;
-  for (const auto& [path, name] : kCurves) {
-    if (arrays->contains(path)) names += (names.empty() ? "curves: " : ", ") + std::string(name);
+  for (const scene::Observable& one : scene::observables()) {
+    const auto is_of = [&](const auto& array) { return array.first.starts_with("/" + one.name + "/"); };
+    if (arrays && std::ranges::any_of(*arrays, is_of)) names += (names.empty() ? " of " : ", ") + one.name;
   }
-  return names.empty() ? "curves" : names;
+  return "curves" + names;
 }
 
 }  // namespace

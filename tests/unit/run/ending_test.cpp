@@ -45,9 +45,9 @@ TEST(Ending, NamesTheCurvesThatWereMeasured) {
   const ScratchFolder folder;
   ASSERT_TRUE(write_observables(folder / "observables.h5",
                                 {{"/order/time_s", {0, 1}}, {"/order/order", {1, 1}}, {"/msd/total_mm2", {1}}}, {}));
-  EXPECT_THAT(describe_ending(summary(true), folder.path()), HasSubstr("observables.h5  curves: S(t), MSD\n"));
+  EXPECT_THAT(describe_ending(summary(true), folder.path()), HasSubstr("observables.h5  curves of order, msd\n"));
   ASSERT_TRUE(write_observables(folder / "observables.h5", {{"/rods/trace/time_s", {0}}}, {}));
-  EXPECT_THAT(describe_ending(summary(true), folder.path()), HasSubstr("observables.h5  curves\n"));
+  EXPECT_THAT(describe_ending(summary(true), folder.path()), HasSubstr("observables.h5  curves of rods\n"));
 }
 
 TEST(Ending, ARunThatRelaxesIsToldSoWithAWayOut) {

@@ -4,6 +4,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "scene/load.h"
+#include "scene/observables.h"
 #include "scene/sweep.h"
 #include "sim/initial.h"
 #include "sim/rod/species.h"
@@ -29,6 +31,16 @@ TEST(Configs, AreAllValidAndCanStart) {
     }
   }
   EXPECT_GE(n_files, 5);
+}
+
+// `shaken explain` of it tells what each observable costs.
+TEST(Configs, OneMeasuresEveryObservable) {
+  std::ifstream in(SHAKEN_SOURCE_DIR "/configs/observables.json");
+  std::stringstream text;
+  text << in.rdbuf();
+  const auto plan = load_scene(text.str(), "configs/observables.json");
+  ASSERT_TRUE(plan) << to_string(plan.error());
+  for (const Observable& one : observables()) EXPECT_TRUE(one.period(*plan)) << one.name << " is missing there";
 }
 
 // The indented blocks of docs/scene.md that begin with a brace.
