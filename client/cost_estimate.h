@@ -12,7 +12,7 @@
 namespace shaken::client {
 
 struct EstimateOptions {
-  double cpu = 1.5;    ///< CPU time of the probe's steps, at most about [s]; 0: none, only what is on and off
+  double cpu = 1.0;    ///< CPU time of the probe's steps, at most about [s]; 0: none, only what is on and off
   std::string from{};  ///< directory of a run of the same system to start from; empty: the run's own start
 };
 

@@ -23,7 +23,7 @@ struct WorkerOptions {
   double checkpoint_every = 30;
   bool quiet = false;
   std::string probe;
-  double probe_cpu = 1.5;
+  double probe_cpu = 1.0;
   std::string probe_from;
 };
 

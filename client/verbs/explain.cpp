@@ -43,7 +43,7 @@ class Explain : public Verb {
     arguments.flag("--no-probe", no_probe_, "Step nothing: leaves out all that has to be measured");
     arguments.option(
         "--cpu", cpu_, "S",
-        "CPU time for the steps of the probe, at most; 1.5 if not given, and never more than a tenth of the run's");
+        "CPU time for the steps of the probe, at most; 1 if not given, and never more than a tenth of the run's");
     arguments.option("--from", from_, "DIR", "Probe from the saved state of this run, of the same system and step",
                      Names::kFolder);
     arguments.option("--executor", executor_, "local|slurm", "Where it is to run; as the sweep says if not given");
