@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
@@ -101,7 +102,8 @@ TEST(RunCost, KnowsWhatALongRunThenKeeps) {
   plan.order = scene::MeasureOrder{0.001};
   plan.rods = scene::MeasureRods{0.01, 4, 20};
   plan.steady = 0;
-  const DiskUse promised = disk(plan);
+  const RunCost cost = probed_from_start(plan, 0.01).value();
+  const DiskUse promised = cost.disk;
   Measurements measurements(plan);
   Snapshot state = Simulation::start(plan.system).value().snapshot();
   const Tick end = scene::total_ticks(plan);
@@ -110,7 +112,9 @@ TEST(RunCost, KnowsWhatALongRunThenKeeps) {
     state.time = static_cast<double>(tick) * plan.system.dt;
     measurements.sample(state);
   }
-  EXPECT_NEAR(promised.checkpoints / static_cast<double>(measurements.save().size()), 1, 0.02);
+  // a run that takes long on this machine keeps two
+  const double checkpoint = promised.checkpoints / std::min<double>(2, static_cast<double>(cost.checkpoints.count));
+  EXPECT_NEAR(checkpoint / static_cast<double>(measurements.save().size()), 1, 0.02);
   const ScratchFolder folder;
   ASSERT_TRUE(write_observables(folder.path() / "observables.h5", measurements.reduce(100).arrays));
   EXPECT_NEAR(promised.observables / bytes_of(folder.path() / "observables.h5"), 1, 0.02);
