@@ -33,6 +33,49 @@ using lanes::Doubles;
 using lanes::kDoubleLanes;
 using lanes::Triple;
 
+using lanes::TripleLanes;
+
+/// Flights of several rods, component by component: what poses and motions at a later tick follow from.
+struct FlightLanes {
+  TripleLanes position, velocity, along, across, turned, precession;
+  alignas(64) double spin[kDoubleLanes];
+  alignas(64) double rate[kDoubleLanes];
+
+  void set(int lane, const Flight& flight) {
+    position.set(lane, flight.position);
+    velocity.set(lane, flight.velocity);
+    along.set(lane, flight.along);
+    across.set(lane, flight.across);
+    turned.set(lane, flight.turned);
+    precession.set(lane, flight.precession);
+    spin[lane] = flight.spin;
+    rate[lane] = flight.rate;
+  }
+};
+
+/// What the plates do to several rods at a tick.
+struct PlateHits {
+  /// Of one plate.
+  struct OfPlate {
+    TripleLanes impulse;
+    alignas(64) double lost[kDoubleLanes];     ///< energy
+    alignas(64) double overlap[kDoubleLanes];  ///< of the bead in the plate; 0: none
+    alignas(64) double is_hit[kDoubleLanes];   ///< > 0: yes, where there is an overlap
+  };
+  TripleLanes position, director, velocity, angular_velocity;  ///< of the rods after the hits
+  OfPlate of_plate[2];                                         ///< base, lid
+  alignas(64) double is_other[kDoubleLanes];                   ///< >= 0: what happens is not known here
+
+  bool is_known(int lane) const { return is_other[lane] < 0; }
+  bool meets(int lane, int plate) const { return of_plate[plate].overlap[lane] > 0; }
+  bool is_hit(int lane, int plate) const { return meets(lane, plate) && of_plate[plate].is_hit[lane] > 0; }
+
+  /// Counts the lane's hits.
+  void count(int lane, const PlateState& plates, Counters& counters) const;
+  /// The lane's rod after them; its motion only where a bead is in a plate.
+  void get(int lane, RodAtTick& rod) const;
+};
+
 /// A symmetric matrix, as point_compliance (contact/impulse.h) makes it.
 template <class D>
 struct Compliance {
@@ -91,8 +134,8 @@ struct PlateHitKernel {
     position.z -= 0.5 * rules.gravity * tau * tau;
     const Triple<D> director =
         flights.along.load<W>(l) + turn.cos * flights.across.load<W>(l) + turn.sin * flights.turned.load<W>(l);
-    hits.rods.position.store(l, position);
-    hits.rods.director.store(l, director);
+    hits.position.store(l, position);
+    hits.director.store(l, director);
 
     Triple<D> velocity = start_velocity;
     velocity.z -= rules.gravity * tau;
@@ -182,23 +225,11 @@ struct PlateHitKernel {
     };
     if (rules.has_base) meet_plate({1.0, plates.base, plates.velocity, rules.rod_base}, hits.of_plate[0]);
     if (rules.has_lid) meet_plate({-1.0, plates.lid, plates.velocity, rules.rod_lid}, hits.of_plate[1]);
-    hits.rods.velocity.store(l, velocity);
-    hits.rods.angular_velocity.store(l, angular_velocity);
+    hits.velocity.store(l, velocity);
+    hits.angular_velocity.store(l, angular_velocity);
     lanes::store(hits.is_other + l, other);
   }
 };
-
-}  // namespace
-
-bool lanes_know(const System& system, const TickRules& rules, std::span<const Effect> effects) {
-  const auto is_known = [](const Effect& effect) { return std::ranges::count(kKnownEffects, effect.name) > 0; };
-  for (const Effect& effect : effects) {
-    if (effect.is_on(system) && !is_known(effect)) return false;
-  }
-  const bool has_friction =
-      (!rules.has_base || rules.rod_base.has_friction()) && (!rules.has_lid || rules.rod_lid.has_friction());
-  return has_friction && rules.impulse == &newton_coulomb_impulse && !rules.rest.matters();
-}
 
 void PlateHits::count(int lane, const PlateState& plates, Counters& counters) const {
   for (int plate = 0; plate < 2; ++plate) {
@@ -217,22 +248,28 @@ void PlateHits::count(int lane, const PlateState& plates, Counters& counters) co
 
 void PlateHits::get(int lane, RodAtTick& rod) const {
   rod.has_motion = rod.changed = rod.displaced = rod.hit_again = false;
-  rods.position.get(lane, rod.pose.position);
-  rods.director.get(lane, rod.pose.director);
+  position.get(lane, rod.pose.position);
+  director.get(lane, rod.pose.director);
   for (int plate = 0; plate < 2; ++plate) {
     if (!meets(lane, plate)) continue;
     rod.has_motion = true;
     if (is_hit(lane, plate)) rod.note_hit();
   }
   if (!rod.has_motion) return;
-  rods.velocity.get(lane, rod.motion.velocity);
-  rods.angular_velocity.get(lane, rod.motion.angular_velocity);
+  velocity.get(lane, rod.motion.velocity);
+  angular_velocity.get(lane, rod.motion.angular_velocity);
 }
 
-void hit_plates(const SpeciesMechanics& species, const FlightLanes& flights, const double* since, int n,
-                const PlateState& plates, const TickRules& rules, PlateHits& hits) {
-  for (PlateHits::OfPlate& of_plate : hits.of_plate) std::fill_n(of_plate.overlap, kDoubleLanes, 0.0);
-  lanes::with_widest_doubles(PlateHitKernel{species, rules, plates, flights, since, n, hits});
+}  // namespace
+
+bool lanes_know(const System& system, const TickRules& rules, std::span<const Effect> effects) {
+  const auto is_known = [](const Effect& effect) { return std::ranges::count(kKnownEffects, effect.name) > 0; };
+  for (const Effect& effect : effects) {
+    if (effect.is_on(system) && !is_known(effect)) return false;
+  }
+  const bool has_friction =
+      (!rules.has_base || rules.rod_base.has_friction()) && (!rules.has_lid || rules.rod_lid.has_friction());
+  return has_friction && rules.impulse == &newton_coulomb_impulse && !rules.rest.matters();
 }
 
 std::uint32_t meet_plates_in_lanes(std::span<const int> rods, const std::vector<Flight>& flights,
@@ -247,7 +284,8 @@ std::uint32_t meet_plates_in_lanes(std::span<const int> rods, const std::vector<
     since[lane] = static_cast<double>(now - flight.since) * rules.dt;
   }
   PlateHits hits;
-  hit_plates(rules.species_of(rods.front()), in, since, n, plates, rules, hits);
+  for (PlateHits::OfPlate& of_plate : hits.of_plate) std::fill_n(of_plate.overlap, kDoubleLanes, 0.0);
+  lanes::with_widest_doubles(PlateHitKernel{rules.species_of(rods.front()), rules, plates, in, since, n, hits});
   std::uint32_t left_over = 0;
   for (int lane = 0; lane < n; ++lane) {
     if (hits.is_known(lane)) {
