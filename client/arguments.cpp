@@ -120,9 +120,11 @@ void Arguments::option(const std::string& flags, std::optional<double>& value, c
 }
 
 void Arguments::repeatable(const std::string& flags, std::vector<std::string>& values, const std::string& value_name,
-                           const std::string& help) {
+                           const std::string& help, Names names) {
   // Without this, "-s a=1 FILE" would take FILE for a second value.
-  app_.add_option(flags, values, help)->type_name(value_name)->allow_extra_args(false);
+  app_.add_option(flags, values, help)
+      ->type_name(names == Names::kAnything ? value_name : std::string(value_name_of(names)))
+      ->allow_extra_args(false);
 }
 
 void Arguments::flag(const std::string& flags, bool& value, const std::string& help) {

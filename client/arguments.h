@@ -59,7 +59,7 @@ class Arguments {
               const std::string& help);
   /// May be given several times, each time with one value.
   void repeatable(const std::string& flags, std::vector<std::string>& values, const std::string& value_name,
-                  const std::string& help);
+                  const std::string& help, Names names = Names::kAnything);
   void flag(const std::string& flags, bool& value, const std::string& help);
 
  private:

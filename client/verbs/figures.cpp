@@ -74,9 +74,10 @@ class Figures : public Verb {
     arguments.option("--runs-per-task", runs_per_task_, "N", "In Slurm: runs that a task does one after the other",
                      Names::kAnything);
     arguments.repeatable("--slurm-option", slurm_options_, "OPTION", "In Slurm: any option of sbatch; repeatable");
-    arguments.option("--report", report_, "FILE",
-                     "Write verdicts, sets and versions between the marks of this Markdown file (docs/validation.md)",
-                     Names::kFile);
+    arguments.repeatable(
+        "--report", reports_, "FILE",
+        "Write what the marks of this Markdown file ask for between them (docs/validation.md); repeatable",
+        Names::kFile);
     arguments.flag("-y,--yes", yes_, "Start without asking, also on a terminal");
     arguments.flag("--json", json_, "Print what was made, and the verdicts, as JSON");
   }
@@ -89,12 +90,12 @@ class Figures : public Verb {
         {"--out", out_},           {"--format", format_},       {"--width", width_},
         {"--configs", configs_},   {"--cores", cores_},         {"--plan", plan_},
         {"--executor", executor_}, {"--partition", partition_}, {"--account", account_},
-        {"--time", time_},         {"--memory", memory_},       {"--runs-per-task", runs_per_task_},
-        {"--report", report_}};
+        {"--time", time_},         {"--memory", memory_},       {"--runs-per-task", runs_per_task_}};
     for (const auto& [name, value] : options) {
       if (!value.empty()) command.push_back(std::string(name) + "=" + value);
     }
     for (const std::string& option : slurm_options_) command.push_back("--slurm-option=" + option);
+    for (const std::string& report : reports_) command.push_back("--report=" + report);
     const std::pair<const char*, bool> flags[] = {{"--list", list_},       {"--dry-run", dry_run_},
                                                   {"--collect", collect_}, {"--draw-only", draw_only_},
                                                   {"--yes", yes_},         {"--json", json_}};
@@ -110,9 +111,9 @@ class Figures : public Verb {
   }
 
  private:
-  std::vector<std::string> words_, slurm_options_;
+  std::vector<std::string> words_, slurm_options_, reports_;
   std::string scale_, budget_, archive_, out_, format_, width_, configs_, cores_, plan_, executor_, partition_,
-      account_, time_, memory_, runs_per_task_, report_;
+      account_, time_, memory_, runs_per_task_;
   bool list_ = false, dry_run_ = false, collect_ = false, draw_only_ = false, yes_ = false, json_ = false;
 };
 

@@ -6,11 +6,15 @@ import re
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
 from conftest import PROGRAMS
-from shaken.study import sets
+from shaken.errors import ShakenError
+from shaken.estimate import Estimate
+from shaken.study import sets, time_step
+from shaken.study.evidence import Evidence
 from shaken.study.figures import FIGURES
 from shaken.study.report import with_sections
 from shaken.study.statements import STATEMENTS
@@ -109,9 +113,45 @@ def test_every_statement_belongs_to_a_figure():
 
 def test_sections_are_replaced_between_their_marks():
     document = "a\n<!-- claims: begin -->\nold\n<!-- claims: end -->\nb\n"
-    assert with_sections(document, {"claims": "new\n"}) == "a\n<!-- claims: begin -->\nnew\n<!-- claims: end -->\nb\n"
-    with pytest.raises(Exception, match="origin: begin"):
-        with_sections(document, {"origin": "x"})
+    known = {"claims": lambda: "new\n", "origin": lambda: 1 / 0}  # what a page does not ask for is not made
+    assert with_sections(document, known) == "a\n<!-- claims: begin -->\nnew\n<!-- claims: end -->\nb\n"
+    with pytest.raises(ShakenError, match="no marks.*claims, origin"):
+        with_sections("a\nb\n", known)
+    with pytest.raises(ShakenError, match="'verdicts', which is no section"):
+        with_sections(document + "<!-- verdicts: begin --><!-- verdicts: end -->", known)
+    with pytest.raises(ShakenError, match="lacks one of <!-- claims: begin"):
+        with_sections("<!-- claims: end -->", known)
+
+
+def _timed_run(step: float, numbers: dict[str, Estimate], cpu: float = 3600.0, time: float = 100.0) -> SimpleNamespace:
+    keys = {"rods.length": 4.5, "rods.area_fraction": 0.75, "box.side": 33.492, "plates.gamma": 7.0,
+            "plates.frequency": 200.0, "time.step": step}
+    return SimpleNamespace(id=f"{step}{sorted(numbers)}{cpu}", sweeps=["long-rods-desk"], key=keys.get, parameters=keys,
+                           numbers=numbers, steady=True, summary={"cpu_seconds": cpu, "sim_seconds": time})
+
+
+def test_the_two_steps_are_compared_and_priced():
+    def order(value: float, error: float) -> dict[str, Estimate]:
+        return {"S": Estimate(value, error, True), "diffusion_mm2_s": Estimate(2 * value, 2 * error, True)}
+
+    found = ((0.88, 1800.0), (0.90, 3600.0), (0.92, 5400.0))  # S and CPU seconds
+    desk = [_timed_run(16e-6, order(value, 0.02), cpu) for value, cpu in found]
+    evidence = Evidence([*desk, _timed_run(4e-6, order(0.91, 0.01), 7200.0)])
+    (pair,) = time_step.pairs(evidence)
+    assert len(pair.desk) == 3 and len(pair.paper) == 1
+    row = time_step.differences(evidence).splitlines()[2].split(" | ")
+    assert row[:5] == ["| 4.5 mm", "0.75", "33.492 mm", "7", "3 + 1"]
+    # errors: of three means 0.0115 (their scatter 0.02 / sqrt 3, and what they know themselves), and 0.01
+    assert row[5] == "−0.010 ± 0.015" and row[6] == "−1.1 ± 1.7 %"
+    # an hour with an error of 0.02 for one of 0.005: 16 hours; at the finer step 2 h x (0.01 / 0.005)^2
+    row = time_step.prices(evidence).splitlines()[2].split(" | ")
+    assert row[5:9] == ["16.0", "8", "–", "–"]
+    # D: (0.04 / (0.05 x 1.8))^2 h and so on
+    hours = [cpu / 3600 * (0.04 / (0.05 * 2 * value)) ** 2 for value, cpu in found]
+    assert row[9] == f"{sum(hours) / 3:.2g}"
+    # a run of another length is not compared
+    other = Evidence([_timed_run(16e-6, order(0.9, 0.02), time=50.0), _timed_run(4e-6, order(0.9, 0.02))])
+    assert time_step.pairs(other) == []
 
 
 def test_every_figure_is_completed_by_the_shell():

@@ -50,7 +50,8 @@ def parser() -> argparse.ArgumentParser:
         found.add_argument(f"--{name}", help="of a task of Slurm")
     found.add_argument("--runs-per-task", type=int, help="runs that a task of Slurm does, one after the other")
     found.add_argument("--slurm-option", action="append", help="any option of sbatch")
-    found.add_argument("--report", type=Path, help="Markdown file whose marked sections are written anew")
+    found.add_argument("--report", type=Path, action="append", default=[],
+                       help="Markdown file whose marked sections are written anew; may be given several times")
     found.add_argument("--json", action="store_true", help="what was made, and the verdicts, as JSON")
     found.add_argument("-y", "--yes", action="store_true", help="do not ask before a start on a terminal")
     return found
@@ -119,8 +120,8 @@ def problems_of(options: argparse.Namespace) -> list[str]:
         chosen(options.figures)
     except ShakenError as error:
         found.append(str(error))
-    if options.report is not None and not options.report.is_file():
-        found.append(f"{options.report}: there is no such file, whose marked sections could be written anew")
+    found += [f"{report}: there is no such file, whose marked sections could be written anew"
+              for report in options.report if not report.is_file()]
     return found
 
 
@@ -205,8 +206,8 @@ def _draw(options: argparse.Namespace, figures: list[Figure], evidence: Evidence
     found = findings(evidence, of_figures({figure.id for figure in figures} if options.figures else ()))
     (out / "statements.md").write_text(as_table(found))
     (out / "statements.json").write_text(json.dumps(as_json(found), indent=2, ensure_ascii=False) + "\n")
-    if options.report is not None:
-        write_report(options.report, evidence)
+    for report in options.report:
+        write_report(report, evidence)
     if options.json:
         print(json.dumps({"scale": options.scale, "made": [str(path) for path in made], "statements": as_json(found)},
                          indent=2, ensure_ascii=False))

@@ -6,12 +6,14 @@ import re
 import textwrap
 from collections import Counter
 from pathlib import Path
+from typing import Callable, Mapping
 
 from ..errors import ShakenError
 from .figures import FIGURES
 from .evidence import Evidence
 from .sets import ORDER
 from .statements import STATEMENTS, as_table, findings
+from .time_step import differences, prices
 
 
 def origin(evidence: Evidence) -> str:
@@ -45,10 +47,13 @@ def sets_table(evidence: Evidence) -> str:
 def tally(evidence: Evidence) -> str:
     """How many statements agree, and so on, in a sentence."""
     counts = Counter(finding.verdict for _, finding in findings(evidence))
-    words = {"agrees": "agree", "consistent": "are consistent with the runs, which could only refute them",
-             "in part": "agree in part", "disagrees": "disagree", "contradicts itself": "contradict themselves",
-             "open": "are open", "no data": "have no runs yet"}
-    listed = [f"{counts[verdict]} {said}" for verdict, said in words.items() if counts[verdict]]
+    words = {"agrees": ("agrees", "agree"),
+             "consistent": ("is consistent with the runs, which could only refute it",
+                            "are consistent with the runs, which could only refute them"),
+             "in part": ("agrees in part", "agree in part"), "disagrees": ("disagrees", "disagree"),
+             "contradicts itself": ("contradicts itself", "contradict themselves"), "open": ("is open", "are open"),
+             "no data": ("has no runs yet", "have no runs yet")}
+    listed = [f"{counts[verdict]} {said[counts[verdict] > 1]}" for verdict, said in words.items() if counts[verdict]]
     return _wrapped(f"Of the paper's {len(STATEMENTS)} statements {', '.join(listed)}.").rstrip() + "\n"
 
 
@@ -74,33 +79,42 @@ def _wrapped(text: str) -> str:
     return textwrap.fill(text, 120, break_long_words=False, break_on_hyphens=False) + "\n"
 
 
-def sections(evidence: Evidence, folder: str = "figures") -> dict[str, str]:
-    """The sections of a report on everything, by the names of their marks."""
-    return {"origin": origin(evidence), "tally": tally(evidence), "claims": as_table(findings(evidence)),
-            "sweeps": sets_table(evidence), "figures": figures_list(evidence, folder)}
+def sections(evidence: Evidence, folder: str = "figures") -> dict[str, Callable[[], str]]:
+    """What makes each section that a page may have, by the names of their marks."""
+    return {"origin": lambda: origin(evidence), "tally": lambda: tally(evidence),
+            "claims": lambda: as_table(findings(evidence)), "sweeps": lambda: sets_table(evidence),
+            "figures": lambda: figures_list(evidence, folder), "time step": lambda: differences(evidence),
+            "price of errors": lambda: prices(evidence)}
 
 
-def with_sections(document: str, found: dict[str, str], where: str = "the report") -> str:
-    """The document with these sections between their marks, `<!-- NAME: begin -->` and `<!-- NAME: end -->`.
+def with_sections(document: str, known: Mapping[str, Callable[[], str]], where: str = "the report") -> str:
+    """The document with its sections anew: what stands between marks, `<!-- NAME: begin -->` and `<!-- NAME: end -->`.
 
-    Raises ShakenError with all marks that it lacks.
+    Raises ShakenError where it has no marks, marks of a section that is not known, or only one of two.
     """
-    missing = [name for name in found if not re.search(_marks(name), document, flags=re.S)]
-    if missing:
-        raise ShakenError(f"{where} lacks the marks " + ", ".join(f"<!-- {name}: begin --> and <!-- {name}: end -->"
-                                                                  for name in missing))
-    for name, text in found.items():
-        document = re.sub(_marks(name), lambda match, text=text: f"{match[1]}\n{text.rstrip()}\n{match[2]}", document,
+    names = re.findall(r"<!-- (.+?): (?:begin|end) -->", document)
+    problems = [f"{where} has marks of '{name}', which is no section" for name in dict.fromkeys(names)
+                if name not in known]
+    problems += [f"{where} lacks one of <!-- {name}: begin --> and <!-- {name}: end -->, or their order is wrong"
+                 for name in dict.fromkeys(names) if name in known and not re.search(_marks(name), document, re.S)]
+    if not names:
+        problems.append(f"{where} has no marks: <!-- NAME: begin --> and <!-- NAME: end -->, where NAME is one of "
+                        + ", ".join(known))
+    if problems:
+        raise ShakenError("\n".join(problems))
+    for name in dict.fromkeys(names):
+        text = known[name]().rstrip()
+        document = re.sub(_marks(name), lambda match, text=text: f"{match[1]}\n{text}\n{match[2]}", document,
                           flags=re.S)
     return document
 
 
 def _marks(name: str) -> str:
-    return rf"(<!-- {name}: begin -->).*?(<!-- {name}: end -->)"
+    return rf"(<!-- {re.escape(name)}: begin -->).*?(<!-- {re.escape(name)}: end -->)"
 
 
 def write_report(path: Path, evidence: Evidence) -> None:
-    """Puts the sections into a Markdown file that has their marks."""
+    """Writes the marked sections of a Markdown file anew."""
     try:
         document = path.read_text()
     except OSError as error:

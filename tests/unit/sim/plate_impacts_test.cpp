@@ -144,5 +144,38 @@ TEST(PlateImpacts, InLanesAreBitForBitThoseOfOneRodAfterTheOther) {
   EXPECT_GT(n_twice, 0);
 }
 
+// The director of a rod that turns by far too much is no number in the lanes; its neighbours are still hit.
+TEST(PlateImpacts, ARodThatTurnsWildlyHidesNoHitOfTheOthers) {
+  System system;
+  system.n_rods = 2;
+  World world = empty_world(system);
+  const Species& species = world.species.front();
+  const Tick now = 1000;
+  const PlateState plates = world.plates.at(now);
+  for (const double turns_at : {0.0, 1e60}) {
+    for (const bool at_lid : {false, true}) {
+      const double height = at_lid ? plates.lid - species.mid_radius + 0.001 : plates.base + species.mid_radius - 0.001;
+      world.rods.clear();
+      for (const double rate : {turns_at, 0.0}) {
+        Flight flight;
+        begin_flight(flight, now - 10, {{10, 10, height}, Vec3::UnitX()}, {Vec3::Zero(), {0, rate, 0}}, system.box_side,
+                     species.inertia_par / species.inertia_perp);
+        world.rods.push_back(flight);
+      }
+      const TickRules rules(world);
+      test::AnyWidth width;
+      test::Draw draw(5);
+      width.draw(draw);
+      std::vector<RodAtTick> in_lanes(2);
+      Counters counters;
+      const std::vector<int> rods{0, 1};
+      const std::uint32_t left = meet_plates_in_lanes(rods, world.rods, in_lanes, plates, now, rules, counters);
+      EXPECT_EQ(left & 1U, turns_at > 0 ? 1U : 0U);
+      ASSERT_EQ(left & 2U, 0U);
+      EXPECT_TRUE(in_lanes[1].has_motion) << (at_lid ? "lid" : "base") << ", turns at " << turns_at;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace shaken

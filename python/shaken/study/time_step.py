@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: MIT
+"""What the time step does to the numbers that the paper reports, and what these cost: from the study's controls.
+
+Six of the study's sets have, beside the runs at `accuracy` = "desk" (16 us), one run of the same scene at "paper"
+(4 us). Their differences say what the longer step does; the errors and CPU times of both say how long a run must be.
+"""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Callable
+
+from ..estimate import NAN, Estimate, derived
+from ..run import Run
+from .evidence import BEADS, END, FREQUENCY, GAMMA, GAP, LENGTH, PACKING, SIDE, Evidence, Runs, key_of, number_of
+from .rules import judged_error, text
+
+_SCENE = (LENGTH, PACKING, SIDE, END, GAP, GAMMA, FREQUENCY, BEADS)
+
+
+@dataclass(frozen=True)
+class Pair:
+    """The same scene at both steps; `paper` may be without runs."""
+
+    desk: Runs
+    paper: Runs
+
+    @property
+    def where(self) -> str:
+        """The scene, as cells of a table: length, area fraction, side of the box, strength of shaking."""
+        run = self.desk[0]
+        return (f"{run.key(LENGTH):g} mm | {key_of(run, PACKING):.3g} | {run.key(SIDE):g} mm | {run.key(GAMMA):g} | "
+                f"{len(self.desk)} + {len(self.paper)}")
+
+
+def pairs(evidence: Evidence) -> list[Pair]:
+    """Each scene that was run at both steps, for equally long, by length and area fraction."""
+    controls: dict[tuple[float, ...], Runs] = {}
+    for runs in evidence.controls.values():
+        for run in runs:
+            controls.setdefault(_scene(run), Runs()).append(run)
+    usual = _by_scene(evidence)
+    found = []
+    for scene, paper in sorted(controls.items()):
+        time = paper[0].summary["sim_seconds"]
+        desk = Runs(run for run in usual.get(scene, Runs())
+                    if math.isclose(run.summary["sim_seconds"], time, rel_tol=0.05))
+        if desk:
+            found.append(Pair(desk, paper))
+    return found
+
+
+def layered(evidence: Evidence) -> list[Pair]:
+    """Each scene whose runs at 16 us know theta_m with its error, which none at 4 us does so far."""
+    known = {scene: Runs(run for run in runs if number_of(run, "theta_m_deg").error > 0)
+             for scene, runs in _by_scene(evidence).items()}
+    return [Pair(runs, Runs()) for _, runs in sorted(known.items()) if runs]
+
+
+def _by_scene(evidence: Evidence) -> dict[tuple[float, ...], Runs]:
+    found: dict[tuple[float, ...], Runs] = {}
+    for run in evidence.joined(*evidence.sets):
+        found.setdefault(_scene(run), Runs()).append(run)
+    return found
+
+
+def _scene(run: Run) -> tuple[float, ...]:
+    return tuple(round(value, 6) for value in (key_of(run, path) for path in _SCENE) if math.isfinite(value))
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A number that the paper reports, and the error [of its unit, or as a part of it] that is good enough."""
+
+    heading: str
+    name: str
+    unit: str = ""
+    wanted: float = NAN
+    is_part: bool = False
+
+    def target(self, of: Estimate) -> float:
+        return self.wanted * abs(of.value) if self.is_part else self.wanted
+
+    @property
+    def goal(self) -> str:
+        return f"± {100 * self.wanted:g} %" if self.is_part else f"± {self.wanted:g}{self.unit}"
+
+
+COMPARED = (Quantity("S", "S"), Quantity("D, long lags", "diffusion_mm2_s"),
+            Quantity("D, short lags", "diffusion_short_mm2_s"), Quantity("persistence length", "persistence_length_mm"),
+            Quantity("θ_m", "theta_m_deg"), Quantity("fastest along the tilt", "tilt_fastest_mm_s"))
+PRICED = (Quantity("S", "S", wanted=0.005), Quantity("θ_m", "theta_m_deg", "°", 0.2),
+          Quantity("D at long lags", "diffusion_mm2_s", wanted=0.05, is_part=True))
+
+
+def differences(evidence: Evidence) -> str:
+    """Numbers at 16 us less those at 4 us, as a table of Markdown.
+
+    Those of a length (S is one by itself) stand in its unit, those of D in per cent. The errors are those of both
+    together; where a control knows no error, that of the runs at 16 us is taken for it, for as many seconds.
+    """
+    lines = ["| ℓ | φ | box | Γ | runs | " + " | ".join(q.heading for q in COMPARED) + " |",
+             "|---" * (5 + len(COMPARED)) + "|"]
+    for pair in pairs(evidence):
+        lines.append(f"| {pair.where} | " + " | ".join(_difference(pair, q) for q in COMPARED) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def _difference(pair: Pair, quantity: Quantity) -> str:
+    desk, paper = pair.desk.number(quantity.name), pair.paper.number(quantity.name)
+    if not (desk.is_known and paper.is_known):
+        return "–"
+    error = judged_error(paper)
+    if not math.isfinite(error):
+        error = judged_error(desk) * math.sqrt(len(pair.desk) / len(pair.paper))
+    found = derived(desk.value - paper.value, [(1.0, Estimate(desk.value, judged_error(desk))),
+                                               (-1.0, Estimate(paper.value, error))])
+    if quantity.name == "S":
+        return text(found)
+    return f"{text(found * (100 / abs(paper.value)))} %"
+
+
+def prices(evidence: Evidence) -> str:
+    """CPU-hours of one core that a steady run takes until a number is known to what `PRICED` wants, at both steps, as a
+    table of Markdown. The square of an error falls with the length of a run; what a run did not get so far is
+    extrapolated from the errors that it had."""
+    heads = [f"{q.heading} {q.goal}: {step}" for q in PRICED for step in ("16 us", "4 us")]
+    lines = ["| ℓ | φ | box | Γ | runs | " + " | ".join(heads) + " |", "|---" * (5 + len(heads)) + "|"]
+    of_pairs = pairs(evidence)
+    for pair in [*of_pairs, *(one for one in layered(evidence) if one.where not in {pair.where for pair in of_pairs})]:
+        cells = [_hours(runs, q) for q in PRICED for runs in (pair.desk, pair.paper)]
+        lines.append(f"| {pair.where} | " + " | ".join(cells) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def _hours(runs: Runs, quantity: Quantity) -> str:
+    found = [hours_until(run, number_of(run, quantity.name), quantity.target) for run in runs]
+    known = [hours for hours in found if math.isfinite(hours)]
+    if not known:
+        return "–"
+    mean = sum(known) / len(known)
+    return f"{mean:.1f}" if mean >= 10 else f"{mean:.2g}"
+
+
+def hours_until(run: Run, found: Estimate, target: Callable[[Estimate], float]) -> float:
+    """CPU-hours after which the run's number has the error that is wanted; NaN where its error is not known."""
+    if not found.is_known or not found.error > 0:
+        return NAN
+    return run.summary["cpu_seconds"] / 3600 * (found.error / target(found)) ** 2
