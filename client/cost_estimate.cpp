@@ -64,7 +64,8 @@ std::vector<PointCost> scaled(const scene::Sweep& sweep, const Json& report, con
   for (const scene::SweepPoint& point : sweep.points) {
     const double size = rod_seconds(point.plan) / rod_seconds(probed);
     const double rods = static_cast<double>(point.plan.system.n_all_rods()) / probed.system.n_all_rods();
-    runs.push_back({stepping * work_of(point.plan) / work_of(probed), besides * size, frames * size + kept * rods});
+    runs.push_back({stepping * work_of(point.plan) / work_of(probed), besides * size, frames * size + kept * rods,
+                    rod_seconds(point.plan)});
   }
   return runs;
 }
@@ -89,13 +90,14 @@ std::vector<LevelCost> levels_of(const scene::Sweep& sweep, const std::vector<Po
     group->sum += runs[k];
     all += runs[k];
   }
-  std::vector<LevelCost> levels{{kAsWritten, std::nullopt, all.cpu(), all.disk}};
+  std::vector<LevelCost> levels{{kAsWritten, std::nullopt, all.cpu(), all.disk, all.rod_seconds}};
   if (groups.size() == 1) {
     const System& own = *groups[0].own;
     levels[0].ticks = Ticks{own.dt, own.impacts};
     for (const scene::AccuracyLevel& level : scene::accuracy_levels()) {
       const double factor = level.cost / scene::relative_cost(own.dt, own.impacts);
-      levels.push_back({std::string(level.name), Ticks{level.step, level.impacts}, all.cpu(factor), all.disk});
+      levels.push_back(
+          {std::string(level.name), Ticks{level.step, level.impacts}, all.cpu(factor), all.disk, all.rod_seconds});
     }
     return levels;
   }
@@ -103,7 +105,7 @@ std::vector<LevelCost> levels_of(const scene::Sweep& sweep, const std::vector<Po
     const scene::AccuracyLevel* level = scene::accuracy_level(*group.own);
     levels.push_back(
         {fmt::format("{}{}", level != nullptr ? std::string(level->name) + ", " : "", counted(group.n_runs, "run")),
-         Ticks{group.own->dt, group.own->impacts}, group.sum.cpu(), group.sum.disk});
+         Ticks{group.own->dt, group.own->impacts}, group.sum.cpu(), group.sum.disk, group.sum.rod_seconds});
   }
   return levels;
 }
@@ -168,9 +170,11 @@ std::string estimate_text(const CostEstimate& estimate, int width) {
   Table table({{"ACCURACY"},
                {"STEP", Table::Align::kRight},
                {"CPU TIME", Table::Align::kRight},
+               {"ROD-S PER CPU-S", Table::Align::kRight},
                {"DISK", Table::Align::kRight}});
   for (const LevelCost& level : estimate.levels) {
-    table.add_row({level.name, ticks_text(level.ticks), cpu_text(level.cpu), bytes_text(level.disk)});
+    table.add_row({level.name, ticks_text(level.ticks), cpu_text(level.cpu), fmt::format("{:.3g}", level.speed()),
+                   bytes_text(level.disk)});
   }
   std::string text = table.text(width);
   if (estimate.n_runs > 1) {
@@ -190,6 +194,7 @@ Json estimate_json(const CostEstimate& estimate) {
                {"step_s", level.ticks ? Json(level.ticks->step) : Json()},
                {"impacts", level.ticks ? Json(scene::name_of(level.ticks->impacts)) : Json()},
                {"cpu_seconds", level.cpu},
+               {"rod_seconds_per_cpu_second", level.speed()},
                {"disk_bytes", level.disk}};
     if (const scene::AccuracyLevel* known = scene::accuracy_level(level.name)) {
       entry["what"] = known->what;

@@ -28,6 +28,10 @@ struct LevelCost {
   std::optional<Ticks> ticks;  ///< none where the scenes have several
   double cpu = 0;              ///< [s], all runs together
   double disk = 0;             ///< [bytes]
+  double rod_seconds = 0;      ///< rods times simulated seconds, all runs together
+
+  /// Rod-seconds per CPU-second, with all that is measured and drawn.
+  double speed() const { return cpu > 0 ? rod_seconds / cpu : 0; }
 };
 
 /// What the run of one point costs with the step that its scene has, or those of several together.
@@ -35,6 +39,7 @@ struct PointCost {
   double stepping = 0;  ///< CPU time [s]
   double besides = 0;   ///< the same of measuring, recording, drawing [s]
   double disk = 0;      ///< that stays [bytes]
+  double rod_seconds = 0;
 
   /// With a step that makes stepping so many times as long.
   double cpu(double factor = 1) const { return factor * stepping + besides; }
@@ -42,6 +47,7 @@ struct PointCost {
     stepping += other.stepping;
     besides += other.besides;
     disk += other.disk;
+    rod_seconds += other.rod_seconds;
     return *this;
   }
 };

@@ -165,9 +165,9 @@ struct PlateHitKernel {
       other = lanes::larger(n_overlapping - 1.5, other);
       other = lanes::larger(overlap - kMaxOverlapFraction * radius, other);
       lanes::store(hit.overlap + l, overlap);
-      double sum = 0;
-      for (int lane = 0; lane < W; ++lane) sum += overlap[lane];
-      if (!(sum > 0)) return;  // as a rule a vector of rods meets one plate, where they rest
+      bool is_met = false;
+      for (int lane = 0; lane < W; ++lane) is_met |= overlap[lane] > 0;
+      if (!is_met) return;  // as a rule a vector of rods meets one plate, where they rest
 
       const D zero{};
       const Triple<D> normal{zero, zero, lanes::all<W>(plate.side)};

@@ -102,6 +102,10 @@ TEST_F(Explain, PromisesWhatTheRunThenTakes) {
   EXPECT_GT(cpu, 0.33);
   EXPECT_LT(cpu, 3);
 
+  const double rod_seconds = report.at("shown").at("n_rods").get<double>() * summary.at("sim_seconds").get<double>();
+  EXPECT_NEAR(written.at("rod_seconds_per_cpu_second").get<double>() * written.at("cpu_seconds").get<double>(),
+              rod_seconds, 0.01 * rod_seconds);
+
   // the scene is at the level "paper", and a finer step costs more
   EXPECT_EQ(level_named(report, "paper").at("cpu_seconds"), written.at("cpu_seconds"));
   EXPECT_GT(level_named(report, "fine").at("cpu_seconds"), level_named(report, "draft").at("cpu_seconds"));
