@@ -27,7 +27,7 @@ namespace shaken::run {
 /// plan does not ask for costs nothing.
 class Measurements {
  public:
-  /// Of rods of the first species; `cell` says which these are, and may be left out if there is no other.
+  /// Of the species that the plan measures; `cell` says which rods these are, and may be left out if there is but one.
   explicit Measurements(const scene::RunPlan& plan, Cell cell = {});
 
   /// The first tick >= `from` at which a sample is due; kNever if nothing is measured.
@@ -42,7 +42,7 @@ class Measurements {
 
   /// `sim_seconds` is the length of the run so far.
   Reduction reduce(double sim_seconds) const;
-  /// Samples taken, by measurement ("order", "g2", ...); those switched off are not in it.
+  /// Samples taken, by measurement ("order", "g2", ...), of all species together; those switched off are not in it.
   std::map<std::string, std::int64_t> counts() const;
 
   std::vector<std::byte> save() const;
@@ -57,12 +57,23 @@ class Measurements {
     std::int64_t samples = 0;
   };
 
+  /// What is measured of the rods of one species.
+  struct OfSpecies {
+    std::size_t species;
+    std::string prefix;  ///< of names of what is found: "", "rods_2"
+    bool has_axis;
+    std::vector<Timed> timed{};
+    const MeasuredOrder* order = nullptr;      ///< one of `timed`, or null
+    const MeasuredDefects* defects = nullptr;  ///< the same
+  };
+  /// Of one species, whose names have no prefix yet.
+  Reduction reduce(const OfSpecies& rods, std::optional<double> t_steady, double sim_seconds) const;
+  /// What saved states call it: "order", "rods_2/order".
+  static std::string tag(const OfSpecies& rods, const Timed& timed);
+
   Cell cell_;
   std::optional<double> steady_;
-  bool has_axis_ = true;  ///< of the rods that are measured
-  std::vector<Timed> timed_;
-  const MeasuredOrder* order_ = nullptr;      // one of timed_, or null
-  const MeasuredDefects* defects_ = nullptr;  // the same
+  std::vector<OfSpecies> species_;  ///< the first species first
 };
 
 }  // namespace shaken::run

@@ -205,7 +205,10 @@ std::vector<Field> contact(const std::string& name, const std::string& between) 
 
 /// The blocks of all observables.
 std::vector<Field> measure() {
-  std::vector<Field> rows;
+  std::vector<Field> rows{later(choice<MeasuredSpecies>(
+    "measure.of", at<&RunPlan::of>, {{"rods", MeasuredSpecies::kFirst}, {"each", MeasuredSpecies::kEach}},
+    "Whose observables are measured: those of `rods`, or those of each species by itself. What is found of `rods_2` and "
+    "`rods_3` then has their names in front: number `rods_2.diffusion_mm2_s`, array `/rods_2/msd/total_mm2`."))};
   for (const Observable& observable : observables()) {
     rows.push_back(observable.block);
     rows.push_back(observable.every);

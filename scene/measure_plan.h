@@ -130,8 +130,15 @@ struct MeasureStructure {
   X(structure, MeasureStructure)
 // clang-format on
 
+/// Whose observables are measured.
+enum class MeasuredSpecies {
+  kFirst,  ///< those of the first species
+  kEach,   ///< those of each species, by itself
+};
+
 /// What a run measures. An absent observable is not measured and costs nothing.
 struct MeasurePlan {
+  MeasuredSpecies of = MeasuredSpecies::kFirst;
 #define SHAKEN_MEMBER(name, Settings) std::optional<Settings> name;
   SHAKEN_OBSERVABLES(SHAKEN_MEMBER)
 #undef SHAKEN_MEMBER

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/core/check.h"
+#include "scene/measured_species.h"
 
 namespace shaken::scene {
 
@@ -313,20 +314,40 @@ const Observable& observable(std::string_view name) {
   return *found;
 }
 
+namespace {
+
+/// Adds what an observable takes of one species to what it takes of others.
+void add(const MeasureMemory& needed, std::vector<MeasureMemory>& memory) {
+  const auto same = std::ranges::find(memory, needed.name, &MeasureMemory::name);
+  if (same == memory.end()) {
+    memory.push_back(needed);
+    return;
+  }
+  same->state += needed.state;
+  same->scratch = std::max(same->scratch, needed.scratch);
+  same->file += needed.file;
+  same->spare += needed.spare;
+}
+
+}  // namespace
+
 std::vector<MeasureMemory> measure_memory(const RunPlan& plan) {
   std::vector<MeasureMemory> memory;
-  for (const Observable& one : observables()) {
-    const auto every = one.period(plan);
-    if (!every) continue;
-    const double ticks = std::max(1.0, std::round(*every / plan.system.dt));
-    const double samples = std::floor(plan.longest_time() / (ticks * plan.system.dt) * (1 + 1e-12)) + 1;
-    double in_stretch = 1;
-    while (samples > kBlocks * in_stretch) in_stretch *= 2;
-    Sizes sizes{plan, samples, static_cast<double>(plan.system.n_rods), std::ceil(samples / in_stretch)};
-    memory.push_back(one.memory(sizes));
-    memory.back().name = one.name;
-    sizes.stretches = std::min(kBlocks, samples);
-    memory.back().spare += one.memory(sizes).state - memory.back().state;
+  for (const MeasuredRods& rods : measured_species(plan)) {
+    for (const Observable& one : observables()) {
+      const auto every = one.period(rods.plan);
+      if (!every) continue;
+      const double ticks = std::max(1.0, std::round(*every / plan.system.dt));
+      const double samples = std::floor(plan.longest_time() / (ticks * plan.system.dt) * (1 + 1e-12)) + 1;
+      double in_stretch = 1;
+      while (samples > kBlocks * in_stretch) in_stretch *= 2;
+      Sizes sizes{rods.plan, samples, static_cast<double>(rods.plan.system.n_rods), std::ceil(samples / in_stretch)};
+      MeasureMemory needed = one.memory(sizes);
+      sizes.stretches = std::min(kBlocks, samples);
+      needed.spare += one.memory(sizes).state - needed.state;
+      needed.name = one.name;
+      add(needed, memory);
+    }
   }
   return memory;
 }

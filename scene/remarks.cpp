@@ -10,6 +10,7 @@
 #include "base/keys/units.h"
 #include "scene/derived.h"
 #include "scene/fields.h"
+#include "scene/measured_species.h"
 #include "scene/observables.h"
 
 namespace shaken::scene {
@@ -69,10 +70,14 @@ std::vector<std::string> remarks(const RunPlan& plan) {
                                field.path, format_quantity(std::get<double>(field.fetch(plan)), Dimension::kTime),
                                format_quantity(total, Dimension::kTime)));
   }
-  if (const std::string unmeasured = of_axes_that_are_missing(plan); !unmeasured.empty()) {
-    const bool has_others = plan.system.added[0] || plan.system.added[1];
-    list.push_back(fmt::format("spheres (rods.beads 1) have no axis, so this is not measured: {}{}", unmeasured,
-                               has_others ? "; observables are those of the first species" : ""));
+  const bool is_of_one_of_several =
+      plan.of == MeasuredSpecies::kFirst && (plan.system.added[0] || plan.system.added[1]);
+  for (const MeasuredRods& rods : measured_species(plan)) {
+    const std::string unmeasured = of_axes_that_are_missing(rods.plan);
+    if (unmeasured.empty()) continue;
+    list.push_back(fmt::format(
+        "spheres ({}.beads 1) have no axis, so this is not measured: {}{}", rods.prefix.empty() ? "rods" : rods.prefix,
+        unmeasured, is_of_one_of_several ? "; observables are those of the first species (measure.of)" : ""));
   }
   const auto gamma = gamma_of(plan.system);
   if (gamma && *gamma < 1 && plan.system.base) {

@@ -18,6 +18,7 @@
 #include "scene/load.h"
 #include "scene/resolve.h"
 #include "scene/settings.h"
+#include "scene/sweep_keys.h"
 #include "scene/values.h"
 
 namespace shaken::scene {

@@ -14,7 +14,7 @@ from .errors import ShakenError
 from .estimate import NAN, Estimate
 from .frames import Frame, Trajectory
 from .hdf5 import h5py_module, open_file
-from .units import split_unit, unit_of
+from .units import split_species, split_unit, unit_of
 
 #: The array that the others of its group are measured at.
 _AXES = {
@@ -82,13 +82,15 @@ class Arrays(Mapping[str, Array]):
     def _fetched(self, path: str) -> Array:
         values, unit = self._read(path)
         array = Array(values, path, unit)
-        if path in _MAPS:
-            across, along = self._fetch("/pairs/across_mm"), self._fetch("/pairs/along_mm")
+        species, own = split_species(path)
+        species = f"/{species}" if species else ""
+        if own in _MAPS:
+            across, along = self._fetch(species + "/pairs/across_mm"), self._fetch(species + "/pairs/along_mm")
             array = Array(np.asarray(array).reshape(len(across), len(along)), path, unit)
             array.axis = (across, along)
         else:
-            group = path.rpartition("/")[0]
-            axis = _AXES.get(group, "/rods/trace/time_s" if group.startswith("/rods/trace/") else "")
+            group = own.rpartition("/")[0]
+            axis = species + _AXES.get(group, "/rods/trace/time_s" if group.startswith("/rods/trace/") else "")
             if axis in self._names and axis != path:
                 array.axis = self._fetch(axis)
         if error_name(path) in self._names:

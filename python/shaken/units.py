@@ -7,6 +7,16 @@ import re
 _UNIT = re.compile(r"(mm|s|rad|deg|mg|pJ|Hz)([0-9]?)$")
 
 
+_SPECIES = re.compile(r"^/?(rods_[0-9]+)(?=[./])")
+
+
+def split_species(name: str) -> tuple[str, str]:
+    """Of what is found of another species than the first, its name and the rest: ("rods_2", "/msd/lag_s") of
+    "/rods_2/msd/lag_s", ("rods_2", "S") of "rods_2.S"; ("", name) of all else."""
+    found = _SPECIES.match(name)
+    return (found[1], name[found.end():].removeprefix(".")) if found else ("", name)
+
+
 def split_unit(name: str) -> tuple[str, str]:
     """The name without its unit, and the words of the unit: ("d_total", "mm2_s") of "d_total_mm2_s", ("g2", "") of
     "g2"."""

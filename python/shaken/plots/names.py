@@ -6,7 +6,7 @@ import math
 import re
 from typing import Any, Mapping
 
-from ..units import split_unit, unit_of
+from ..units import split_species, split_unit, unit_of
 
 #: What scenes, rows of results and arrays call a quantity: (its name, its symbol, its unit in print).
 TABLE: dict[str, tuple[str, str, str]] = {
@@ -87,7 +87,11 @@ def _entry(path: str) -> tuple[str, str, str] | None:
         name = name[len("measured."):]
     if name.endswith(".value"):
         name = name[:-len(".value")]
-    return TABLE.get(_ALIASES.get(name, name))
+    found = TABLE.get(_ALIASES.get(name, name))
+    species, own = split_species(name)
+    if found is None and species and (entry := TABLE.get(own)):
+        return f"{entry[0]} of {species}", *entry[1:]
+    return found
 
 
 def unit_text(unit: str) -> str:

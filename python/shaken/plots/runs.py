@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Iterator, Mapping, Sequence
 
@@ -68,6 +68,17 @@ OBSERVABLES = (
 )
 
 
+def _of_species(species: str, of: Observable) -> Observable:
+    """The figure of the same observable of another species."""
+    x_title, y_title = of.titles
+    return replace(of, name=f"{species}_{of.name}", x=f"/{species}{of.x}", y=tuple(f"/{species}{y}" for y in of.y),
+                   x_title=x_title, y_title=f"{species}: {y_title}")
+
+
+#: The same of the species that `measure.of` = "each" adds.
+OF_EVERY_SPECIES = (*OBSERVABLES, *(_of_species(species, of) for species in ("rods_2", "rods_3") for of in OBSERVABLES))
+
+
 @dataclass
 class PlottedRun:
     """A run that is to be drawn, perhaps one that still runs.
@@ -103,7 +114,7 @@ def read_run(directory: str | Path, parameters: Mapping[str, Any], state: str = 
     if not isinstance(summary, dict):
         summary = {}
     import h5py
-    wanted = {name for one in OBSERVABLES for name in (one.x, *one.y, error_name(one.y[0]))}
+    wanted = {name for one in OF_EVERY_SPECIES for name in (one.x, *one.y, error_name(one.y[0]))}
     arrays = {}
     try:
         with h5py.File(path, "r") as file:
@@ -196,7 +207,7 @@ def run_figures(runs: Sequence[PlottedRun], width: str | None = None) -> Iterato
             points.append(run.point)
             of_point.append([])
         of_point[points.index(run.point)].append(run)
-    for of in OBSERVABLES:
+    for of in OF_EVERY_SPECIES:
         curves = [[curve for run in of_one if (curve := _curve_of(run, of)) is not None] for of_one in of_point]
         known = [k for k, found in enumerate(curves) if found]
         if not known:

@@ -577,6 +577,112 @@ TEST(Measurements, RefuseTheStateOfAnotherPlan) {
   EXPECT_FALSE(Measurements(plan()).restore({}));
 }
 
+/// A mixture of two species of which each is measured; two of five rods are of the other one.
+struct Mixture {
+  scene::RunPlan plan = run::plan();
+  Cell cell{20, 1.2};
+
+  Mixture() {
+    plan.of = scene::MeasuredSpecies::kEach;
+    plan.system.n_rods = 60;
+    plan.system.added[1] = AddedRods{{.length = 2.5, .mid_diameter = 0.8, .end_diameter = 0.5, .n_beads = 9}, 40};
+    for (int i = 0; i < 100; ++i) cell.species_of_rod.push_back(i % 5 < 3 ? 0 : 1);
+  }
+  /// The same rods, of which only those of one species are there and measured.
+  Reduction alone(std::size_t species, Tick end) const {
+    scene::RunPlan one = plan;
+    one.of = scene::MeasuredSpecies::kFirst;
+    one.system.added = {};
+    if (species == 1) {
+      one.system.rod = plan.system.added[1]->rod;
+      one.system.n_rods = 40;
+    }
+    Measurements measurements(one);
+    for (Tick t = measurements.next_due(0); t <= end; t = measurements.next_due(t + 1)) {
+      const Snapshot all = random_snapshot(t);
+      Snapshot some{all.tick, all.time, all.box_side, {}, {}, {}, {}, {}};
+      for (std::size_t i = 0; i < 100; ++i) {
+        if (cell.species_of_rod[i] != species) continue;
+        some.position.push_back(all.position[i]);
+        some.image.push_back(all.image[i]);
+        some.director.push_back(all.director[i]);
+        some.velocity.push_back(all.velocity[i]);
+        some.angular_velocity.push_back(all.angular_velocity[i]);
+      }
+      measurements.sample(some);
+    }
+    return measurements.reduce(0.2);
+  }
+};
+
+void expect_same(double found, double expected, const std::string& what) {
+  EXPECT_TRUE(found == expected || (std::isnan(found) && std::isnan(expected)))
+      << what << ": " << found << ", not " << expected;
+}
+
+TEST(Measurements, OfEachSpeciesAreThoseOfItsRodsAlone) {
+  const Mixture mixture;
+  Measurements measurements(mixture.plan, mixture.cell);
+  measure(measurements, 0, 20000);
+  const Reduction both = measurements.reduce(0.2);
+  std::size_t n_arrays = 0, n_scalars = 0;
+  for (const std::size_t species : {0, 1}) {
+    const Reduction alone = mixture.alone(species, 20000);
+    for (const auto& [path, values] : alone.arrays) {
+      const auto found = both.arrays.find((species == 0 ? "" : "/rods_3") + path);
+      ASSERT_NE(found, both.arrays.end()) << path;
+      ASSERT_EQ(found->second.size(), values.size()) << path;
+      for (std::size_t k = 0; k < values.size(); ++k) expect_same(found->second[k], values[k], path);
+      ++n_arrays;
+    }
+    for (const auto& [name, scalar] : alone.scalars) {
+      const auto found = both.scalars.find((species == 0 ? "" : "rods_3.") + name);
+      ASSERT_NE(found, both.scalars.end()) << name;
+      expect_same(found->second.value, scalar.value, name);
+      expect_same(found->second.sem, scalar.sem, name);
+      EXPECT_EQ(found->second.reason, scalar.reason) << name;
+      ++n_scalars;
+    }
+    const analysis::SteadySummary& order = *alone.order;
+    const Scalar S = species == 0 ? Scalar{{both.order->mean, both.order->sem}} : both.scalars.at("rods_3.S");
+    expect_same(S.value, order.mean, "S");
+    expect_same(S.sem, order.sem, "its error");
+  }
+  EXPECT_EQ(both.arrays.size(), n_arrays) << "nothing else is there";
+  EXPECT_EQ(both.scalars.size(), n_scalars + 1) << "but S of the other species";
+}
+
+TEST(Measurements, OfEachSpeciesGoOnBitwiseAfterASave) {
+  const Mixture mixture;
+  Measurements straight(mixture.plan, mixture.cell), first(mixture.plan, mixture.cell);
+  measure(straight, 0, 9000);
+  measure(first, 0, 5000);
+  Measurements second(mixture.plan, mixture.cell);
+  ASSERT_TRUE(second.restore(first.save()));
+  measure(second, 5001, 9000);
+  EXPECT_EQ(second.save(), straight.save());
+  scene::RunPlan of_first = mixture.plan;
+  of_first.of = scene::MeasuredSpecies::kFirst;
+  EXPECT_FALSE(Measurements(of_first, mixture.cell).restore(first.save()));
+  EXPECT_EQ(straight.counts().at("order"), 20) << "ten samples of each";
+}
+
+TEST(Measurements, OfSpheresAmongRodsAreOfNoAxis) {
+  Mixture mixture;
+  RodShape& sphere = mixture.plan.system.added[1]->rod;
+  sphere.n_beads = 1;
+  sphere.length = sphere.mid_diameter = 0.8;
+  Measurements measurements(mixture.plan, mixture.cell);
+  measure(measurements, 0, 9000);
+  const Reduction result = measurements.reduce(0.09);
+  EXPECT_TRUE(result.order);
+  EXPECT_TRUE(result.scalars.contains("rods_3.diffusion_mm2_s"));
+  EXPECT_FALSE(result.scalars.contains("rods_3.S"));
+  EXPECT_FALSE(result.scalars.contains("rods_3.diffusion_along_mm2_s"));
+  EXPECT_FALSE(result.arrays.contains("/rods_3/g2/g2"));
+  EXPECT_TRUE(result.arrays.contains("/rods_3/g2/g"));
+}
+
 TEST(LargestTilt, IsSetByTheGap) {
   RodShape shape;
   shape.end_diameter = 0.4;

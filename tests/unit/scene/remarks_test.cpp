@@ -43,7 +43,12 @@ TEST(Remarks, NameWhatSpheresCannotBeMeasuredFor) {
   EXPECT_THAT(remarks(plan_of("{" + sphere + R"(, "measure": {"order": null, "g2": {}}})")), IsEmpty());
   EXPECT_THAT(remarks(plan_of("{" + sphere + R"(, "rods_2": {"count": 3}, "measure": {"order": {}}})")),
               ElementsAre("spheres (rods.beads 1) have no axis, so this is not measured: measure.order; "
-                          "observables are those of the first species"));
+                          "observables are those of the first species (measure.of)"));
+  EXPECT_THAT(remarks(plan_of("{" + sphere + R"(, "rods_2": {"count": 3}, "measure": {"of": "each", "order": {}}})")),
+              ElementsAre("spheres (rods.beads 1) have no axis, so this is not measured: measure.order"));
+  EXPECT_THAT(remarks(plan_of(R"({"rods_3": {"count": 3, "beads": 1, "length": 0.8},
+                                  "measure": {"of": "each", "order": {}}})")),
+              ElementsAre("spheres (rods_3.beads 1) have no axis, so this is not measured: measure.order"));
   EXPECT_THAT(remarks(plan_of(R"({"rods_2": {"count": 3, "beads": 1, "length": 0.8}})")), IsEmpty());
   EXPECT_THAT(problem_of("{" + sphere + R"(, "until": {"order_sem": 0.01, "at_most": 100}})"),
               HasSubstr("spheres have no S"));
