@@ -76,6 +76,7 @@ void time_in_turn(const std::string& what, std::vector<Contender>& contenders, i
     for (Contender& of : contenders) {
       Simulation simulation = resumed(of.scene, of.state, of.stepper);
       simulation.use_threads(of.threads);
+      simulation.share_where_faster(wall_seconds);
       advance(simulation, of.settle);
       time_stretch(simulation, of.scene, of.ticks, of.speed);
       of.hash = simulation.state_hash();

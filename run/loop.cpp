@@ -12,6 +12,7 @@
 #include <memory>
 
 #include "analysis/order.h"
+#include "base/clock.h"
 #include "base/files.h"
 #include "proto/cell_codec.h"
 #include "run/effects.h"
@@ -461,7 +462,10 @@ RunOutcome run_owned(const scene::RunPlan& plan, const RunOptions& options, cons
       return {RunState::kStopped, ""};
     }
     if (!opened) return fail(options, callbacks, opened.error().message);
-    if (options.n_threads > 1) opened->run.simulation.use_threads(options.n_threads);
+    if (options.n_threads > 1) {
+      opened->run.simulation.use_threads(options.n_threads);
+      opened->run.simulation.share_where_faster(wall_seconds);
+    }
     const bool fresh = opened->fresh;
     Loop loop(plan, options, callbacks, std::move(opened->run));
     loop.report("running");

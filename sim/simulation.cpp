@@ -50,6 +50,7 @@ void Simulation::use_threads(int n_threads, int grain) {
   stepper_ = make_stepper(*world_, n_threads, grain);
 }
 
+void Simulation::share_where_faster(PhaseTimes::Clock clock) { stepper_->share_where_faster(clock); }
 void Simulation::time_phases(PhaseTimes::Clock clock) { stepper_->phase_times.use(clock); }
 const PhaseTimes& Simulation::phase_times() const { return stepper_->phase_times; }
 WorkCounts Simulation::work_counts() const { return stepper_->work_counts(); }

@@ -50,6 +50,9 @@ class Simulation {
   /// bounds for each thread.
   void use_threads(int n_threads, int grain = kGrain);
   static constexpr int kGrain = 12;
+  /// From now on, and until use_threads(), loops are shared only where that is faster by `clock` (time on the wall), as
+  /// trials find from time to time (schedule/sharing_trial.h). This does not change a bit either.
+  void share_where_faster(PhaseTimes::Clock clock);
   /// From now on, the time spent in each phase of a tick is taken by `clock`; nullptr ends it.
   void time_phases(PhaseTimes::Clock clock);
   const PhaseTimes& phase_times() const;

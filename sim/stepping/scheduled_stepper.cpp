@@ -59,13 +59,18 @@ WorkCounts ScheduledStepper::work_counts() const {
   return counts;
 }
 
+void ScheduledStepper::share_where_faster(PhaseTimes::Clock clock) {
+  if (loops_.shares().size() > 1) trial_.use(clock);
+}
+
 std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
   phase_times.start();
   std::size_t n_visits = 0;  // and bounds, in the tick before
   for (const Share& share : loops_.shares()) {
     n_visits += share.met.rods.size() + share.detected.pairs.size() + share.stored.to_bound.size();
   }
-  loops_.set_shared(n_visits >= grain_ * loops_.shares().size());
+  const bool is_faster = trial_.next_tick();
+  loops_.set_shared(is_faster && n_visits >= grain_ * loops_.shares().size());
 
   // 1. surfaces
   const PlateState plates = world.plates.at(now);

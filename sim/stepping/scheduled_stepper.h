@@ -8,6 +8,7 @@
 #include "sim/schedule/loops.h"
 #include "sim/schedule/pair_schedule.h"
 #include "sim/schedule/pair_search.h"
+#include "sim/schedule/sharing_trial.h"
 #include "sim/schedule/skin_budget.h"
 #include "sim/schedule/timing_wheel.h"
 #include "sim/stepping/stepper.h"
@@ -51,6 +52,7 @@ class ScheduledStepper final : public Stepper {
   ScheduledStepper(const World& world, int n_threads, int grain);
   std::size_t bytes() const override;
   WorkCounts work_counts() const override;
+  void share_where_faster(PhaseTimes::Clock clock) override;
 
  private:
   struct RodMarks {
@@ -148,6 +150,7 @@ class ScheduledStepper final : public Stepper {
   NeighborList neighbors_;
   SharedLoops<Share> loops_;
   std::size_t grain_;
+  SharingTrial trial_;
 
   // of each rod
   std::vector<RodAtTick> rods_;

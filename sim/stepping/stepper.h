@@ -34,6 +34,9 @@ class Stepper {
   /// The reference stepper, which looks at everything, counts nothing.
   virtual WorkCounts work_counts() const { return {}; }
 
+  /// From now on loops are shared only where trials by `clock` (time on the wall) find that faster.
+  virtual void share_where_faster(PhaseTimes::Clock clock) { static_cast<void>(clock); }
+
   PhaseTimes phase_times;
 
  private:

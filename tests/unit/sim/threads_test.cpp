@@ -53,5 +53,30 @@ TEST(Threads, ShareATickOfWeakPlates) {
   expect_same_by_several(system);
 }
 
+double g_time = 0;
+int g_readings = 0;
+
+// By a clock that goes at random a trial decides now this way, now that way.
+TEST(Threads, ATrialThatChangesItsMindDoesNotChangeABit) {
+  System system;
+  system.n_rods = 120;
+  system.box_side = std::sqrt(system.n_rods * make_species(system.rod).area / 0.75);
+  auto one = Simulation::start(system);
+  auto several = Simulation::start(system);
+  ASSERT_TRUE(one && several);
+  several->use_threads(2, 1);
+  std::vector<bool> shared;
+  several->share_where_faster([] {
+    ++g_readings;
+    g_time += (g_readings * 7919 % 101) * (g_readings / 40 % 2 == 0 ? 1.0 : 3.0);
+    return g_time;
+  });
+  constexpr Tick kEnd = 60'000;
+  ASSERT_FALSE(one->advance_to(kEnd));
+  ASSERT_FALSE(several->advance_to(kEnd));
+  EXPECT_GT(g_readings, 60);  // several trials
+  EXPECT_EQ(several->state_hash(), one->state_hash());
+}
+
 }  // namespace
 }  // namespace shaken
