@@ -376,7 +376,8 @@ def peers(report: Row, width: str | None) -> Figures:
 DRAWERS: dict[str, Callable[[Row, str | None], Figures]] = {
     "speed": speed, "kinds": kinds, "scaling n": scaling, "scaling dt": scaling, "threads": threads,
     "hard": hard, "hard history": hard_history, "effects": effects, "effects averages": effects_averages,
-    "accuracy deterministic": deterministic, "accuracy statistical": statistical, "accuracy error": order_error, "peers": peers,
+    "accuracy deterministic": deterministic, "accuracy statistical": statistical,
+    "accuracy error": order_error, "peers": peers,
 }
 
 
