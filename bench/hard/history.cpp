@@ -22,7 +22,7 @@ std::vector<HistoryPoint> history_of(const System& scene, double seconds, const 
   for (Tick point = 1; point <= kHistoryPoints; ++point) {
     HistoryPoint mean;
     for (Tick sample = 1; sample <= kSamples; ++sample) {
-      const Tick tick = end * ((point - 1) * kSamples + sample) / (kHistoryPoints * kSamples);
+      const Tick tick = end * ((point - 1) * kSamples + sample) / (Tick{kHistoryPoints} * kSamples);
       if (const auto trouble = simulation->advance_to(tick)) throw Failure(ExitCode::kFailed, to_text(*trouble));
       mean.order += analysis::nematic_order(simulation->snapshot().director).order / kSamples;
       mean.kinetic_energy += kinetic_energy(world).total() / (n * kSamples);
