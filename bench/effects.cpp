@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What each effect of the physics costs: the CPU time without it against that with everything on.
+// What each effect of the physics costs and does: the CPU time, and the averages, without it against those with
+// everything on.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <optional>
 
 #include "bench/bench.h"
+#include "bench/effect_averages.h"
 #include "bench/timing.h"
 #include "sim/effects/registry.h"
 
@@ -17,12 +19,14 @@ namespace {
 constexpr const char* kEffectsFooter =
     R"(Every effect that can be off is switched off, one at a time (docs/effects.md). CPU times are compared from one and
 the same state, which tells what it takes to compute the effect, and from a state that came about without it, which
-tells what a user gains: mostly nothing, as rods without friction or bounce collide more often.
+tells what a user gains: mostly nothing, as rods without friction or bounce collide more often. With --measure it is
+the physics that is compared, in place of CPU times: order, tilt, temperatures, displacements, drift and impulses.
 
 Examples:
   shaken bench effects                                      527 rods of 4.5 mm at area fraction 0.75
   shaken bench effects --area-fraction 0.45 --out effects   fewer; effects/effects.csv, .json and .png
   shaken bench effects --warm-up 5 --repeat 9               in the steady state of each, with smaller errors
+  shaken bench effects --side 15 --warm-up 2 --measure 20   what effects do, in 20 s of 68 rods without each
 
 Exit codes: 0 done, 1 something failed, 2 bad input.)";
 
@@ -34,44 +38,73 @@ Json comparison(const Contender& without, const Contender& everything) {
   return of;
 }
 
-/// Switches off every effect of the case that can be off, one at a time.
+/// Calls `measure` with each effect of the case that can be off, its neutral value and the case without it; first with
+/// the case as it is. Why one failed (without a base, say, rods fall until they are too fast) goes into "impossible".
+void switch_off_in_turn(const Case& everything, Report& report,
+                        const std::function<void(const std::string&, const Case&, const std::string&)>& measure) {
+  report.json["impossible"] = Json::object();
+  const auto try_to = [&](const std::string& name, const Case& scene, const std::string& neutral) {
+    try {
+      measure(name, scene, neutral);
+    } catch (const Failure& failure) {
+      report.json["impossible"][name] = failure.what();
+    }
+  };
+  try_to("(nothing)", everything, "");
+  for (const Effect& effect : all_effects()) {
+    if (effect.switch_off == nullptr || !effect.is_on(everything.system())) continue;
+    Case without = everything;
+    effect.switch_off(without.plan.system);
+    try_to(std::string(effect.name), without, effect.why(without.system()));
+  }
+}
+
+/// CPU times.
 void measure_savings(const Case& everything, const Cache& cache, const Effort& effort, Report& report) {
   // few enough vibrations for the rods to be still where they would have been, often enough to make up for it
   constexpr int kFewPeriods = 4;
   constexpr int kOften = 3;
   const Contender all_on = contender(everything, cache(everything), effort.cpu);
-  report.json["impossible"] = Json::object();
-  const auto measure = [&](const std::string& name, const Case& scene, const std::string& neutral) {
-    try {
-      const auto timed = [&](const Contender& of, const Contender& other, int repeat) {
-        std::vector<Contender> both{other, of};
-        time_in_turn("measuring without " + name, both, repeat);
-        return comparison(both[1], both[0]);
-      };
-      value_or_fail(Simulation::start(scene.system()));
-      Json row{{"without", name}, {"neutral", neutral}};
-      row["own_state"] = timed(contender(scene, cache(scene), effort.cpu), all_on, effort.repeat);
-      if (Simulation::resume(scene.system(), all_on.state.checkpoint)) {
-        Contender briefly = all_on;
-        briefly.settle = 1;
-        briefly.ticks = kFewPeriods * everything.period_ticks();
-        Contender without = briefly;
-        without.scene = scene;
-        row["same_state"] = timed(without, briefly, kOften * effort.repeat);
-      }  // or else without the effect that state could not be
-      report.json["rows"].push_back(std::move(row));
-    } catch (const Failure& failure) {  // without a base, say, rods fall until they are too fast
-      report.json["impossible"][name] = failure.what();
-    }
-  };
-  // the same against itself: how far to trust the other figures
-  measure("(nothing)", everything, "");
-  for (const Effect& effect : all_effects()) {
-    if (effect.switch_off == nullptr || !effect.is_on(everything.system())) continue;
-    Case without = everything;
-    effect.switch_off(without.plan.system);
-    measure(std::string(effect.name), without, effect.why(without.system()));
+  // the first, of the same against itself, says how far to trust the other figures
+  switch_off_in_turn(everything, report, [&](const std::string& name, const Case& scene, const std::string& neutral) {
+    const auto timed = [&](const Contender& of, const Contender& other, int repeat) {
+      std::vector<Contender> both{other, of};
+      time_in_turn("measuring without " + name, both, repeat);
+      return comparison(both[1], both[0]);
+    };
+    value_or_fail(Simulation::start(scene.system()));
+    Json row{{"without", name}, {"neutral", neutral}};
+    row["own_state"] = timed(contender(scene, cache(scene), effort.cpu), all_on, effort.repeat);
+    if (Simulation::resume(scene.system(), all_on.state.checkpoint)) {
+      Contender briefly = all_on;
+      briefly.settle = 1;
+      briefly.ticks = kFewPeriods * everything.period_ticks();
+      Contender without = briefly;
+      without.scene = scene;
+      row["same_state"] = timed(without, briefly, kOften * effort.repeat);
+    }  // or else without the effect that state could not be
+    report.json["rows"].push_back(std::move(row));
+  });
+}
+
+/// Averages.
+void measure_doings(const Case& everything, const Cache& cache, double seconds, Report& report) {
+  const Averages all_on = measure_averages(everything, cache, seconds);
+  report.json["everything"] = json_of(all_on);
+  switch_off_in_turn(everything, report, [&](const std::string& name, Case scene, const std::string& neutral) {
+    // without nothing, it is another run of the same that says how far to trust the other figures
+    if (neutral.empty()) scene.plan.system.seed += 1;
+    scene.label = "the scene without " + name;
+    report.json["rows"].push_back(averages_row(name, neutral, measure_averages(scene, cache, seconds), all_on));
+  });
+}
+
+std::string impossible_text(const Json& report) {
+  std::string text = report.at("impossible").empty() ? "" : "\nNot possible:\n";
+  for (const auto& [effect, why] : report.at("impossible").items()) {
+    text += fmt::format("{}: {}\n", effect, why.get<std::string>());
   }
+  return text;
 }
 
 std::string effects_text(const Case& scene, const Effort& effort, const Json& report) {
@@ -94,27 +127,49 @@ state.
                                     {"plates", "own_state/impulses_per_rod_second/plates", "{:.0f}"},
                                     {"rods", "own_state/impulses_per_rod_second/rods", "{:.0f}"},
                                     {"that is", "neutral"}});
-  if (!report.at("impossible").empty()) text += "\nNot possible:\n";
-  for (const auto& [effect, why] : report.at("impossible").items()) {
-    text += fmt::format("{}: {}\n", effect, why.get<std::string>());
-  }
-  return text;
+  return text + impossible_text(report);
 }
 
 struct EffectsBench {
   CaseOptions scene{.side = 41.865};
   Effort effort{.cpu = 0.5};
+  std::optional<double> measure;  ///< simulated, of each scene [s]
   Cache cache;
   Output output;
 
   void declare(CLI::App& app) {
     scene.declare(app);
     effort.declare(app);
+    add_number(app, "--measure", measure, "S", {0.01, 1e6},
+               "Compare averages over so many simulated seconds, not CPU times");
     cache.declare(app);
     output.declare(app);
   }
 
   ExitCode run() const {
+    if (measure) {
+      give_averages();
+    } else {
+      give_costs();
+    }
+    return ExitCode::kOk;
+  }
+
+  void give_averages() const {
+    const Case everything = scene.read();
+    Report report("effects_averages", "effects averages");
+    report.json["warm_up_s"] = everything.warm_up;
+    report.json["measured_s"] = *measure;
+    report.json.update(json_of(everything));
+    measure_doings(everything, cache, *measure, report);
+    report.text +=
+        fmt::format("{}, N = {}, dt = {:.10g} us; averages over {:.10g} s after {:.10g} s without the effect\n",
+                    everything.label, everything.n_rods(), 1e6 * everything.dt, *measure, everything.warm_up);
+    report.text += averages_text(report.json) + impossible_text(report.json);
+    output.give(report);
+  }
+
+  void give_costs() const {
     const Case everything = scene.read();
     Report report("effects", "effects");
     report.json["warm_up_s"] = everything.warm_up;
@@ -123,14 +178,14 @@ struct EffectsBench {
     measure_savings(everything, cache, effort, report);
     report.text += effects_text(everything, effort, report.json);
     output.give(report);
-    return ExitCode::kOk;
   }
 };
 
 }  // namespace
 
 void add_effects(CLI::App& app, Work& work) {
-  add_bench<EffectsBench>(app, work, "effects", "CPU time that each effect of the physics costs", kEffectsFooter);
+  add_bench<EffectsBench>(app, work, "effects", "What each effect of the physics costs, and what it does",
+                          kEffectsFooter);
 }
 
 }  // namespace shaken::bench

@@ -47,6 +47,8 @@ struct MadeCase {
   std::string name;
   std::string what;
   std::function<std::vector<Outcome>()> outcomes;
+  /// The worlds that it begins with, either stepper of which must make the same; none where the rods do not fit.
+  std::function<std::vector<World>()> starts;
 
   HardCase run() const { return {name, what, outcomes()}; }
 };
@@ -72,6 +74,23 @@ using TellProgress = std::function<void(double)>;
 
 /// Runs the scene to its end, or for `seconds` if that is sooner, and samples its state every 2 ms of its time.
 HardCase run_scene_case(const SceneCase& wanted, const scene::RunPlan& plan, double seconds, const TellProgress& tell);
+
+/// A scene's rods over one of the stretches of time into which its history is divided.
+struct HistoryPoint {
+  double time = 0;            ///< at the end of the stretch [s]
+  double order = 0;           ///< nematic order S, mean of 23 samples of the stretch
+  double kinetic_energy = 0;  ///< per rod, mean of these samples [pJ]
+  double overlap = 0;         ///< deepest since the start, as a fraction of the thinnest bead's radius
+  double energy_error = 0;    ///< energy unaccounted for since the start / turnover (Balance::energy_error)
+};
+inline constexpr int kHistoryPoints = 200;
+
+/// Runs the scene for `seconds` of its time, however long it would be, in kHistoryPoints equal stretches. Throws
+/// Failure if the rods cannot be placed, or on numerical trouble.
+std::vector<HistoryPoint> history_of(const System& scene, double seconds, const TellProgress& tell);
+
+/// Of all beads of all species [mm].
+double thinnest_radius(const World& world);
 
 /// The three scenes order-sorted, order-reversed and order-shuffled, of which the statistics are compared.
 inline constexpr const char* kOrderCase = "order";

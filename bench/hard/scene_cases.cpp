@@ -29,6 +29,7 @@ const std::vector<std::pair<const char*, std::vector<std::string>>> kFiles{
     {"shapes", {"spheres", "three-beads", "no-taper", "needle", "dumbbell"}},
     {"shaking", {"strong", "wild", "coarse"}},
     {"rest", {"rest"}},
+    {"sticky", {"sticky-below", "sticky-above", "sticky-slow", "sticky-fast"}},
     {"order", {"order-sorted", "order-reversed", "order-shuffled"}},
 };
 
@@ -84,14 +85,6 @@ Extremes follow_run(Simulation& simulation, double seconds, const TellProgress& 
   return found;
 }
 
-double thinnest_radius(const World& world) {
-  double radius = std::numeric_limits<double>::infinity();
-  for (const Species& species : world.species) {
-    radius = std::min(radius, *std::min_element(species.bead_radius.begin(), species.bead_radius.end()));
-  }
-  return radius;
-}
-
 /// Energy that a rod cannot exceed on average, with a body hit by both plates again and again as the worst case: it
 /// leaves a plate at (1 + e) / (1 - e) of the plate's speed, and falls through the gap.
 double energy_limit(const World& world) {
@@ -103,6 +96,14 @@ double energy_limit(const World& world) {
 }
 
 }  // namespace
+
+double thinnest_radius(const World& world) {
+  double radius = std::numeric_limits<double>::infinity();
+  for (const Species& species : world.species) {
+    radius = std::min(radius, *std::min_element(species.bead_radius.begin(), species.bead_radius.end()));
+  }
+  return radius;
+}
 
 std::string to_text(const NumericalTrouble& trouble) {
   return fmt::format("tick {}, rods {}: {}", trouble.tick, fmt::join(trouble.rods, ", "), trouble.what);
@@ -135,6 +136,10 @@ const std::vector<SceneCase>& scene_cases() {
       {"wild", "Gamma = 100"},
       {"coarse", "a tick ten times too long", 0.5},
       {"rest", "Gamma = 0: all comes to rest"},
+      {"sticky-below", "e = 0, mu = 1, 10 Hz, Gamma = 0.95: plates too weak to throw rods"},
+      {"sticky-above", "e = 0, mu = 1, 10 Hz, Gamma = 1.05: plates that just throw rods"},
+      {"sticky-slow", "e = 0, mu = 1, 6 Hz, Gamma = 1.2, energetic law"},
+      {"sticky-fast", "e = 0, mu = 1, 20 Hz, Gamma = 1.1, energetic law"},
   };
   return cases;
 }

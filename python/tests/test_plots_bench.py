@@ -77,8 +77,14 @@ REPORTS: dict[str, dict[str, Any]] = {
     "scaling dt": {"rows": [{**_SCENE, "dt_s": 1e-6 * dt, "relative_cost": 8 / dt} for dt in (8, 4, 2, 1)]},
     "threads": {"rows": [{**_SCENE, "threads": n, "speed_up": n**0.7, "limit": n**0.8} for n in (1, 2, 4)]},
     "hard": {"rows": [{"case": f"case-{k % 5}", "limit": 1.0, "limit_is": "most", "margin": 3.0**k} for k in range(9)]},
+    "hard history": {"rows": [{"case": name, "time_s": 5.0 * k, "S": 0.8, "max_overlap": 1e-3 * k,
+                               "energy_unaccounted": 1e-14 * k} for name in ("collapse", "rest") for k in range(9)]},
     "effects": {"rows": [{"without": name, "own_state": {"cpu_ratio": ratio, "cpu_ratio_error": 0.02}, "same_state": {}}
                          for name, ratio in (("(nothing)", 1.0), ("vibration", 16.2), ("rod_rod_friction", 1.19))]},
+    "effects averages": {"rows": [
+        {"without": name, "relative": {of: {"value": ratio, "sem": None if ratio == 0 else 0.02}
+                                       for of in ("S", "rms_n_z", "T_xy", "T_z", "T_rot", "drift")}}
+        for name, ratio in (("(nothing)", 1.01), ("tilt", 0.0), ("rod_base_restitution", 0.013))]},
     "accuracy deterministic": _deterministic(), "accuracy statistical": _statistical(),
     "accuracy error": {"rows": [{**_SCENE, "side_mm": side, "n_rods": 10 * side, "replicas": 2, "measured_s": 2.0,
                                  "every_s": 0.005, "tau_s": 0.05, "mean": 0.9, "cpu_s_per_rod_s": 0.01}
@@ -145,6 +151,15 @@ def test_the_smallest_margin_of_each_case_counts() -> None:
     (_, sheet), = bench.figures_of(report("hard"))
     assert [(drawn.curve, float(drawn.x[0])) for drawn in sheet[0].drawn[:5]] == [
         (f"case-{k}", 3.0**k) for k in range(5)]
+
+
+def test_averages_without_an_effect_are_relative_to_all() -> None:
+    (_, sheet), = bench.figures_of(report("effects averages"))
+    order, temperature = sheet[0].drawn[:3], sheet[3].drawn
+    assert [float(drawn.x[0]) for drawn in order] == pytest.approx([101, 0, 1.3])
+    # what is nothing has no place on a logarithmic axis
+    assert [drawn.curve for drawn in temperature if math.isfinite(drawn.x[0])][:2] == [
+        "(nothing)", "rod base restitution"]
 
 
 def test_reports_are_drawn_by_the_program_beside_their_rows(tmp_path: Path) -> None:

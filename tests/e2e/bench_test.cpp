@@ -228,6 +228,42 @@ TEST_F(Bench, EffectsAreSwitchedOffOneByOne) {
   EXPECT_EQ(bench({"effects", "--length", "0", "--repeat", "x"}).code, 2);
 }
 
+TEST_F(Bench, EffectsAreSeenInAverages) {
+  const Finished finished = bench(
+      {"effects", "--side", "12", "--area-fraction", "0.5", "--warm-up", "0.02", "--measure", "0.1", "--out", out()});
+  ASSERT_EQ(finished.code, 0) << finished.output;
+  EXPECT_THAT(finished.output, AllOf(HasSubstr("With everything on"), HasSubstr("rod_rod_friction")));
+  const Json report = json_of("effects_averages.json");
+  EXPECT_GT(report.at("everything").at("T_z").at("value").get<double>(), 0);
+  ASSERT_GE(report.at("rows").size(), 10u);
+  EXPECT_EQ(report.at("rows").at(0).at("without"), "(nothing)");
+  EXPECT_NE(report.at("rows").at(0).at("relative").at("T_z").at("value"), 1) << "another run of the same scene";
+  for (const Json& row : report.at("rows")) {
+    if (row.at("without") != "tilt") continue;
+    EXPECT_EQ(row.at("averages").at("T_z").at("value"), 0) << "rods that stay in the plane";
+    EXPECT_TRUE(row.at("relative").at("drift").at("value").is_null());
+  }
+  EXPECT_EQ(text_of("effects_averages.png").substr(1, 3), "PNG");
+  EXPECT_EQ(bench({"effects", "--measure", "0"}).code, 2);
+}
+
+TEST_F(Bench, HardScenesHaveAHistory) {
+  const auto history = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {std::string(SHAKEN_BIN_DIR) + "/shaken", "bench", "hard", "--history", "0.02"});
+    return run_command(words);
+  };
+  const Finished finished = history({"three-beads", "sticky-below", "--out", out()});
+  ASSERT_EQ(finished.code, 0) << finished.output;
+  EXPECT_THAT(finished.output, HasSubstr("sticky-below, after 0.02 s: overlap"));
+  const Json rows = json_of("hard_history.json").at("rows");
+  ASSERT_EQ(rows.size(), 400u);
+  EXPECT_EQ(rows.at(399).at("case"), "sticky-below");
+  EXPECT_LT(rows.at(399).at("energy_unaccounted").get<double>(), 1e-10);
+  EXPECT_EQ(text_of("hard_history.png").substr(1, 3), "PNG");
+  EXPECT_EQ(history({}).code, 2);
+  EXPECT_EQ(history({"row"}).code, 2) << "no scene, but rods placed by hand";
+}
+
 TEST_F(Bench, BadArgumentsAreRefused) {
   const auto refused = [&](std::vector<std::string> words) {
     words.insert(words.begin(), "speed");

@@ -74,17 +74,6 @@ TEST_P(SceneOfFile, HoldsForAWhile) {
   const double seconds = GetParam().name == "rest" ? 10.0 : GetParam().makes_energy ? plan.total_time() : 0.05;
   expect_ok(run_scene_case(GetParam(), plan, seconds, [](double) {}));
 }
-TEST_P(SceneOfFile, BothSteppersGiveTheSame) {
-  System scene = read_hard_scene(kFolder, GetParam().name).system;
-  scene.stepper = StepperKind::kReference;
-  auto reference = Simulation::start(scene);
-  scene.stepper = StepperKind::kScheduled;
-  auto scheduled = Simulation::start(scene);
-  ASSERT_TRUE(reference && scheduled);
-  ASSERT_FALSE(reference->advance_to(1500).has_value());
-  ASSERT_FALSE(scheduled->advance_to(1500).has_value());
-  EXPECT_EQ(reference->state_hash(), scheduled->state_hash());
-}
 INSTANTIATE_TEST_SUITE_P(Hard, SceneOfFile, testing::ValuesIn(scene_cases()), [](const auto& test) {
   std::string name = test.param.name;
   std::replace(name.begin(), name.end(), '-', '_');

@@ -136,6 +136,22 @@ def hard(report: Row, width: str | None) -> Figures:
     yield "hard", sheet
 
 
+def hard_history(report: Row, width: str | None) -> Figures:
+    """Order, deepest overlap and energy unaccounted for of each case against time."""
+    sheet = style.sheet(width or "183mm", 1, 3, panel_height=60).share_key()
+    shown = (("order $S$", "S", 1.0, "linear"),
+             ("deepest overlap so far (% of a radius)", "max_overlap", 100.0, "linear"),
+             ("energy unaccounted for / turnover", "energy_unaccounted", 1.0, "log"))
+    for panel, (title, name, factor, scale) in zip(sheet, shown):
+        panel.titles("simulated time (s)", title).scale(y=scale)
+        if scale == "linear":
+            panel.range(y=(0, None))
+        for k, rows in enumerate(series_of(report["rows"], "case")[:7]):
+            values = column(rows, name, factor)
+            panel.curve(column(rows, "time_s"), np.where(values > 0, values, np.nan), label=rows[0]["case"], colour=k)
+    yield "hard_history", sheet
+
+
 def effects(report: Row, width: str | None) -> Figures:
     rows = report["rows"]
     sheet = style.sheet(width or "120mm", panel_height=_dots_height(len(rows), 2))
@@ -145,6 +161,29 @@ def effects(report: Row, width: str | None) -> Figures:
                    column(rows, f"{of}/cpu_ratio_error", 100), label=label, colour=k, shift=0.18 - 0.36 * k)
     panel.reference(x=100.0)
     yield "effects", sheet
+
+
+#: What effects are shown to do: title and observable.
+_DOINGS = (("order $S$", "S"), ("rms tilt $n_z$", "rms_n_z"), ("temperature in the plane", "T_xy"),
+           ("temperature upright", "T_z"), ("temperature of rotation", "T_rot"), ("drift against the tilt", "drift"))
+
+
+def effects_averages(report: Row, width: str | None) -> Figures:
+    """Averages without each effect relative to those of everything on; temperatures, which fall by decades, on a
+    logarithmic axis."""
+    rows = report["rows"]
+    categories = [row["without"].replace("_", " ") for row in rows]
+    sheet = style.sheet(width or "183mm", 2, 3, _dots_height(len(rows)))
+    for k, (panel, (title, name)) in enumerate(zip(sheet, _DOINGS)):
+        values = column(rows, f"relative/{name}/value", 100)
+        if name.startswith("T_"):
+            panel.scale(x="log")
+            values = np.where(values > 0, values, np.nan)
+        panel.titles(x="% of everything on", title=title)
+        panel.dots(categories, values, column(rows, f"relative/{name}/sem", 100)).reference(x=100.0)
+        if k % 3:
+            panel.axes.tick_params(labelleft=False)
+    yield "effects_averages", sheet
 
 
 def _add_errors(panel: Panel, rows: Sequence[Row], order: Row | None, norm: str, label: str, colour: int) -> None:
@@ -335,9 +374,10 @@ def peers(report: Row, width: str | None) -> Figures:
 
 #: "bench" of a report -> what draws it; others have no pictures.
 DRAWERS: dict[str, Callable[[Row, str | None], Figures]] = {
-    "speed": speed, "kinds": kinds, "scaling n": scaling, "scaling dt": scaling, "threads": threads, "hard": hard,
-    "effects": effects, "accuracy deterministic": deterministic,
-    "accuracy statistical": statistical, "accuracy error": order_error, "peers": peers,
+    "speed": speed, "kinds": kinds, "scaling n": scaling, "scaling dt": scaling, "threads": threads,
+    "hard": hard, "hard history": hard_history, "effects": effects, "effects averages": effects_averages,
+    "accuracy deterministic": deterministic, "accuracy statistical": statistical,
+    "accuracy error": order_error, "peers": peers,
 }
 
 
