@@ -11,7 +11,8 @@ namespace shaken {
 /// where other programs want the same cores: whoever is done first then waits until the other gets a core again.
 ///
 /// In a trial, stretches of ticks are shared and not shared in turn, and timed. Whichever took less time is done from
-/// then on; the next trial comes after some time, and later and later as long as the answer stays the same.
+/// then on; the next trial comes after some time, and later and later as long as the answer stays the same. Ticks that
+/// are shared meanwhile are timed too: once they take longer than those alone did in the trial, sharing ends.
 ///
 /// The clock is lent from outside. A trial has no influence on any trajectory: sharing does not change a bit.
 class SharingTrial {
@@ -27,6 +28,7 @@ class SharingTrial {
   /// Ticks from one trial to the next.
   static constexpr int kLeastWait = 4 * 2 * kPairs * kStretch;
   static constexpr int kMostWait = 8 * kLeastWait;
+  static constexpr int kWatch = kLeastWait / 8;  ///< ticks that are timed together between trials
 
   /// From now on trials are made by `clock`, the first one at once; nullptr ends them, and loops are always shared.
   void use(Clock clock) {
@@ -40,6 +42,7 @@ class SharingTrial {
     if (clock_ == nullptr) return true;
     if (ticks_left_ == 0) is_trying_ ? end_stretch() : begin_trial();
     if (is_trying_ && ticks_left_ == kStretch - kUntimed) began_ = clock_();
+    if (!is_trying_ && shares_ && ticks_left_ % kWatch == 0) watch();
     --ticks_left_;
     return shares_;
   }
@@ -77,10 +80,21 @@ class SharingTrial {
   void decide() {
     const auto& [alone, shared] = seconds_;
     shares_ = alone > kWorth * shared;
+    alone_ = alone / (n_stretches_ / 2.0 * (kStretch - kUntimed));
     wait_ = shares_ == answer_ ? std::min(2 * wait_, kMostWait) : kLeastWait;
     answer_ = shares_;
     is_trying_ = false;
     ticks_left_ = wait_;
+  }
+
+  void watch() {
+    const double now = clock_();
+    const bool is_slow = ticks_left_ < wait_ && now - began_ > kWatch * alone_;
+    began_ = now;
+    if (!is_slow) return;
+    shares_ = false;
+    answer_ = false;
+    ticks_left_ = wait_ = kLeastWait;
   }
 
   Clock clock_ = nullptr;
@@ -88,7 +102,8 @@ class SharingTrial {
   bool shares_ = true;
   int ticks_left_ = 0;               ///< of the stretch, or of the wait for the next trial
   int n_stretches_ = 0;              ///< of the trial that are over
-  double began_ = 0;                 ///< the timed part of the stretch [s]
+  double began_ = 0;                 ///< the ticks that are timed [s]
+  double alone_ = 0;                 ///< time of a tick alone, in the last trial [s]
   std::array<double, 2> seconds_{};  ///< that stretches of this trial took, those alone and those shared
   std::optional<bool> answer_;       ///< of the last trial
   int wait_ = kLeastWait;            ///< after it [ticks]

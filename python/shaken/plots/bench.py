@@ -169,16 +169,12 @@ _DOINGS = (("order $S$", "S"), ("rms tilt $n_z$", "rms_n_z"), ("temperature in t
 
 
 def effects_averages(report: Row, width: str | None) -> Figures:
-    """Averages without each effect relative to those of everything on; temperatures, which fall by decades, on a
-    logarithmic axis."""
+    """Averages without each effect relative to those of everything on."""
     rows = report["rows"]
     categories = [row["without"].replace("_", " ") for row in rows]
     sheet = style.sheet(width or "183mm", 2, 3, _dots_height(len(rows)))
     for k, (panel, (title, name)) in enumerate(zip(sheet, _DOINGS)):
         values = column(rows, f"relative/{name}/value", 100)
-        if name.startswith("T_"):
-            panel.scale(x="log")
-            values = np.where(values > 0, values, np.nan)
         panel.titles(x="% of everything on", title=title)
         panel.dots(categories, values, column(rows, f"relative/{name}/sem", 100)).reference(x=100.0)
         if k % 3:

@@ -107,6 +107,18 @@ TEST(SharingTrial, AnotherLoadChangesTheAnswer) {
   EXPECT_EQ(machine.run(SharingTrial::kLeastWait), SharingTrial::kLeastWait);
 }
 
+TEST(SharingTrial, SharingEndsSoonWhereALoadBegins) {
+  Machine machine;
+  machine.shared = 0.6 * machine.alone;
+  machine.run(kShortTrial);
+  machine.run(SharingTrial::kLeastWait / 2 + 100);
+  machine.shared = 1.2 * machine.alone;  // other programs begin
+  EXPECT_LE(machine.run(SharingTrial::kLeastWait), 2 * SharingTrial::kWatch);
+  machine.shared = 0.6 * machine.alone;
+  machine.run(2 * SharingTrial::kWatch + kShortTrial);
+  EXPECT_EQ(machine.run(SharingTrial::kLeastWait / 2), SharingTrial::kLeastWait / 2);
+}
+
 TEST(SharingTrial, TimesThatScatterAreAveraged) {
   for (const double shared : {0.8, 1.25}) {
     Machine machine;
