@@ -19,11 +19,13 @@ class SharingTrial {
  public:
   using Clock = double (*)();  ///< time on the wall since whenever [s]
 
-  static constexpr int kStretch = 256;    ///< [ticks]
-  static constexpr int kUntimed = 16;     ///< first ticks of a stretch, in which data move between caches
-  static constexpr int kPairs = 8;        ///< of stretches in a trial, at most
-  static constexpr int kLeastPairs = 3;   ///< before a trial that is clear ends early
-  static constexpr double kClear = 1.5;   ///< ratio of times from which on it is
+  static constexpr int kStretch = 256;   ///< [ticks]
+  static constexpr int kUntimed = 16;    ///< first ticks of a stretch, in which data move between caches
+  static constexpr int kPairs = 8;       ///< of stretches in a trial, at most
+  static constexpr int kLeastPairs = 3;  ///< before a trial that is clear ends early
+  static constexpr double kClear = 1.5;  ///< ratio of times from which on it is
+  static constexpr double kHopeless =
+      3;  ///< a stretch that is shared is cut short after so many times that of one alone
   static constexpr double kWorth = 1.05;  ///< threads must be so much faster, for they take more CPU time
   /// Ticks from one trial to the next.
   static constexpr int kLeastWait = 4 * 2 * kPairs * kStretch;
@@ -41,6 +43,7 @@ class SharingTrial {
   bool next_tick() {
     if (clock_ == nullptr) return true;
     if (ticks_left_ == 0) is_trying_ ? end_stretch() : begin_trial();
+    if (is_trying_ && shares_ && is_hopeless()) decide(false);
     if (is_trying_ && ticks_left_ == kStretch - kUntimed) began_ = clock_();
     if (!is_trying_ && shares_ && ticks_left_ % kWatch == 0) watch();
     --ticks_left_;
@@ -65,7 +68,7 @@ class SharingTrial {
     seconds_[shares_ ? 1 : 0] += clock_() - began_;
     ++n_stretches_;
     if (is_over()) {
-      decide();
+      decide(seconds_[0] > kWorth * seconds_[1]);
     } else {
       begin_stretch();
     }
@@ -77,10 +80,22 @@ class SharingTrial {
     return n_stretches_ == 2 * kPairs || std::max(alone, shared) > kClear * std::min(alone, shared);
   }
 
-  void decide() {
-    const auto& [alone, shared] = seconds_;
-    shares_ = alone > kWorth * shared;
-    alone_ = alone / (n_stretches_ / 2.0 * (kStretch - kUntimed));
+  /// Where all cores are taken, a tick that is shared can take a hundred times as long.
+  bool is_hopeless() {
+    const double now = clock_();
+    if (ticks_left_ == kStretch) stretch_began_ = now;
+    return now - stretch_began_ > kHopeless * kStretch * alone();
+  }
+
+  /// Time of a tick alone, by the stretches so far: of two pairs the first and the last are [s].
+  double alone() const {
+    const int n = n_stretches_ / 4 * 2 + (n_stretches_ % 4 == 0 ? 0 : 1);
+    return seconds_[0] / (n * (kStretch - kUntimed));
+  }
+
+  void decide(bool shares) {
+    alone_ = alone();
+    shares_ = shares;
     wait_ = shares_ == answer_ ? std::min(2 * wait_, kMostWait) : kLeastWait;
     answer_ = shares_;
     is_trying_ = false;
@@ -103,6 +118,7 @@ class SharingTrial {
   int ticks_left_ = 0;               ///< of the stretch, or of the wait for the next trial
   int n_stretches_ = 0;              ///< of the trial that are over
   double began_ = 0;                 ///< the ticks that are timed [s]
+  double stretch_began_ = 0;         ///< that is shared [s]
   double alone_ = 0;                 ///< time of a tick alone, in the last trial [s]
   std::array<double, 2> seconds_{};  ///< that stretches of this trial took, those alone and those shared
   std::optional<bool> answer_;       ///< of the last trial

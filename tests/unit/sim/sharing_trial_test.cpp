@@ -99,12 +99,22 @@ TEST(SharingTrial, AnotherLoadChangesTheAnswer) {
   machine.shared = 0.6 * machine.alone;
   machine.run(kShortTrial);
   EXPECT_EQ(machine.run(SharingTrial::kLeastWait), SharingTrial::kLeastWait);
-  machine.shared = 4 * machine.alone;  // other programs begin
+  machine.shared = 2.5 * machine.alone;  // other programs begin
   machine.run(kShortTrial);
   EXPECT_EQ(machine.run(SharingTrial::kLeastWait), 0);
   machine.shared = 0.6 * machine.alone;  // and end: trials had become frequent again
   machine.run(kShortTrial);
   EXPECT_EQ(machine.run(SharingTrial::kLeastWait), SharingTrial::kLeastWait);
+}
+
+TEST(SharingTrial, AHopelessTrialIsCutShort) {
+  Machine machine;
+  machine.shared = 100 * machine.alone;  // all cores are taken
+  machine.run(SharingTrial::kStretch);
+  const double before = g_now;
+  const int most = static_cast<int>(SharingTrial::kHopeless * SharingTrial::kStretch / 100) + 2;
+  EXPECT_LE(machine.run(SharingTrial::kLeastWait), most);
+  EXPECT_LT(g_now - before, 1.1 * SharingTrial::kLeastWait * machine.alone);
 }
 
 TEST(SharingTrial, SharingEndsSoonWhereALoadBegins) {
