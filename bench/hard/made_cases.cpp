@@ -154,8 +154,8 @@ std::vector<World> whirling() {
         std::vector<Flight> rods;
         for (int i = 0; i < 12; ++i) {
           const double angle = 0.5 * i;  // of the director; neighbours turn about other axes
-          rods.push_back(thrown(Vec3(2 + 4 * (i % 3), 1.5 + 3 * (i / 3), middle),
-                                Vec3(std::cos(angle), std::sin(angle), 0),
+          const int column = i % 3, row = i / 3;
+          rods.push_back(thrown(Vec3(2 + 4 * column, 1.5 + 3 * row, middle), Vec3(std::cos(angle), std::sin(angle), 0),
                                 Vec3(100 * std::sin(angle), -100 * std::cos(angle), 0),
                                 Vec3(-2000 * std::sin(angle), 2000 * std::cos(angle), i % 2 == 0 ? 3000 : -3000)));
         }
