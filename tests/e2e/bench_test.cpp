@@ -108,7 +108,7 @@ TEST_F(Bench, SpeedOfThreadsAndStepsToo) {
   EXPECT_TRUE(json_of("threads.json").at("rows").at(1).at("hashes_equal").get<bool>());
   finished = bench(tiny({"speed", "--scaling", "dt", "--out", out()}));
   ASSERT_EQ(finished.code, 0) << finished.output;
-  EXPECT_EQ(json_of("scaling_dt.json").at("rows").size(), 4u);
+  EXPECT_EQ(json_of("scaling_dt.json").at("rows").size(), 6u);
   EXPECT_EQ(text_of("scaling_dt.png").substr(1, 3), "PNG");
 }
 
