@@ -575,7 +575,9 @@ def check_polar(run, table):
     speed = RELATIVE * np.abs(v).max()
     allowed = (1e-6, 1e-4 * numbers[1], speed, speed, speed, RELATIVE)
     for name, value, sem, one in zip(names, numbers, sems, allowed):
-        scalar(run, table, name, "complex numbers", value, sem, allowed=one)
+        scalar(run, table, name, "complex numbers", value, allowed=one)
+        ours = run.scalars[name].get("sem_if_steady", run.sem(name))
+        table.add("sem of " + name, "complex numbers", ours, sem, 1e-3 * abs(sem) + 1e-9)
 
 
 # ---- pairs ----
