@@ -108,6 +108,12 @@ struct MeasureStructure {
   int waves = 64;      ///< wave numbers, 2 pi k / L for k = 1 .. waves
   friend bool operator==(const MeasureStructure&, const MeasureStructure&) = default;
 };
+/// Polar order P(t), and how rods move by the direction of their heads.
+struct MeasurePolar {
+  double every = 0.01;  ///< [s]
+  SamplePhases phases = SamplePhases::kSpread;
+  friend bool operator==(const MeasurePolar&, const MeasurePolar&) = default;
+};
 
 // clang-format off
 /// Every observable by its name and settings, in the order in which it stands in canonical scenes, samples and is
@@ -127,7 +133,8 @@ struct MeasureStructure {
   X(pairs, MeasurePairs) \
   X(layers, MeasureLayers) \
   X(lattice, MeasureLattice) \
-  X(structure, MeasureStructure)
+  X(structure, MeasureStructure) \
+  X(polar, MeasurePolar)
 // clang-format on
 
 /// Whose observables are measured.

@@ -270,6 +270,22 @@ Observable structure() {
     .remedy = "fewer `waves`"};
 }
 
+Observable polar() {
+  return {
+    .doc = "Polar order P(t) of the rods' heads, and velocities towards them.",
+    .axis = AxisUse::kNeeded,
+    .every_doc = "Mean time between samples.",
+    .keys = {
+      choice<SamplePhases>("phases", at<&Plan::polar, &MeasurePolar::phases>,
+                           {{"spread", SamplePhases::kSpread}, {"locked", SamplePhases::kLocked}},
+                           "Whether each sample is taken at a random instant of its interval, and so all of them at "
+                           "all phases of the vibration alike, or at whole multiples of `every`.")},
+    // t, P, and P times cosine and sine of the direction, which the file holds as one angle
+    .memory = [](const Sizes& s) -> MeasureMemory {
+      return {"", s.series(4) + s.in_blocks(100), 0, s.series(3), s.spare_series(4)}; },
+    .remedy = "a longer `every`"};
+}
+
 // clang-format on
 
 }  // namespace rows

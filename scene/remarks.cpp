@@ -38,6 +38,14 @@ std::string of_axes_that_are_missing(const RunPlan& plan) {
   return blocks;
 }
 
+/// Whether one end differs from the other.
+bool has_head(const RodShape& rod) {
+  if (!rod.bead_diameters.empty()) {
+    return !std::equal(rod.bead_diameters.begin(), rod.bead_diameters.end(), rod.bead_diameters.rbegin());
+  }
+  return rod.has_axis() && rod.profile == Profile::kPolar && rod.mid_diameter != rod.end_diameter;
+}
+
 }  // namespace
 
 std::vector<std::string> remarks(const RunPlan& plan) {
@@ -48,16 +56,20 @@ std::vector<std::string> remarks(const RunPlan& plan) {
     list.push_back(fmt::format("{} {} is longer than the run, {}: there will be a single frame, of the start", path,
                                format_quantity(every, Dimension::kTime), format_quantity(total, Dimension::kTime)));
   };
-  if (plan.tilt && plan.tilt->phases == SamplePhases::kLocked && moves(plan.system)) {
-    const double periods = plan.tilt->every * plan.system.frequency;
+  const auto remark_few_phases = [&](const char* name, const auto& settings) {
+    if (!settings || settings->phases != SamplePhases::kLocked || !moves(plan.system)) return;
+    const double periods = settings->every * plan.system.frequency;
     if (const int phases = phases_met(periods); phases > 0) {
-      list.push_back(fmt::format(
-          "measure.tilt.every {} is {:.6g} periods of the plates: samples see them at {} of their vibration, and mean "
-          "velocities may be those of that instant; take measure.tilt.phases \"spread\"",
-          format_quantity(plan.tilt->every, Dimension::kTime), periods,
-          phases == 1 ? "a single phase" : fmt::format("{} phases", phases)));
+      list.push_back(
+          fmt::format("measure.{0}.every {1} is {2:.6g} periods of the plates: samples see them at {3} of their "
+                      "vibration, and mean "
+                      "velocities may be those of that instant; take measure.{0}.phases \"spread\"",
+                      name, format_quantity(settings->every, Dimension::kTime), periods,
+                      phases == 1 ? "a single phase" : fmt::format("{} phases", phases)));
     }
-  }
+  };
+  remark_few_phases("tilt", plan.tilt);
+  remark_few_phases("polar", plan.polar);
   if (plan.trajectory) remark_one_frame("trajectory.every", plan.trajectory->every);
   if (plan.movie) remark_one_frame("movie.every", plan.movie->every);
   for (const Field& field : fields()) {
@@ -72,7 +84,15 @@ std::vector<std::string> remarks(const RunPlan& plan) {
   }
   const bool is_of_one_of_several =
       plan.of == MeasuredSpecies::kFirst && (plan.system.added[0] || plan.system.added[1]);
-  for (const MeasuredRods& rods : measured_species(plan)) {
+  const std::vector<MeasuredRods> measured = measured_species(plan);
+  const auto has = [&](auto what) { return std::ranges::any_of(measured, what); };
+  if (plan.polar && has([](const MeasuredRods& rods) { return rods.plan.system.rod.has_axis(); }) &&
+      !has([](const MeasuredRods& rods) { return has_head(rods.plan.system.rod); })) {
+    list.push_back(
+        fmt::format("measure.polar: no rod that is measured has a head, so which end counts as one is arbitrary{}",
+                    is_of_one_of_several ? "; observables are those of the first species (measure.of)" : ""));
+  }
+  for (const MeasuredRods& rods : measured) {
     const std::string unmeasured = of_axes_that_are_missing(rods.plan);
     if (unmeasured.empty()) continue;
     list.push_back(fmt::format(

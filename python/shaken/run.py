@@ -23,6 +23,7 @@ _AXES = {
     "/defects/tracks/lasting": "/defects/tracks/span_s", "/g2": "/g2/r_mm", "/msd": "/msd/lag_s",
     "/rotation": "/rotation/lag_s", "/velocity": "/velocity/lag_s", "/fluctuations": "/fluctuations/mean_n",
     "/pairs/cut": "/pairs/cut/r_mm", "/layers": "/layers/q_per_mm", "/structure": "/structure/q_per_mm",
+    "/polar": "/polar/time_s",
 }
 _MAPS = ("/pairs/g", "/pairs/g2")
 

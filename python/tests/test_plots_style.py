@@ -190,6 +190,8 @@ def test_the_caller_s_settings_stay_as_they_are() -> None:
     ("rods.length", "rod length ℓ (mm)"), ("box.gap", "gap between the plates w (mm)"),
     ("order.mean", "nematic order ⟨S⟩"), ("measured.theta_m_deg.value", "tilt of the layers θ_m (°)"),
     ("diffusion_mm2_s", "diffusion coefficient D (mm²/s)"), ("/g2/g2", "orientational correlation G_2(r)"),
+    ("rods_2.diffusion_mm2_s", "diffusion coefficient of rods_2 D (mm²/s)"),
+    ("measured.rods_3.P.value", "polar order of rods_3 ⟨P⟩"), ("/rods_2/polar/order", "polar order of rods_2 P"),
     ("measured.some_new_speed_mm_s.value", "some new speed (mm/s)"), ("rods.a_new_key", "rods.a new key")])
 def test_titles_of_axes(path: str, title: str) -> None:
     assert names.plain(names.axis_title(path)) == title

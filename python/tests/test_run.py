@@ -7,7 +7,7 @@ import pytest
 import shaken
 from conftest import made_up_run
 from shaken.run import error_name
-from shaken.units import unit_of
+from shaken.units import split_species, unit_of
 
 CURVES = {"msd/lag_s": ([1, 2, 4], "s"), "msd/total_mm2": ([4, 8, 16], "mm2"), "msd/total_sem_mm2": ([1, 1, 2], "mm2"),
           "g2/r_mm": ([1, 2], "mm"), "g2/g2": ([1, 0], "1"), "g2/g2_sem": ([0.1, 0.2], "1"),
@@ -48,6 +48,27 @@ def test_arrays_know_axis_error_and_unit(run_at):
     assert g.shape == (3, 3) and g[1, 2] == 5 and list(g.axis[1]) == [-2, 0, 2]
     with pytest.raises(KeyError, match="was not measured"):
         run["/msd/along_mm2"]
+
+
+@pytest.mark.parametrize("name, parts", [("/rods_2/msd/lag_s", ("rods_2", "/msd/lag_s")),
+                                         ("rods_2.S", ("rods_2", "S")),
+                                         ("rods_3.diffusion_mm2_s", ("rods_3", "diffusion_mm2_s")),
+                                         ("/msd/lag_s", ("", "/msd/lag_s")), ("/rods/trace/x_mm",
+                                                                              ("", "/rods/trace/x_mm")),
+                                         ("S", ("", "S")), ("rods.length", ("", "rods.length"))])
+def test_names_are_split_by_their_species(name, parts):
+    assert split_species(name) == parts
+
+
+def test_arrays_of_another_species_have_their_own_axis(run_at):
+    slower = {"rods_2/" + name: (np.multiply(values, 10), unit) for name, (values, unit) in CURVES.items()}
+    polar = {"rods_2/polar/time_s": ([0, 1], "s"), "rods_2/polar/order": ([0.5, 0.7], "1")}
+    run = run_at("a", arrays={**CURVES, **slower, **polar})
+    msd = run["/rods_2/msd/total_mm2"]
+    assert msd.axis.name == "/rods_2/msd/lag_s" and list(msd.axis) == [10, 20, 40] and list(msd.error) == [10, 10, 20]
+    assert msd.unit == "mm2" and list(run["/msd/total_mm2"].axis) == [1, 2, 4]
+    assert list(run["/rods_2/pairs/g"].axis[1]) == [-20, 0, 20]
+    assert run["/rods_2/polar/order"].axis.name == "/rods_2/polar/time_s"
 
 
 def test_keys_are_those_asked_for(tmp_path):

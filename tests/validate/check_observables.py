@@ -555,6 +555,31 @@ def check_tilt(run, table):
         table.add("sem of " + name, "numpy", run.sem(name), sem, 0.05 * sem)
 
 
+def check_polar(run, table):
+    frames = run.frames("polar")
+    heads = np.exp(1j * run.theta[frames])
+    mean = heads.mean(1)
+    order = np.abs(mean)
+    table.add("/polar/time_s", "trajectory", run.arrays["/polar/time_s"], run.time[frames])
+    table.add("/polar/order", "complex numbers", run.arrays["/polar/order"], order, 1e-6)
+    turned = np.angle(np.exp(1j * run.arrays["/polar/direction_rad"]) * np.conj(mean))
+    table.add("/polar/direction_rad", "complex numbers", turned, 0 * turned, 1e-6 / order)
+    v = run.velocity[frames][..., 0] + 1j * run.velocity[frames][..., 1]
+    relative = v * np.conj(heads)
+    flight = np.abs(v.mean(1)) / np.abs(v).mean(1)
+    numbers, sems = jackknife(steady_parts(run, frames), lambda some: [
+        order[some].mean(), run.n * order[some].var(), relative[some].real.mean(),
+        np.sqrt(np.mean(relative[some].real ** 2)), np.sqrt(np.mean(relative[some].imag ** 2)), flight[some].mean()])
+    names = ("P", "polar_susceptibility", "v_forward_mm_s", "v_along_rms_mm_s", "v_across_rms_mm_s",
+             "velocity_polarity")
+    speed = RELATIVE * np.abs(v).max()
+    allowed = (1e-6, 1e-4 * numbers[1], speed, speed, speed, RELATIVE)
+    for name, value, sem, one in zip(names, numbers, sems, allowed):
+        scalar(run, table, name, "complex numbers", value, allowed=one)
+        ours = run.scalars[name].get("sem_if_steady", run.sem(name))
+        table.add("sem of " + name, "complex numbers", ours, sem, 1e-3 * abs(sem) + 1e-9)
+
+
 # ---- pairs ----
 
 
@@ -1571,7 +1596,7 @@ def check_tracks(run, table, frames, plan):
 
 CHECKS = {"order": check_order, "angles": check_angles, "tilt": check_tilt, "defects": check_defects, "g2": check_g2,
           "pairs": check_pairs, "layers": check_layers, "lattice": check_lattice, "structure": check_structure,
-          "fluctuations": check_fluctuations,
+          "polar": check_polar, "fluctuations": check_fluctuations,
           "frank": check_frank, "msd": check_msd, "rotation": check_rotation, "velocity": check_velocity, "rods": check_rods}
 
 

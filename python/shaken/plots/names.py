@@ -34,6 +34,8 @@ TABLE: dict[str, tuple[str, str, str]] = {
     "c2_decay_s": ("memory", "$C_2$ to 1/e", "s"),
     "layer_order": ("order of the layers", "", ""),
     "defect_density_per_mm2": ("defects per area", "", "1/mm²"),
+    "P": ("polar order", r"$\langle P\rangle$", ""),
+    "v_forward_mm_s": ("velocity towards the head", r"$\langle v·u\rangle$", "mm/s"),
     "velocity_rms_mm_s": ("speed", r"$v_\mathrm{rms}$", "mm/s"),
     "cpu_seconds": ("CPU time", "", "s"),
     # axes and curves of observables
@@ -60,6 +62,9 @@ TABLE: dict[str, tuple[str, str, str]] = {
     "/layers/q_per_mm": ("wave number across the director", r"$q_⊥$", "1/mm"),
     "/layers/spectrum_across": ("spectrum of the layers", r"$\langle|s(q_⊥)|^2\rangle$", ""),
     "/structure/q_per_mm": ("wave number", "$q$", "1/mm"),
+    "/polar/time_s": ("time", "$t$", "s"),
+    "/polar/order": ("polar order", "$P$", ""),
+    "/polar/direction_rad": ("direction of the heads", "", "rad"),
     "/msd/lag_s": ("lag", "$t$", "s"),
     "/msd/total_mm2": ("mean square displacement", "MSD", "mm²"),
     "/msd/along_mm2": ("MSD along the director", "", "mm²"),

@@ -61,6 +61,7 @@ OBSERVABLES = (
     Observable("g2_across", "/pairs/cut/r_mm", ("/pairs/cut/g2_across",), zero=True, x_range=_FROM_ZERO),
     Observable("layers", "/layers/q_per_mm", ("/layers/spectrum_across",), x_range=_FROM_ZERO, y_range=_FROM_ZERO),
     Observable("structure", "/structure/q_per_mm", ("/structure/factor",), x_range=_FROM_ZERO, y_range=_FROM_ZERO),
+    Observable("polar_time", "/polar/time_s", ("/polar/order",), is_trace=True, x_range=_FROM_ZERO, y_range=(0, 1)),
     Observable("msd", "/msd/lag_s", ("/msd/total_mm2",), log=(True, True)),
     Observable("orientation_memory", "/rotation/lag_s", ("/rotation/c2",), log=(True, False), zero=True),
     Observable("velocity_memory", "/velocity/lag_s", ("/velocity/c_v",), log=(True, False), zero=True),

@@ -214,7 +214,7 @@ void expect_honest_errors(const ErrorCase& test, int replicas = 400) {
     // A ratio over few deaths, of which the jackknife makes too much.
     const bool over_few = name == "lasting_defect_lifetime_s";
     // Of a variance, from 44 independent samples here: a fifth too small, since the error scatters with the number.
-    const bool of_variance = test.is_correlated && (name == "binder" || name == "susceptibility");
+    const bool of_variance = test.is_correlated && (name == "binder" || name.ends_with("susceptibility"));
     EXPECT_GT(square, by_steps || over_few ? 0.0 : 1 - chance) << test.name << ": " << name;
     EXPECT_LT(square, (of_variance ? 1.5 : 1.0) + chance) << test.name << ": " << name;
   }
@@ -229,14 +229,36 @@ ErrorCase of_layers(const char* name, double share, int samples) {
   p.layers = scene::MeasureLayers{kEvery};
   p.lattice = scene::MeasureLattice{kEvery};
   p.structure = scene::MeasureStructure{kEvery, 6};
+  p.polar = scene::MeasurePolar{kEvery, scene::SamplePhases::kLocked};
   return {name,
           p,
           made_of<Redrawn>(share, Redrawn::Rod(layered)),
           samples,
-          {"order", "binder", "susceptibility", "theta_m_deg", "dip", "tilt_fastest_mm_s", "tilt_reversal_n_z",
-           "layer_order", "psi_6", "psi_6_local", "psi_6_raw", "bragg_peak", "/tilt/v_along_sem_mm_s",
-           "/tilt/v_across_sem_mm_s", "/tilt/folded/v_along_sem_mm_s", "structure_longest_wave",
-           "/structure/factor_sem", "/structure/factor_along_sem", "/structure/factor_across_sem"}};
+          {"order",
+           "binder",
+           "susceptibility",
+           "theta_m_deg",
+           "dip",
+           "tilt_fastest_mm_s",
+           "tilt_reversal_n_z",
+           "layer_order",
+           "psi_6",
+           "psi_6_local",
+           "psi_6_raw",
+           "bragg_peak",
+           "/tilt/v_along_sem_mm_s",
+           "/tilt/v_across_sem_mm_s",
+           "/tilt/folded/v_along_sem_mm_s",
+           "structure_longest_wave",
+           "/structure/factor_sem",
+           "/structure/factor_along_sem",
+           "/structure/factor_across_sem",
+           "P",
+           "polar_susceptibility",
+           "v_forward_mm_s",
+           "v_along_rms_mm_s",
+           "v_across_rms_mm_s",
+           "velocity_polarity"}};
 }
 
 TEST(ErrorBars, OfIndependentSamples) { expect_honest_errors(of_layers("independent", 1.0, 130), 200); }

@@ -65,7 +65,7 @@ Reduction reduced_spheres() {
   spheres.system.rod.length = spheres.system.rod.mid_diameter;
   Measurements measurements(spheres);
   const auto counts = measurements.counts();
-  for (const char* name : {"order", "angles", "tilt", "defects", "frank", "rotation", "pairs", "layers"}) {
+  for (const char* name : {"order", "angles", "tilt", "defects", "frank", "rotation", "pairs", "layers", "polar"}) {
     EXPECT_FALSE(counts.contains(name)) << name;
   }
   for (const char* name : {"g2", "msd", "velocity", "rods", "fluctuations", "lattice", "structure"}) {

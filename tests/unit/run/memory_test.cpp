@@ -103,6 +103,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"rods", {"measure={\"rods\": {\"every\": \"20 us\", \"count\": 100}}", "time.measure=0.1"}},
         Case{"pairs", {"measure={\"pairs\": {\"every\": \"200 us\", \"bins\": 201}}"}},
         Case{"layers", {"measure={\"layers\": {\"every\": \"200 us\"}}"}},
+        Case{"polar", {"measure={\"polar\": {\"every\": \"20 us\"}}", "time.measure=1.2", "rods.count=2"}},
         Case{"several",
              {"measure={\"order\": {}, \"g2\": {\"every\": \"100 us\", \"bins\": 5000}, \"pairs\": "
               "{\"every\": \"200 us\"}, \"rods\": {\"every\": \"20 us\", \"count\": 100}}"}}),

@@ -34,6 +34,22 @@ TEST(Remarks, AreOfWhatIsHardlyMeant) {
               IsEmpty());
 }
 
+// What points to the head says little of rods without one.
+TEST(Remarks, NamePolarOrderOfRodsWithoutHeads) {
+  const std::string none = "measure.polar: no rod that is measured has a head, so which end counts as one is arbitrary";
+  const std::string polar = R"("rods": {"profile": "polar"})";
+  const std::string added = R"("rods_2": {"count": 3, "profile": "polar"})";
+  EXPECT_THAT(remarks(plan_of(R"({"measure": {"polar": {}}})")), ElementsAre(none));
+  EXPECT_THAT(remarks(plan_of("{" + polar + R"(, "measure": {"polar": {}}})")), IsEmpty());
+  EXPECT_THAT(remarks(plan_of("{" + added + R"(, "measure": {"polar": {}}})")),
+              ElementsAre(none + "; observables are those of the first species (measure.of)"));
+  EXPECT_THAT(remarks(plan_of("{" + added + R"(, "measure": {"of": "each", "polar": {}}})")), IsEmpty());
+  EXPECT_THAT(remarks(plan_of(R"({"rods": {"beads": 1, "length": 0.8}, "measure": {"polar": {}}})")),
+              ElementsAre(HasSubstr("this is not measured: measure.polar")));
+  EXPECT_THAT(remarks(plan_of("{" + polar + R"(, "measure": {"polar": {"phases": "locked", "every": "1 s"}}})")),
+              ElementsAre(HasSubstr("measure.polar.phases \"spread\"")));
+}
+
 // A body without an axis has neither order nor defects.
 TEST(Remarks, NameWhatSpheresCannotBeMeasuredFor) {
   const std::string sphere = R"("rods": {"beads": 1, "length": 0.8})";

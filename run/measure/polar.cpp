@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "analysis/blocked.h"
+#include "analysis/polar_order.h"
+#include "run/measure/estimates.h"
+#include "run/measure/measurement_kinds.h"
+
+namespace shaken::run {
+namespace {
+
+class MeasuredPolar : public Measurement {
+ public:
+  explicit MeasuredPolar(int n_rods) : n_rods_(n_rods) {}
+
+  void sample(const Sample& sample) override {
+    const analysis::PolarOrder order = analysis::polar_order(sample->director);
+    series_.accumulate(sample->time, order);
+    statistics_.accumulate(sample->time, sample->director, sample->velocity, order);
+  }
+  void reduce(Reduction& result) const override {
+    result.arrays["/polar/time_s"] = series_.times();
+    result.arrays["/polar/order"] = series_.orders();
+    result.arrays["/polar/direction_rad"] = series_.directions();
+    const auto numbers = block_estimates(statistics_, result.t_steady, [&](const analysis::PolarStatistics& part) {
+      const analysis::PolarNumbers found = part.reduce();
+      return std::vector<double>{found.order,     n_rods_ * found.variance, found.forward,
+                                 found.along_rms, found.across_rms,         found.velocity_polarity};
+    });
+    result.scalars["P"] = numbers[0];
+    result.scalars["polar_susceptibility"] = numbers[1];
+    result.scalars["v_forward_mm_s"] = numbers[2];
+    result.scalars["v_along_rms_mm_s"] = numbers[3];
+    result.scalars["v_across_rms_mm_s"] = numbers[4];
+    result.scalars["velocity_polarity"] = numbers[5];
+  }
+  void save(StateWriter& writer) const override {
+    series_.save(writer);
+    statistics_.save(writer);
+  }
+  void restore(StateReader& reader) override {
+    series_.restore(reader);
+    statistics_.restore(reader);
+  }
+
+ private:
+  int n_rods_;
+  analysis::PolarSeries series_;
+  analysis::Blocked<analysis::PolarStatistics> statistics_{analysis::PolarStatistics()};
+};
+
+}  // namespace
+
+MeasurementKind polar_kind() {
+  return {
+      .name = "polar",
+      .sources = "polar_order",
+      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
+        return std::make_unique<MeasuredPolar>(context.plan.system.n_rods);
+      },
+      .arrays =
+          {
+              {"time_s", "times of P(t); of more than 65,536 samples, each point is a mean of several"},
+              {"order", "P(t)"},
+              {"direction_rad", "angle to the x axis of the mean direction of the heads"},
+          },
+      .numbers =
+          {
+              {"P", "mean polar order: 1 where all heads point the same way"},
+              {"polar_susceptibility", "N · var P"},
+              {"v_forward_mm_s", "mean velocity in the plane towards the head; negative: tails swim first"},
+              {"v_along_rms_mm_s", "root mean square of the velocity along the rod, in the plane"},
+              {"v_across_rms_mm_s", "that across the rod"},
+              {"velocity_polarity",
+               "speed of the mean velocity over the mean speed: 1 where all rods move the same way"},
+          },
+      .is_spread = [](const scene::RunPlan& plan) { return plan.polar->phases == scene::SamplePhases::kSpread; },
+  };
+}
+
+}  // namespace shaken::run
