@@ -25,7 +25,7 @@ Examples:
   shaken bench hard order --replicas 60          a difference half as large can be told from none, in 36 minutes
   shaken bench hard --seconds 0.02               the scenes for 20 ms of their time, without 'order': a smoke test
   shaken bench hard --out hard                   hard/hard.csv, .json and .png
-  shaken bench hard collapse --history 100       overlap, energy balance and S in 200 stretches of 100 s
+  shaken bench hard collapse --history 100       overlap, energy balance and S over 100 s, in 200 parts
 
 Exit codes: 0 all holds, 1 something does not hold, 2 bad input.)";
 

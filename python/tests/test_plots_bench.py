@@ -74,7 +74,7 @@ def _series(n: int, memory: float, seed: int) -> list[float]:
 REPORTS: dict[str, dict[str, Any]] = {
     "speed": {"rows": _speed_rows()}, "kinds": {"rows": _speed_rows()},
     "scaling n": {"rows": [{**_SCENE, "n_rods": n, "relative_cost": 1 + n / 1e4} for n in (500, 2000, 18000)]},
-    "scaling dt": {"rows": [{**_SCENE, "dt_s": 1e-6 * dt, "relative_cost": 8 / dt} for dt in (8, 4, 2, 1)]},
+    "scaling dt": {"rows": [{**_SCENE, "dt_s": 1e-6 * dt, "relative_cost": 4 / dt} for dt in (4, 32, 16, 8, 2, 1)]},
     "threads": {"rows": [{**_SCENE, "threads": n, "speed_up": n**0.7, "limit": n**0.8} for n in (1, 2, 4)]},
     "hard": {"rows": [{"case": f"case-{k % 5}", "limit": 1.0, "limit_is": "most", "margin": 3.0**k} for k in range(9)]},
     "hard history": {"rows": [{"case": name, "time_s": 5.0 * k, "S": 0.8, "max_overlap": 1e-3 * k,

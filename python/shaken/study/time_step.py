@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What the time step does to the numbers that the paper reports, and what these cost: from the study's controls.
 
-Six of the study's sets have, beside the runs at `accuracy` = "desk" (16 us), one run of the same scene at "paper"
+Some of the study's sets have, beside the runs at `accuracy` = "desk" (16 us), one run of the same scene at "paper"
 (4 us). Their differences say what the longer step does; the errors and CPU times of both say how long a run must be.
 """
 from __future__ import annotations
@@ -96,7 +96,7 @@ PRICED = (Quantity("S", "S", wanted=0.005), Quantity("θ_m", "theta_m_deg", "°"
 def differences(evidence: Evidence) -> str:
     """Numbers at 16 us less those at 4 us, as a table of Markdown.
 
-    Those of a length (S is one by itself) stand in its unit, those of D in per cent. The errors are those of both
+    S stands as it is, all others in per cent of the magnitude at 4 us. The errors are those of both
     together; where a control knows no error, that of the runs at 16 us is taken for it, for as many seconds.
     """
     lines = ["| ℓ | φ | box | Γ | runs | " + " | ".join(q.heading for q in COMPARED) + " |",
@@ -127,7 +127,8 @@ def prices(evidence: Evidence) -> str:
     heads = [f"{q.heading} {q.goal}: {step}" for q in PRICED for step in ("16 us", "4 us")]
     lines = ["| ℓ | φ | box | Γ | runs | " + " | ".join(heads) + " |", "|---" * (5 + len(heads)) + "|"]
     of_pairs = pairs(evidence)
-    for pair in [*of_pairs, *(one for one in layered(evidence) if one.where not in {pair.where for pair in of_pairs})]:
+    compared = {_scene(pair.desk[0]) for pair in of_pairs}
+    for pair in [*of_pairs, *(one for one in layered(evidence) if _scene(one.desk[0]) not in compared)]:
         cells = [_hours(runs, q) for q in PRICED for runs in (pair.desk, pair.paper)]
         lines.append(f"| {pair.where} | " + " | ".join(cells) + " |")
     return "\n".join(lines) + "\n"
