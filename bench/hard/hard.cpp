@@ -101,12 +101,14 @@ struct HardBench {
   void declare(CLI::App& app) {
     app.add_option("CASE", names, "Cases; all if none is named")->check(CLI::IsMember(case_names()).description(""));
     add_path(app, "--cases", folder, "DIR", "Folder of the scenes; configs/hard, or that of the installed files");
-    add_number(app, "--seconds", seconds, "S", {1e-4, 1e5}, "Simulated seconds of a scene, at most");
-    add_number(app, "--history", history, "S", {1e-2, 1e5},
-               "Follow the scenes for so many simulated seconds instead, and write what they do against time");
-    app.add_option("--replicas", replicas, "Runs with each order of contacts in the case order")
-        ->check(CLI::Range(2, 10000))
-        ->capture_default_str();
+    CLI::Option* shorter =
+        add_number(app, "--seconds", seconds, "S", {1e-4, 1e5}, "Simulated seconds of a scene, at most");
+    CLI::Option* followed =
+        add_number(app, "--history", history, "S", {1e-2, 1e5},
+                   "Follow the scenes for so many simulated seconds instead, and write what they do against time");
+    CLI::Option* runs = app.add_option("--replicas", replicas, "Runs with each order of contacts in the case order");
+    runs->check(CLI::Range(2, 10000))->capture_default_str();
+    followed->excludes(shorter)->excludes(runs);
     output.declare(app);
   }
 
@@ -129,16 +131,20 @@ struct HardBench {
   }
 
   ExitCode follow() const {
-    Histories histories;
+    std::string problems;
+    if (names.empty()) problems += "--history needs the name of at least one scene\n";
     for (const std::string& name : names) {
       if (std::ranges::none_of(scene_cases(), [&](const SceneCase& scene) { return scene.name == name; })) {
-        throw Failure(ExitCode::kBadInput, "--history is for scenes, which '" + name + "' is not");
+        problems += "--history is for scenes, which '" + name + "' is not\n";
       }
+    }
+    if (!problems.empty()) throw Failure(ExitCode::kBadInput, problems.substr(0, problems.size() - 1));
+    Histories histories;
+    for (const std::string& name : names) {
       const System scene = read_hard_scene(scenes(), name).system;
       ProgressLine progress(name);
       histories.add(name, history_of(scene, *history, [&](double fraction) { progress.show(fraction); }));
     }
-    if (names.empty()) throw Failure(ExitCode::kBadInput, "--history needs the name of at least one scene");
     output.give(histories.report);
     return ExitCode::kOk;
   }

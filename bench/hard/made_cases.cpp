@@ -129,9 +129,10 @@ std::vector<Outcome> ends(Simulation simulation, Tick within) {
   return outcomes;
 }
 
-MadeCase ends_at_once(const std::string& name, const std::string& what, const World& start) {
-  return {name, what, [=] { return ends(Simulation::start_from(start), 1); },
-          [=] { return std::vector<World>{start}; }};
+MadeCase ends_at_once(const std::string& name, const std::string& what, const std::vector<Flight>& rods) {
+  const auto start = [=] { return begin_with(quiet_scene(0.4), rods).world(); };
+  return {name, what, [=] { return ends(Simulation::start_from(start()), 1); },
+          [=] { return std::vector<World>{start()}; }};
 }
 
 /// Rods whose ends move at 4.5 m/s, between sticky plates that vibrate slowly and are just too weak or just strong
@@ -297,12 +298,10 @@ const std::vector<MadeCase>& made_cases() {
             false),
       {"whirling", "rods that turn 570 times a second between slow sticky plates, Gamma = 0.95 and 1.05", whirl,
        whirling},
-      ends_at_once("coincident", "two rods in the same place",
-                   begin_with(quiet_scene(0.4), {at(kNone, kX, 10 * kY), at(kNone, kX, -10 * kY)}).world()),
+      ends_at_once("coincident", "two rods in the same place", {at(kNone, kX, 10 * kY), at(kNone, kX, -10 * kY)}),
       ends_at_once("overlapping", "a start with rods half inside each other",
-                   begin_with(quiet_scene(0.4), {at(kNone, kX, kNone), at(0.4 * kY, kX, kNone)}).world()),
-      ends_at_once("through-base", "a start with a rod in the base",
-                   begin_with(quiet_scene(0.4), {thrown(Vec3(15, 15, 0.1), kX, kNone)}).world()),
+                   {at(kNone, kX, kNone), at(0.4 * kY, kX, kNone)}),
+      ends_at_once("through-base", "a start with a rod in the base", {thrown(Vec3(15, 15, 0.1), kX, kNone)}),
       {"blow-up", "Gamma = 100 with a tick 25 times too long",
        [] { return ends(Simulation::start_from(blow_up()), 2000); }, [] { return std::vector<World>{blow_up()}; }},
       {"does-not-fit", "more rods than can be placed", does_not_fit, [] { return std::vector<World>(); }},

@@ -261,7 +261,10 @@ TEST_F(Bench, HardScenesHaveAHistory) {
   EXPECT_LT(rows.at(399).at("energy_unaccounted").get<double>(), 1e-10);
   EXPECT_EQ(text_of("hard_history.png").substr(1, 3), "PNG");
   EXPECT_EQ(history({}).code, 2);
-  EXPECT_EQ(history({"row"}).code, 2) << "no scene, but rods placed by hand";
+  const Finished refused = history({"rest", "row", "upright"});
+  EXPECT_EQ(refused.code, 2) << "no scenes, but rods placed by hand";
+  EXPECT_THAT(refused.output, AllOf(HasSubstr("'row'"), HasSubstr("'upright'"), Not(HasSubstr("'rest'"))));
+  EXPECT_EQ(history({"rest", "--seconds", "1"}).code, 2);
 }
 
 TEST_F(Bench, BadArgumentsAreRefused) {

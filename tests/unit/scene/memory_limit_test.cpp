@@ -35,6 +35,20 @@ TEST(MeasureMemory, KnowsEveryObservable) {
   }
 }
 
+TEST(MeasureMemory, OfEachSpeciesIsThatOfItsRods) {
+  const std::vector<std::string> both{"measure={\"msd\": {}, \"rotation\": {}}", "rods_2.count=50", "rods_2.beads=1",
+                                      "rods_2.mid_diameter=0.8"};
+  std::vector<std::string> each = both;
+  each.push_back("measure.of=each");
+  const std::vector<MeasureMemory> first = measure_memory(plan_of(both)), all = measure_memory(plan_of(each));
+  ASSERT_EQ(first.size(), 2u);
+  ASSERT_EQ(all.size(), 2u) << "one row an observable";
+  // 100 rods and 50 spheres, of which each takes as much, beside the sums against lag
+  EXPECT_GT(all[0].state, 1.5 * first[0].state);
+  EXPECT_LT(all[0].state, 2 * first[0].state);
+  EXPECT_EQ(all[1].state, first[1].state) << "spheres do not rotate";
+}
+
 TEST(MeasureMemory, PeakIsTheStatesAndTheLargerOfCopiesAndScratch) {
   EXPECT_EQ(peak_of({}), 0);
   EXPECT_EQ(peak_of({{"a", 10, 0}, {"b", 20, 0}}), 30 + 30);
