@@ -65,14 +65,14 @@ void TrackSums::save(StateWriter& writer) const { writer.put(std::bit_cast<SumsA
 void TrackSums::restore(StateReader& reader) { *this = std::bit_cast<TrackSums>(read<SumsAsArray>(reader)); }
 
 DefectTracks::DefectTracks(const Settings& settings) : settings_(settings) {
-  SHAKEN_CHECK(settings.box_side > 0 && settings.area > 0 && settings.interval > 0 && settings.max_step > 0,
+  SHAKEN_CHECK(settings.box.shorter() > 0 && settings.area > 0 && settings.interval > 0 && settings.max_step > 0,
                "tracks need a box, samples and a cut-off");
 }
 
 Vec2 DefectTracks::shortest(const Vec2& difference) const {
   if (!settings_.periodic) return difference;
-  const double box = settings_.box_side;
-  return {std::remainder(difference.x(), box), std::remainder(difference.y(), box)};
+  const Box& box = settings_.box;
+  return {std::remainder(difference.x(), box.x()), std::remainder(difference.y(), box.y())};
 }
 
 double DefectTracks::cut_off(double charge, std::span<const Defect> defects) const {

@@ -91,7 +91,7 @@ struct TrackSummary {
 class DefectTracks {
  public:
   struct Settings {
-    double box_side;       ///< [mm]
+    Box box;
     double area;           ///< of the arena [mm^2]
     double interval;       ///< between samples [s]
     double max_step;       ///< [mm]

@@ -17,19 +17,19 @@ constexpr int kRingPoints = 32;
 /// Half turns to take off the step from angle `a` to angle `b` so that it lies in (-pi/2, pi/2].
 int half_turns(double a, double b) { return static_cast<int>(std::ceil((b - a) / kPi - 0.5)); }
 
-/// Twice the charge inside every plaquette (n * n, the plaquette with its lower left corner at node (i, j), i fastest).
+/// Twice the charge inside every plaquette (rows * columns, the plaquette with its lower left corner at node (i, j), i fastest).
 /// The four differences of angles round a plaquette cancel, so the charge is minus half the half turns taken off. Each
 /// edge is looked at once and serves its two plaquettes with opposite signs: the sum over all is zero in integers.
 std::vector<int> twice_charges(const DirectorField& field) {
-  const int n = field.n();
+  const auto [m, n] = field.grid();
   std::vector<double> theta;
   for (int j = 0; j < n; ++j) {
-    for (int i = 0; i < n; ++i) theta.push_back(field.theta(i, j));
+    for (int i = 0; i < m; ++i) theta.push_back(field.theta(i, j));
   }
   std::vector<int> charge(theta.size(), 0);
-  const auto at = [n](int i, int j) { return static_cast<std::size_t>((j + n) % n * n + (i + n) % n); };
+  const auto at = [m = m, n = n](int i, int j) { return static_cast<std::size_t>((j + n) % n * m + (i + m) % m); };
   for (int j = 0; j < n; ++j) {
-    for (int i = 0; i < n; ++i) {
+    for (int i = 0; i < m; ++i) {
       const int rightwards = half_turns(theta[at(i, j)], theta[at(i + 1, j)]);
       charge[at(i, j)] -= rightwards;      // the lower edge of this plaquette, counter-clockwise
       charge[at(i, j - 1)] += rightwards;  // the upper edge of the one below, clockwise
@@ -71,9 +71,9 @@ Vec2 core_position(const DirectorField& field, int i, int j) {
   const auto xx = bilinear(field.q_xx(i, j), field.q_xx(i + 1, j), field.q_xx(i, j + 1), field.q_xx(i + 1, j + 1));
   const auto xy = bilinear(field.q_xy(i, j), field.q_xy(i + 1, j), field.q_xy(i, j + 1), field.q_xy(i + 1, j + 1));
   const Vec2 inside = common_zero(xx, xy).value_or(Vec2(0.5, 0.5));
-  Vec2 position = (Vec2(i, j) + inside) * field.mesh();
-  for (double& x : position) {
-    if (x >= field.region().box_side()) x -= field.region().box_side();
+  Vec2 position = (Vec2(i, j) + inside).cwiseProduct(field.mesh());
+  for (int axis = 0; axis < 2; ++axis) {
+    if (position[axis] >= field.region().box()[axis]) position[axis] -= field.region().box()[axis];
   }
   return position;
 }
@@ -97,13 +97,13 @@ bool is_defined(const DirectorField& field, int i, int j) {
 /// Vromans & Giomi 2016, eq. 5.
 double core_direction(const DirectorField& field, const Defect& defect, double radius) {
   const double sign = defect.charge > 0 ? 1.0 : -1.0;
-  const double h = field.mesh();
+  const Vec2 h = field.mesh();
   double sine = 0, cosine = 0;
   for (int k = 0; k < kRingPoints; ++k) {
     const double phi = 2 * kPi * k / kRingPoints;
     const Vec2 p = defect.position + radius * Vec2(std::cos(phi), std::sin(phi));
-    const Vec2 dx = field.q_at(p + Vec2(h, 0)) - field.q_at(p - Vec2(h, 0));
-    const Vec2 dy = field.q_at(p + Vec2(0, h)) - field.q_at(p - Vec2(0, h));
+    const Vec2 dx = field.q_at(p + Vec2(h.x(), 0)) - field.q_at(p - Vec2(h.x(), 0));
+    const Vec2 dy = (field.q_at(p + Vec2(0, h.y())) - field.q_at(p - Vec2(0, h.y()))) * (h.x() / h.y());
     sine += sign * dx.y() - dy.x();
     cosine += dx.x() + sign * dy.y();
   }
@@ -115,21 +115,21 @@ double core_direction(const DirectorField& field, const Defect& defect, double r
 }  // namespace
 
 std::vector<Defect> find_defects(const DirectorField& field) {
-  const int n = field.n();
+  const auto [columns, rows] = field.grid();
   const std::vector<int> charges = twice_charges(field);
   // Within walls no plaquette reaches round the box.
-  const int plaquettes = field.region().is_periodic() ? n : n - 1;
+  const int last = field.region().is_periodic() ? 0 : 1;
   std::vector<Defect> defects;
-  for (int j = 0; j < plaquettes; ++j) {
-    for (int i = 0; i < plaquettes; ++i) {
-      const int charge = charges[static_cast<std::size_t>(j * n + i)];
+  for (int j = 0; j < rows - last; ++j) {
+    for (int i = 0; i < columns - last; ++i) {
+      const int charge = charges[static_cast<std::size_t>(j * columns + i)];
       if (charge != 0 && is_defined(field, i, j)) defects.push_back({core_position(field, i, j), 0.5 * charge, 0.0});
     }
   }
   for (std::size_t k = 0; k < defects.size(); ++k) {
     if (std::abs(defects[k].charge) != 0.5) continue;
     const double half_way = 0.5 * distance_to_next(defects, k, field.region());
-    const double radius = std::max(field.mesh(), std::min(field.smoothing(), half_way));
+    const double radius = std::max(field.mesh().maxCoeff(), std::min(field.smoothing(), half_way));
     defects[k].direction = core_direction(field, defects[k], radius);
   }
   return defects;

@@ -10,7 +10,7 @@ namespace shaken::analysis {
 
 /// A topological defect of the director field.
 struct Defect {
-  Vec2 position = Vec2::Zero();  ///< in [0, box_side) [mm]
+  Vec2 position = Vec2::Zero();  ///< in the box [mm]
   double charge = 0;             ///< +1/2 or -1/2; a tie of exactly perpendicular neighbours can give +-1
   /// Angle of the ray from the core along which the director is radial [rad]: one ray for +1/2, in [-pi, pi); one of
   /// three for -1/2, in [-pi/3, pi/3). 0 for charge +-1.

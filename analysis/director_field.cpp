@@ -42,22 +42,23 @@ void fill_reach(Reach& reach, double place, double mesh, int n, double smoothing
   }
 }
 
-/// What the Gaussian about each node finds of the nodes within the region (n * n).
-std::vector<double> covered(const std::vector<bool>& inside, int n, double mesh, double smoothing, bool periodic) {
-  const auto m = static_cast<std::size_t>(n);
-  std::vector<double> rows(m * m, 0.0), all(m * m, 0.0);
+/// What the Gaussian about each node finds of the nodes within the region (rows * columns).
+std::vector<double> covered(const std::vector<bool>& inside, const Grid& grid, const Vec2& mesh, double smoothing,
+                            bool periodic) {
+  const auto m = static_cast<std::size_t>(grid.columns), n = static_cast<std::size_t>(grid.rows);
+  std::vector<double> rows(m * n, 0.0), all(m * n, 0.0);
   Reach reach;
   for (std::size_t i = 0; i < m; ++i) {
-    fill_reach(reach, static_cast<double>(i), mesh, n, smoothing, periodic);
+    fill_reach(reach, static_cast<double>(i), mesh.x(), grid.columns, smoothing, periodic);
     for (std::size_t k = 0; k < reach.node.size(); ++k) {
       const auto from = static_cast<std::size_t>(reach.node[k]);
-      for (std::size_t j = 0; j < m; ++j) {
+      for (std::size_t j = 0; j < n; ++j) {
         if (inside[j * m + from]) rows[j * m + i] += reach.weight[k];
       }
     }
   }
-  for (std::size_t j = 0; j < m; ++j) {
-    fill_reach(reach, static_cast<double>(j), mesh, n, smoothing, periodic);
+  for (std::size_t j = 0; j < n; ++j) {
+    fill_reach(reach, static_cast<double>(j), mesh.y(), grid.rows, smoothing, periodic);
     for (std::size_t k = 0; k < reach.node.size(); ++k) {
       const std::size_t from = static_cast<std::size_t>(reach.node[k]) * m;
       for (std::size_t i = 0; i < m; ++i) all[j * m + i] += reach.weight[k] * rows[from + i];
@@ -72,20 +73,22 @@ double order_of(const Vec2& q) { return std::min(1.0, 2.0 * q.norm()); }
 
 }  // namespace
 
-int grid_nodes(double box_side, double mesh) {
-  SHAKEN_CHECK(box_side > 0.0 && mesh > 0.0, "box and mesh must be positive");
-  SHAKEN_CHECK(box_side / mesh <= kMostGridNodes, "the mesh is too fine for the box");
+Grid::Grid(const Box& box, double mesh) {
+  SHAKEN_CHECK(box.shorter() > 0.0 && mesh > 0.0, "box and mesh must be positive");
+  SHAKEN_CHECK(box.longer() / mesh <= kMostGridNodes, "the mesh is too fine for the box");
   // A mesh that divides the box must not gain a node by rounding.
-  return std::max(4, static_cast<int>(std::ceil(box_side / mesh - 1e-9)));
+  const auto nodes = [mesh](double side) { return std::max(4, static_cast<int>(std::ceil(side / mesh - 1e-9))); };
+  columns = nodes(box.x());
+  rows = nodes(box.y());
 }
 
 DirectorField::DirectorField(std::span<const Vec3> positions, std::span<const Vec3> directors, const Region& region,
-                             int n, double smoothing)
-    : n_(n), region_(region), smoothing_(smoothing) {
+                             const Grid& grid, double smoothing)
+    : grid_(grid), region_(region), smoothing_(smoothing) {
   SHAKEN_CHECK(positions.size() == directors.size(), "one position for each director");
-  SHAKEN_CHECK(n >= 2 && smoothing > 0.0, "grid and smoothing must be positive");
-  const auto n_nodes = static_cast<std::size_t>(n) * static_cast<std::size_t>(n);
-  const double box_side = region.box_side();
+  SHAKEN_CHECK(std::min(grid.columns, grid.rows) >= 2 && smoothing > 0.0, "grid and smoothing must be positive");
+  const std::size_t n_nodes = grid.nodes();
+  const Vec2 box = region.box().sides(), mesh = this->mesh();
   const bool periodic = region.is_periodic();
   q_xx_.assign(n_nodes, 0.0);
   q_xy_.assign(n_nodes, 0.0);
@@ -97,34 +100,34 @@ DirectorField::DirectorField(std::span<const Vec3> positions, std::span<const Ve
     if (angle == Vec2::Zero()) continue;
     rods += 1;
     // A Gaussian is a product, so a rod costs exponentials for its lines only, not for its nodes.
-    const Vec2 place =
-        positions[i_rod].head<2>() - box_side * (positions[i_rod].head<2>() / box_side).array().floor().matrix();
-    fill_reach(x, place.x() / mesh(), mesh(), n, smoothing, periodic);
-    fill_reach(y, place.y() / mesh(), mesh(), n, smoothing, periodic);
+    const Vec2 at = positions[i_rod].head<2>();
+    const Vec2 place = at - box.cwiseProduct(at.cwiseQuotient(box).array().floor().matrix());
+    fill_reach(x, place.x() / mesh.x(), mesh.x(), grid.columns, smoothing, periodic);
+    fill_reach(y, place.y() / mesh.y(), mesh.y(), grid.rows, smoothing, periodic);
     for (std::size_t b = 0; b < y.node.size(); ++b) {
       const std::size_t row = index(0, y.node[b]);
       for (std::size_t a = 0; a < x.node.size(); ++a) {
-        const double k = x.weight[a] * y.weight[b];
-        const std::size_t node = row + static_cast<std::size_t>(x.node[a]);
-        weight[node] += k;
-        q_xx_[node] += k * 0.5 * angle.x();
-        q_xy_[node] += k * 0.5 * angle.y();
+        const double w = x.weight[a] * y.weight[b];
+        const std::size_t k = row + static_cast<std::size_t>(x.node[a]);
+        weight[k] += w;
+        q_xx_[k] += w * 0.5 * angle.x();
+        q_xy_[k] += w * 0.5 * angle.y();
       }
     }
   }
   defined_.assign(n_nodes, true);
   if (!periodic) {
-    for (int j = 0; j < n; ++j) {
-      for (int i = 0; i < n; ++i) defined_[index(i, j)] = region.contains(Vec2(i, j) * mesh());
+    for (int j = 0; j < grid.rows; ++j) {
+      for (int i = 0; i < grid.columns; ++i) defined_[index(i, j)] = region.contains(node(i, j));
     }
   }
   const auto inside = static_cast<double>(std::count(defined_.begin(), defined_.end(), true));
-  const std::vector<double> room = covered(defined_, n, mesh(), smoothing, periodic);
-  for (std::size_t node = 0; node < n_nodes; ++node) {
-    if (!(weight[node] * inside >= kFloor * rods * room[node] && weight[node] > 0.0)) defined_[node] = false;
-    if (weight[node] == 0.0) continue;
-    q_xx_[node] /= weight[node];
-    q_xy_[node] /= weight[node];
+  const std::vector<double> room = covered(defined_, grid, mesh, smoothing, periodic);
+  for (std::size_t k = 0; k < n_nodes; ++k) {
+    if (!(weight[k] * inside >= kFloor * rods * room[k] && weight[k] > 0.0)) defined_[k] = false;
+    if (weight[k] == 0.0) continue;
+    q_xx_[k] /= weight[k];
+    q_xy_[k] /= weight[k];
   }
 }
 
@@ -133,7 +136,7 @@ double DirectorField::theta(int i, int j) const { return theta_of({q_xx(i, j), q
 double DirectorField::order(int i, int j) const { return order_of({q_xx(i, j), q_xy(i, j)}); }
 
 Vec2 DirectorField::q_at(const Vec2& position) const {
-  const Vec2 place = position / mesh();
+  const Vec2 place = position.cwiseQuotient(mesh());
   const Vec2 corner(std::floor(place.x()), std::floor(place.y()));
   const Vec2 part = place - corner;
   const int i = static_cast<int>(corner.x());
@@ -144,10 +147,10 @@ Vec2 DirectorField::q_at(const Vec2& position) const {
 }
 
 std::size_t DirectorField::index(int i, int j) const {
-  const auto on_grid = [this](int k) {
-    return static_cast<std::size_t>(region_.is_periodic() ? wrapped(k, n_) : std::clamp(k, 0, n_ - 1));
+  const auto on_grid = [this](int k, int n) {
+    return static_cast<std::size_t>(region_.is_periodic() ? wrapped(k, n) : std::clamp(k, 0, n - 1));
   };
-  return on_grid(j) * static_cast<std::size_t>(n_) + on_grid(i);
+  return on_grid(j, grid_.rows) * static_cast<std::size_t>(grid_.columns) + on_grid(i, grid_.columns);
 }
 
 }  // namespace shaken::analysis

@@ -11,14 +11,22 @@ namespace shaken::analysis {
 
 /// More nodes in one direction no grid has: a field of them would take terabytes.
 inline constexpr int kMostGridNodes = 1'000'000;
-/// Nodes of the coarsest square grid over `box_side` whose mesh is at most `mesh` (both [mm]); at least 4.
-int grid_nodes(double box_side, double mesh);
+/// Numbers of nodes of a grid over a box.
+struct Grid {
+  /// Not explicit: n to each side.
+  Grid(int n) : columns(n), rows(n) {}
+  /// The coarsest whose meshes are at most `mesh` [mm] wide and high; at least 4 nodes each way.
+  Grid(const Box& box, double mesh);
+  std::size_t nodes() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
 
-/// The smoothed in-plane order tensor on a square grid of n x n nodes over the box,
+  int columns, rows;  ///< along x and y
+};
+
+/// The smoothed in-plane order tensor on a grid over the box,
 ///   Q_ab(x) = sum_i K(x - x_i) (n_a n_b - delta_ab / 2) / sum_i K(x - x_i),
 /// n being the unit in-plane direction of rod i and K a Gaussian of standard deviation `smoothing`, cut at four of
 /// them. Q_xx = (S/2) cos 2 theta and Q_xy = (S/2) sin 2 theta give the local order S and the director's angle theta.
-/// Node (i, j) lies at x = i * mesh, y = j * mesh; i and j may be any integer. In a periodic box the grid is periodic;
+/// Node (i, j) lies at node(i, j); i and j may be any integer. In a periodic box the grid is periodic;
 /// within walls no rod is smoothed across the border of the box, and nodes beyond it are those at it.
 ///
 /// Where there are no rods there is no director. The density at a node is what the Gaussian finds of rods over what it
@@ -31,13 +39,14 @@ class DirectorField {
 
   /// From centres (n_rods) [mm], anywhere (wrapped here), and directors (n_rods). Rods exactly upright are left out; a
   /// node that no rod reaches has Q = 0.
-  DirectorField(std::span<const Vec3> positions, std::span<const Vec3> directors, const Region& region, int n,
-                double smoothing);
+  DirectorField(std::span<const Vec3> positions, std::span<const Vec3> directors, const Region& region,
+                const Grid& grid, double smoothing);
 
-  int n() const { return n_; }
+  const Grid& grid() const { return grid_; }
   const Region& region() const { return region_; }
-  double mesh() const { return region_.box_side() / n_; }  ///< [mm]
-  double smoothing() const { return smoothing_; }          ///< [mm]
+  Vec2 mesh() const { return {region_.box().x() / grid_.columns, region_.box().y() / grid_.rows}; }  ///< each way [mm]
+  Vec2 node(int i, int j) const { return mesh().cwiseProduct(Vec2(i, j)); }  ///< [mm]
+  double smoothing() const { return smoothing_; }                            ///< [mm]
 
   double q_xx(int i, int j) const { return q_xx_[index(i, j)]; }
   double q_xy(int i, int j) const { return q_xy_[index(i, j)]; }
@@ -52,11 +61,11 @@ class DirectorField {
  private:
   std::size_t index(int i, int j) const;
 
-  int n_;
+  Grid grid_;
   Region region_;
   double smoothing_;
-  std::vector<double> q_xx_, q_xy_;  // (n * n), i fastest
-  std::vector<bool> defined_;        // (n * n)
+  std::vector<double> q_xx_, q_xy_;  // (rows * columns), i fastest
+  std::vector<bool> defined_;        // (rows * columns)
 };
 
 }  // namespace shaken::analysis

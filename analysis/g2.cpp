@@ -28,15 +28,15 @@ OrientationCorrelation::OrientationCorrelation(int bins, double r_max)
 void OrientationCorrelation::accumulate(std::span<const Vec3> positions, std::span<const Vec3> directors,
                                         const Region& region) {
   SHAKEN_CHECK(positions.size() == directors.size(), "one position for each director");
-  const double box_side = region.box_side();
-  SHAKEN_CHECK(!region.is_periodic() || 2.0 * r_max_ <= box_side * (1.0 + 1e-12),
+  const Box& box = region.box();
+  SHAKEN_CHECK(!region.is_periodic() || 2.0 * r_max_ <= box.shorter() * (1.0 + 1e-12),
                "distances beyond half the box have no nearest image");
   std::vector<double> xs, ys, cs, ss;
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const Vec2 angle = double_angle(directors[i]);
     if (angle == Vec2::Zero()) continue;
-    xs.push_back(wrapped(positions[i].x(), box_side));
-    ys.push_back(wrapped(positions[i].y(), box_side));
+    xs.push_back(wrapped(positions[i].x(), box.x()));
+    ys.push_back(wrapped(positions[i].y(), box.y()));
     cs.push_back(angle.x());
     ss.push_back(angle.y());
   }
@@ -44,7 +44,8 @@ void OrientationCorrelation::accumulate(std::span<const Vec3> positions, std::sp
   const double bins_per_mm = static_cast<double>(pairs_.size()) / r_max_;
   const std::size_t stride = std::max<std::size_t>(1, (n + kMaxReferencesOfG2 - 1) / kMaxReferencesOfG2);
   // Within walls no image is nearer.
-  const double period = region.is_periodic() ? box_side : std::numeric_limits<double>::infinity();
+  const Box period = region.is_periodic() ? box : Box(std::numeric_limits<double>::infinity());
+  const double period_x = period.x(), period_y = period.y();
   // In two passes, the first without branches: it becomes vector instructions. What is too far goes into a bin of its
   // own.
   const auto too_far = static_cast<int>(pairs_.size());
@@ -58,7 +59,7 @@ void OrientationCorrelation::accumulate(std::span<const Vec3> positions, std::sp
     const double xi = xs[i], yi = ys[i], ci = cs[i], si = ss[i];
     for (std::size_t j = 0; j < n; ++j) {
       const double dx = std::abs(xi - xs[j]), dy = std::abs(yi - ys[j]);
-      const double x = std::min(dx, period - dx), y = std::min(dy, period - dy);
+      const double x = std::min(dx, period_x - dx), y = std::min(dy, period_y - dy);
       bins[j] = std::min(static_cast<int>(std::sqrt(x * x + y * y) * bins_per_mm), too_far);
       values[j] = ci * cs[j] + si * ss[j];
     }

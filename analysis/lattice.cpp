@@ -71,7 +71,7 @@ std::complex<double> psi_6(const Bonds& bonds) {
 }  // namespace
 
 LatticeOrder::LatticeOrder(const Shape& shape) : shape_(shape) {
-  SHAKEN_CHECK(shape.box_side > 0 && shape.ratio > 0, "a box and rods with a shape");
+  SHAKEN_CHECK(shape.box.shorter() > 0 && shape.ratio > 0, "a box and rods with a shape");
   SHAKEN_CHECK(shape.shortest > 0 && shape.longest > shape.shortest, "wavelengths to look at");
 }
 
@@ -79,13 +79,13 @@ void LatticeOrder::accumulate(std::span<const Vec3> positions, std::span<const V
   SHAKEN_CHECK(positions.size() == directors.size(), "one position for each director");
   const std::size_t n = positions.size();
   if (n == 0) return;
-  const double box = shape_.box_side;
+  const Box& box = shape_.box;
   const double director = nematic_order(directors).director;
   const double cosine = std::cos(director), sine = std::sin(director);
   std::vector<double> xs(n), ys(n);
   for (std::size_t i = 0; i < n; ++i) {
-    xs[i] = wrapped(positions[i].x(), box);
-    ys[i] = wrapped(positions[i].y(), box);
+    xs[i] = wrapped(positions[i].x(), box.x());
+    ys[i] = wrapped(positions[i].y(), box.y());
   }
   const std::vector<std::size_t> rods = references(n, calls_++);
   std::vector<Vec2> places;
@@ -99,7 +99,7 @@ void LatticeOrder::accumulate(std::span<const Vec3> positions, std::span<const V
     Bonds raw(n), compressed(n);
     for (const std::size_t i : rods) {
       for (std::size_t j = 0; j < n; ++j) {
-        const double dx = nearest_image(xs[j] - xs[i], box), dy = nearest_image(ys[j] - ys[i], box);
+        const double dx = nearest_image(xs[j] - xs[i], box.x()), dy = nearest_image(ys[j] - ys[i], box.y());
         raw.x[j] = dx * cosine + dy * sine;
         raw.y[j] = dy * cosine - dx * sine;
         raw.square[j] = dx * dx + dy * dy;
@@ -118,16 +118,14 @@ void LatticeOrder::accumulate(std::span<const Vec3> positions, std::span<const V
     sums_.psi_6_raw += std::abs(raw_sum) / n_places;
   }
 
-  const double most = box / shape_.shortest, fewest = box / shape_.longest;
-  const int waves = std::max(1, static_cast<int>(std::min<double>(most, kMostPeakWaves)));
-  const WavePowers powers = wave_powers(places, std::vector<double>(places.size(), 1.0), box, waves);
+  const double most = box.longer() / shape_.shortest, fewest = box.longer() / shape_.longest;
+  const WaveVectors vectors(box, std::max(1, static_cast<int>(std::min<double>(most, kMostPeakWaves))));
+  const std::vector<double> powers = wave_powers(places, std::vector<double>(places.size(), 1.0), vectors);
   double largest = 0;
-  for (int m = 0; m <= waves; ++m) {
-    for (int k = -waves; k <= waves; ++k) {
-      const double length = std::hypot(m, k);
-      if (length >= fewest && length <= most && length > 0) largest = std::max(largest, powers.at(m, k));
-    }
-  }
+  vectors.for_each([&](int m, int k, const Vec2& q) {
+    const double length = std::hypot(q.x(), q.y());
+    if (length >= fewest && length <= most) largest = std::max(largest, powers[vectors.index(m, k)]);
+  });
   sums_.bragg_peak += largest / (n_places * n_places);
   ++samples_;
 }

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "analysis/summed.h"
+#include "base/core/box.h"
 #include "base/core/types.h"
 
 namespace shaken::analysis {
@@ -38,13 +39,13 @@ struct LatticeMeans {
 class LatticeOrder : public Summed<LatticeOrder> {
  public:
   struct Shape {
-    double box_side;  ///< [mm]
+    Box box;
     double ratio;     ///< of a rod's length to its width; distances along the director are divided by it
-    double shortest;  ///< wavelength [mm]; at most 128 waves to the side of the box are looked at
+    double shortest;  ///< wavelength [mm]; at most 128 waves to the longer side of the box are looked at
     double longest;   ///< [mm]
     friend bool operator==(const Shape&, const Shape&) = default;
     static constexpr auto fields() {
-      return std::tuple(&Shape::box_side, &Shape::ratio, &Shape::shortest, &Shape::longest);
+      return std::tuple(&Shape::box, &Shape::ratio, &Shape::shortest, &Shape::longest);
     }
   };
   explicit LatticeOrder(const Shape& shape);

@@ -20,33 +20,15 @@ constexpr int kMostLayerWaves = 40;
 /// Half the opening of a cone of wave vectors about an axis.
 constexpr double kCone = kPi / 6;
 
-/// The wave vectors of a half plane, |(m, n)| <= waves, one of each pair: visit(m, n, |(m, n)|).
-template <class Visitor>
-void for_half_plane(int waves, const Visitor& visit) {
-  for (int m = 0; m <= waves; ++m) {
-    for (int n = m == 0 ? 1 : -waves; n <= waves; ++n) {
-      const double length = std::hypot(m, n);
-      if (length <= waves) visit(m, n, length);
-    }
-  }
-}
-
 }  // namespace
 
-LayerOrder::LayerOrder(double box_side, double shortest) : box_side_(box_side), waves_(kMostLayerWaves) {
-  SHAKEN_CHECK(box_side > 0 && shortest > 0, "a box and waves in it");
-  if (box_side / shortest < kMostLayerWaves) waves_ = std::max(1, static_cast<int>(box_side / shortest));
-  const auto waves = static_cast<std::size_t>(waves_);
-  amplitudes_.resize((waves + 1) * (2 * waves + 1));
-  within_.resize(amplitudes_.size());
-  across_.resize(waves);
-  along_.resize(waves);
-  n_across_.resize(waves);
-  n_along_.resize(waves);
-}
-
-std::size_t LayerOrder::index(int m, int n) const {
-  return static_cast<std::size_t>(m) * static_cast<std::size_t>(2 * waves_ + 1) + static_cast<std::size_t>(n + waves_);
+LayerOrder::LayerOrder(const Box& box, double shortest)
+    : vectors_(box, std::max(1, static_cast<int>(std::min<double>(kMostLayerWaves, box.longer() / shortest)))),
+      amplitudes_(vectors_.size()),
+      within_(vectors_.size()) {
+  SHAKEN_CHECK(shortest > 0, "waves have a length");
+  for (auto* sums : {&across_, &along_}) sums->resize(static_cast<std::size_t>(vectors_.waves));
+  for (auto* terms : {&n_across_, &n_along_}) terms->resize(static_cast<std::size_t>(vectors_.waves));
 }
 
 void LayerOrder::accumulate(std::span<const Vec3> positions, std::span<const Vec3> directors) {
@@ -65,18 +47,21 @@ void LayerOrder::accumulate(std::span<const Vec3> positions, std::span<const Vec
     squares += turns.back() * turns.back();
   }
   if (places.empty()) return;
-  const WavePowers powers = wave_powers(places, turns, box_side_, waves_);
+  const std::vector<double> powers = wave_powers(places, turns, vectors_);
   const auto n_rods = static_cast<double>(places.size());
   const double nearest = std::cos(kCone);
-  for_half_plane(waves_, [&](int m, int n, double length) {
-    const double per_rod = powers.at(m, n) / n_rods;
+  vectors_.for_each([&](int m, int n, const Vec2& q) {
+    const double length = std::hypot(q.x(), q.y());
+    if (length > vectors_.waves) return;
+    const std::size_t vector = vectors_.index(m, n);
+    const double per_rod = powers[vector] / n_rods;
     const auto shell = static_cast<std::size_t>(std::lround(length)) - 1;
-    if (std::abs(n * cosine - m * sine) >= nearest * length) {
-      amplitudes_[index(m, n)] += 4 * per_rod / n_rods;
-      ++within_[index(m, n)];
+    if (std::abs(q.y() * cosine - q.x() * sine) >= nearest * length) {
+      amplitudes_[vector] += 4 * per_rod / n_rods;
+      ++within_[vector];
       across_[shell] += per_rod;
       ++n_across_[shell];
-    } else if (std::abs(m * cosine + n * sine) >= nearest * length) {
+    } else if (std::abs(q.x() * cosine + q.y() * sine) >= nearest * length) {
       along_[shell] += per_rod;
       ++n_along_[shell];
     }
@@ -91,7 +76,7 @@ LayerSpectrum LayerOrder::reduce() const {
     return n > 0 ? sum / static_cast<double>(n) : std::numeric_limits<double>::quiet_NaN();
   };
   for (std::size_t shell = 0; shell < across_.size(); ++shell) {
-    spectrum.q.push_back(2 * kPi * static_cast<double>(shell + 1) / box_side_);
+    spectrum.q.push_back(vectors_.wave_number(static_cast<double>(shell + 1)));
     spectrum.across.push_back(mean(across_[shell], n_across_[shell]));
     spectrum.along.push_back(mean(along_[shell], n_along_[shell]));
   }
@@ -100,8 +85,8 @@ LayerSpectrum LayerOrder::reduce() const {
 
 std::optional<std::size_t> LayerOrder::find(int m, int n) const {
   if (m < 0 || (m == 0 && n < 0)) return find(-m, -n);
-  if (m > waves_ || std::abs(n) > waves_) return std::nullopt;
-  return index(m, n);
+  if (m > vectors_.most_m || std::abs(n) > vectors_.most_n) return std::nullopt;
+  return vectors_.index(m, n);
 }
 
 double LayerOrder::power(int m, int n) const {
@@ -117,8 +102,8 @@ std::optional<double> LayerOrder::power_within(int m, int n, std::int64_t at_lea
 
 std::optional<LayerPeak> LayerOrder::peak() const {
   if (samples_ == 0) return std::nullopt;
-  int best_m = 0, best_n = 1;
-  for_half_plane(waves_, [&](int m, int n, double) {
+  int best_m = vectors_.most_n > 0 ? 0 : 1, best_n = vectors_.most_n > 0 ? 1 : 0;
+  vectors_.for_each([&](int m, int n, const Vec2&) {
     if (power(m, n) > power(best_m, best_n)) {
       best_m = m;
       best_n = n;
@@ -128,10 +113,10 @@ std::optional<LayerPeak> LayerOrder::peak() const {
 }
 
 LayerPeak LayerOrder::peak_at(int m, int n) const {
-  SHAKEN_CHECK(m >= 0 && m <= waves_ && std::abs(n) <= waves_ && (m != 0 || n != 0), "a wave vector that is kept");
-  const std::int64_t often = std::max<std::int64_t>(1, (within_[index(m, n)] + 1) / 2);
+  SHAKEN_CHECK(m >= 0 && find(m, n) && (m != 0 || n != 0), "a wave vector that is kept");
+  const std::int64_t often = std::max<std::int64_t>(1, (within_[vectors_.index(m, n)] + 1) / 2);
   double weight = power_within(m, n, often).value_or(0.0);
-  Vec2 mean = weight * Vec2(m, n);
+  Vec2 mean = weight * vectors_.at(m, n);
   constexpr std::array<std::pair<int, int>, 4> kNeighbours{{{1, 0}, {0, 1}, {1, 1}, {1, -1}}};
   for (const auto& [dm, dn] : kNeighbours) {
     // The mean over the box, (0, 0), is no wave; without it its opposite is left out as well.
@@ -140,11 +125,13 @@ LayerPeak LayerOrder::peak_at(int m, int n) const {
     const std::optional<double> before = power_within(m - dm, n - dn, often);
     if (!after || !before) continue;
     weight += *after + *before;
-    mean += *after * Vec2(m + dm, n + dn) + *before * Vec2(m - dm, n - dn);
+    mean += *after * vectors_.at(m + dm, n + dn) + *before * vectors_.at(m - dm, n - dn);
   }
-  const double waves = weight > 0 ? mean.norm() / weight : std::hypot(m, n);
+  const Vec2 q = vectors_.at(m, n);
+  const double waves = weight > 0 ? mean.norm() / weight : std::hypot(q.x(), q.y());
+  const double side = std::abs(q.x()) > std::abs(q.y()) ? vectors_.box.x() : vectors_.box.y();
   const double floor = samples_ > 0 ? floor_ / static_cast<double>(samples_) : 0.0;
-  return {m, n, box_side_ / waves, std::sqrt(power(m, n)), std::sqrt(floor)};
+  return {m, n, side, vectors_.box.longer() / waves, std::sqrt(power(m, n)), std::sqrt(floor)};
 }
 
 }  // namespace shaken::analysis

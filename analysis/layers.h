@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "analysis/summed.h"
+#include "analysis/wave_sums.h"
+#include "base/core/box.h"
 #include "base/core/types.h"
 
 namespace shaken::analysis {
@@ -17,14 +19,15 @@ namespace shaken::analysis {
 /// wave vectors of the box within half a step of q and within 30 degrees of an axis. All of shape (shells); NaN where
 /// the box has no such wave vector. Without correlation it is <s^2>.
 struct LayerSpectrum {
-  std::vector<double> q;       ///< 2 pi k / L, k = 1, 2, ... [rad/mm]
+  std::vector<double> q;       ///< 2 pi k / L of the longer side, k = 1, 2, ... [rad/mm]
   std::vector<double> across;  ///< wave vectors along the normal to the director
   std::vector<double> along;   ///< along the director
 };
 
 /// A wave of the rods' angle to the nematic director, across that director.
 struct LayerPeak {
-  int m = 0, n = 0;       ///< the wave vector 2 pi (m, n) / L with the most power
+  int m = 0, n = 0;       ///< the wave vector 2 pi (m / L_x, n / L_y) with the most power
+  double side = 0;        ///< of the box, the one that the wave vector lies along more than along the other [mm]
   double wavelength = 0;  ///< [mm]; of the mean wave vector, see below
   double order = 0;       ///< 2 |sum_i s_i exp(-i q . r_i)| / N, root mean square over time
   double floor = 0;       ///< 2 sqrt(<s^2> / N), the order without layers or any other correlation
@@ -40,14 +43,14 @@ struct LayerPeak {
 /// (0.435 at 10 degrees), 2 sqrt(<s^2> / N) without layers, somewhat more as the peak is the largest of many. Layers
 /// that turn out of the cone count as none while they do. Waves must divide the box, so that wavelengths come in steps
 /// of about lambda^2 / L, and the one that rods would have in a box without end is known no better than to
-/// lambda^2 / (L sqrt(12)), the spread over one step: quote L / lambda. The wavelength is that of the mean of the
+/// lambda^2 / (L sqrt(12)), the spread over one step: quote L / lambda, L being the side of the box across the layers. The wavelength is that of the mean of the
 /// peak's wave vector and its neighbours (m +- 1, n +- 1), each with its mean power while it was within the cone, in
 /// opposite pairs so that a flat background does not move it; pairs of which one was there for less than half as long
 /// as the peak are left out. A wavelength near L is the long-wave bend of a nematic, not layers.
 class LayerOrder : public Summed<LayerOrder> {
  public:
-  /// Waves no shorter than `shortest` [mm], and at most 40 of them to the box's side `box_side` [mm].
-  LayerOrder(double box_side, double shortest);
+  /// Waves no shorter than `shortest` [mm], and at most 40 of them to the longer side of the box.
+  LayerOrder(const Box& box, double shortest);
 
   /// Centres (n_rods) [mm] and directors (n_rods). Rods exactly upright are left out; without any other, nothing
   /// counts.
@@ -60,7 +63,7 @@ class LayerOrder : public Summed<LayerOrder> {
 
   static constexpr std::string_view kName = "LayerOrder";
   static constexpr auto fields() {
-    return std::tuple(Setting{"box", &LayerOrder::box_side_}, &LayerOrder::samples_, &LayerOrder::floor_,
+    return std::tuple(Setting{"box", &LayerOrder::vectors_}, &LayerOrder::samples_, &LayerOrder::floor_,
                       &LayerOrder::amplitudes_, &LayerOrder::within_, &LayerOrder::across_, &LayerOrder::along_,
                       &LayerOrder::n_across_, &LayerOrder::n_along_);
   }
@@ -68,18 +71,16 @@ class LayerOrder : public Summed<LayerOrder> {
  private:
   /// A wave vector that is kept has a place in the tables, as has its opposite.
   std::optional<std::size_t> find(int m, int n) const;
-  std::size_t index(int m, int n) const;
   /// Mean of 4 |sum|^2 / N^2, which is 0 while the wave vector is out of the cone; 0 beyond those that are kept.
   double power(int m, int n) const;
   /// The mean over the samples with the wave vector within the cone; none where they are fewer than `at_least`.
   std::optional<double> power_within(int m, int n, std::int64_t at_least) const;
 
-  double box_side_;
-  int waves_;
+  WaveVectors vectors_;
   std::int64_t samples_ = 0;
   double floor_ = 0;                    // sum over samples of 4 <s^2> / N
-  std::vector<double> amplitudes_;      // (waves + 1, 2 waves + 1), sum over samples of 4 |sum|^2 / N^2 within the cone
-  std::vector<std::int64_t> within_;    // (waves + 1, 2 waves + 1), samples with the wave vector within the cone
+  std::vector<double> amplitudes_;      // (vectors), sum over samples of 4 |sum|^2 / N^2 within the cone
+  std::vector<std::int64_t> within_;    // (vectors), samples with the wave vector within the cone
   std::vector<double> across_, along_;  // (shells) sums of |sum|^2 / N
   std::vector<std::int64_t> n_across_, n_along_;  // (shells) terms of them
 };

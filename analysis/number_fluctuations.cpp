@@ -34,16 +34,16 @@ double slope(std::span<const double> x, std::span<const double> y, std::span<con
 
 }  // namespace
 
-NumberFluctuations::NumberFluctuations(double box_side, double area, double fit_from, const Where& counts)
-    : box_side_(box_side), fit_from_(fit_from) {
-  SHAKEN_CHECK(box_side > 0 && area > 0, "a box without room");
+NumberFluctuations::NumberFluctuations(const Box& box, double area, double fit_from, const Where& counts)
+    : box_(box), fit_from_(fit_from) {
+  SHAKEN_CHECK(box.shorter() > 0 && area > 0, "a box without room");
   std::size_t n_boxes = 0;
   for (const int m : kDivisions) {
-    const double side = box_side / m;
-    Size size{m, side * side / area, {}, n_boxes, 0};
+    const Vec2 sides = box.sides() / m;
+    Size size{m, sides.prod() / area, {}, n_boxes, 0};
     for (int j = 0; j < m; ++j) {
       for (int i = 0; i < m; ++i) {
-        const bool here = !counts || counts(Vec2(i + 0.5, j + 0.5) * side, side);
+        const bool here = !counts || counts(sides.cwiseProduct(Vec2(i + 0.5, j + 0.5)), sides.x());
         size.place.push_back(here ? static_cast<std::int32_t>(size.n_boxes++) : -1);
       }
     }
@@ -58,7 +58,7 @@ void NumberFluctuations::accumulate(std::span<const Vec3> positions) {
   std::vector<Vec2> places;  // in [0, 1) of the box
   places.reserve(positions.size());
   for (const Vec3& position : positions) {
-    const Vec2 place = position.head<2>() / box_side_;
+    const Vec2 place = position.head<2>().cwiseQuotient(box_.sides());
     if (!place.allFinite()) continue;
     places.emplace_back(place.x() - std::floor(place.x()), place.y() - std::floor(place.y()));
   }
@@ -98,7 +98,7 @@ NumberFluctuations::Moments NumberFluctuations::moments(const Size& size) const 
 }
 
 bool NumberFluctuations::is_fitted(const Size& size) const {
-  return box_side_ / size.divisions >= fit_from_ * (1 - 1e-9) && size.area_fraction <= kFitTo * (1 + 1e-9);
+  return box_.shorter() / size.divisions >= fit_from_ * (1 - 1e-9) && size.area_fraction <= kFitTo * (1 + 1e-9);
 }
 
 /// Mean and both spreads of each size, then the two exponents.

@@ -11,6 +11,7 @@
 #include "analysis/blocked.h"
 #include "analysis/jackknife.h"
 #include "analysis/summed.h"
+#include "base/core/box.h"
 #include "base/core/types.h"
 
 namespace shaken::analysis {
@@ -29,7 +30,7 @@ struct NumberFluctuationCurve {
   std::size_t fitted = 0;
 };
 
-/// Giant number fluctuations: the square periodic box is cut into m x m boxes, m = 2, 3, 4, 5, 6, 8, 10, 12, 16, 20,
+/// Giant number fluctuations: the periodic box is cut into m x m boxes of its shape, m = 2, 3, 4, 5, 6, 8, 10, 12, 16, 20,
 /// and the centres in each are counted. A sample costs ten divisions a rod; the memory is 17 kB whatever the number of
 /// samples.
 class NumberFluctuations : public Summed<NumberFluctuations> {
@@ -39,10 +40,10 @@ class NumberFluctuations : public Summed<NumberFluctuations> {
 
   /// `counts(centre, side)` says whether a box counts: only those wholly inside of walls should. Without it all do.
   /// `area` is that of the arena [mm^2], the box's without walls.
-  /// Exponents are fitted to boxes of side `fit_from` [mm] or more: two rod lengths, as what is smaller counts single
+  /// `side` is that along x. Exponents are fitted to boxes whose shorter side is `fit_from` [mm] or more: two rod lengths, as what is smaller counts single
   /// rods and their perimeters, not density.
   using Where = std::function<bool(const Vec2& centre, double side)>;
-  NumberFluctuations(double box_side, double area, double fit_from, const Where& counts = {});
+  NumberFluctuations(const Box& box, double area, double fit_from, const Where& counts = {});
 
   /// Centres (n_rods) [mm], in the box or one of its images; not finite ones are left out.
   void accumulate(std::span<const Vec3> positions);
@@ -59,7 +60,7 @@ class NumberFluctuations : public Summed<NumberFluctuations> {
 
   static constexpr std::string_view kName = "NumberFluctuations";
   static constexpr auto fields() {
-    return std::tuple(Setting{"box", &NumberFluctuations::box_side_}, &NumberFluctuations::samples_,
+    return std::tuple(Setting{"box", &NumberFluctuations::box_}, &NumberFluctuations::samples_,
                       &NumberFluctuations::sums_, &NumberFluctuations::squares_);
   }
 
@@ -77,7 +78,8 @@ class NumberFluctuations : public Summed<NumberFluctuations> {
   bool is_fitted(const Size& size) const;
   std::vector<double> numbers() const;
 
-  double box_side_, fit_from_;
+  Box box_;
+  double fit_from_;
   std::vector<Size> sizes_;
   std::int64_t samples_ = 0;
   std::vector<std::int64_t> sums_, squares_;  // (boxes that count) of N and N^2 over the samples

@@ -18,7 +18,7 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Bins of a cut: their far corners lie within half the box.
 std::size_t cut_bins(const PairMap::Shape& shape) {
-  const double half_box = shape.box_side / 2, half_strip = shape.strip / 2;
+  const double half_box = shape.box.shorter() / 2, half_strip = shape.strip / 2;
   const double reach = std::sqrt(std::max(half_box * half_box - half_strip * half_strip, 0.0));
   return static_cast<std::size_t>(reach * shape.bins / (2 * shape.range));
 }
@@ -33,20 +33,20 @@ PairMap::PairMap(const Shape& shape)
       cut_along_(cut_bins(shape)),
       cut_across_(cut_along_.pairs.size()) {
   SHAKEN_CHECK(shape.bins >= 1 && shape.range > 0 && shape.strip > 0, "bins, range and strip must not be empty");
-  SHAKEN_CHECK(2 * shape.range <= shape.box_side * (1 + 1e-12), "distances beyond half the box have no nearest image");
+  SHAKEN_CHECK(2 * shape.range <= shape.box.shorter() * (1 + 1e-12), "distances beyond half the box have no nearest image");
 }
 
 void PairMap::accumulate(std::span<const Vec3> positions, std::span<const Vec3> directors) {
   SHAKEN_CHECK(positions.size() == directors.size(), "one position for each director");
-  const double box = shape_.box_side;
+  const Box& box = shape_.box;
   const double director = nematic_order(directors).director;
   const double cosine = std::cos(director), sine = std::sin(director);
   std::vector<double> xs, ys, cs, ss;
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const Vec2 angle = double_angle(directors[i]);
     if (angle == Vec2::Zero()) continue;
-    xs.push_back(wrapped(positions[i].x(), box));
-    ys.push_back(wrapped(positions[i].y(), box));
+    xs.push_back(wrapped(positions[i].x(), box.x()));
+    ys.push_back(wrapped(positions[i].y(), box.y()));
     cs.push_back(angle.x());
     ss.push_back(angle.y());
   }
@@ -69,7 +69,7 @@ void PairMap::accumulate(std::span<const Vec3> positions, std::span<const Vec3> 
     partners_ += static_cast<double>(n - 1);  // a rod makes no pair with itself
     const double xi = xs[i], yi = ys[i];
     for (std::size_t j = 0; j < n; ++j) {
-      const double dx = nearest_image(xs[j] - xi, box), dy = nearest_image(ys[j] - yi, box);
+      const double dx = nearest_image(xs[j] - xi, box.x()), dy = nearest_image(ys[j] - yi, box.y());
       alongs[j] = dx * cosine + dy * sine;
       acrosses[j] = dy * cosine - dx * sine;
     }
@@ -97,14 +97,14 @@ PairCurves PairMap::reduce() const {
   }
   curves.across = curves.along;
   const auto ratio = [](double a, double b) { return b > 0 ? a / b : kUnknown; };
-  const double per_area = partners_ / (shape_.box_side * shape_.box_side);
+  const double per_area = partners_ / shape_.box.area();
   for (std::size_t row = 0; row < bins_; ++row) {
     for (std::size_t column = 0; column < bins_; ++column) {
       // the other way round: (n - 1 - row, n - 1 - column)
       const std::size_t bin = row * bins_ + column, mirrored = bins_ * bins_ - 1 - bin;
       const double far =
           std::hypot(std::abs(curves.across[row]) + width_ / 2, std::abs(curves.along[column]) + width_ / 2);
-      const bool known = far <= shape_.box_side / 2;
+      const bool known = far <= shape_.box.shorter() / 2;
       const auto pairs = static_cast<double>(map_.pairs[bin] + map_.pairs[mirrored]);
       curves.g.push_back(known ? ratio(pairs, 2 * per_area * width_ * width_) : kUnknown);
       curves.g2.push_back(known ? ratio(map_.sums[bin] + map_.sums[mirrored], pairs) : kUnknown);

@@ -70,13 +70,13 @@ double in_ring(double inner, double outer, double distance, double r) {
 
 }  // namespace
 
-Region::Region(double box_side, const std::optional<SideWalls>& walls) : box_side_(box_side), walls_(walls) {
-  SHAKEN_CHECK(box_side > 0, "a region has room");
+Region::Region(const Box& box, const std::optional<SideWalls>& walls) : box_(box), walls_(walls) {
+  SHAKEN_CHECK(box.shorter() > 0, "a region has room");
 }
 
 bool Region::contains(const Vec2& place) const {
   if (!walls_) return true;
-  const Vec2 from_centre = (place - Vec2::Constant(box_side_ / 2)).cwiseAbs();
+  const Vec2 from_centre = (place - box_.sides() / 2).cwiseAbs();
   if (walls_->arena == Arena::kSquare) return from_centre.maxCoeff() <= walls_->size / 2;
   const double distance = from_centre.norm();
   return distance <= walls_->size / 2 && distance >= hidden_radius();
@@ -84,14 +84,14 @@ bool Region::contains(const Vec2& place) const {
 
 Vec2 Region::shortest(const Vec2& difference) const {
   if (walls_) return difference;
-  return {std::remainder(difference.x(), box_side_), std::remainder(difference.y(), box_side_)};
+  return {std::remainder(difference.x(), box_.x()), std::remainder(difference.y(), box_.y())};
 }
 
 bool Region::in_sight(const Vec2& a, const Vec2& b) const {
   const double hidden = hidden_radius();
   if (hidden <= 0) return true;
   // The point of the line nearest to the centre.
-  const Vec2 from = a - Vec2::Constant(box_side_ / 2), way = b - a;
+  const Vec2 from = a - box_.sides() / 2, way = b - a;
   const double squared = way.squaredNorm();
   const double part = squared > 0 ? std::clamp(-from.dot(way) / squared, 0.0, 1.0) : 0.0;
   // Only strictly between its ends does a line cross a wall that both ends are on the right side of.
@@ -101,7 +101,7 @@ bool Region::in_sight(const Vec2& a, const Vec2& b) const {
 double Region::area_in_sight(const Vec2& place, double radius) const {
   if (radius <= 0) return 0;
   if (!walls_) return kPi * radius * radius;
-  const Vec2 from_centre = place - Vec2::Constant(box_side_ / 2);
+  const Vec2 from_centre = place - box_.sides() / 2;
   if (walls_->arena == Arena::kSquare) return in_square(walls_->size / 2, from_centre, radius);
   return in_ring(hidden_radius(), walls_->size / 2, from_centre.norm(), radius);
 }

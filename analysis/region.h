@@ -3,22 +3,25 @@
 
 #include <optional>
 
+#include "base/core/box.h"
 #include "base/core/types.h"
 #include "sim/system.h"
 
 namespace shaken::analysis {
 
-/// The part of the plane that rods can be in: all of a periodic square box, or the arena within side walls in its
+/// The part of the plane that rods can be in: all of a periodic box, or the arena within side walls in its
 /// middle. What is measured between places is measured within it: not across the border of the box where walls stand
 /// there, and not through an annulus' inner wall.
 class Region {
  public:
-  /// A periodic box of side `box_side` [mm], or the arena that `walls` leave of it. Not explicit: a box is a region.
-  Region(double box_side, const std::optional<SideWalls>& walls = std::nullopt);
+  /// A periodic box, or the arena that `walls` leave of it. Not explicit: a box is a region.
+  Region(const Box& box, const std::optional<SideWalls>& walls = std::nullopt);
+  /// Of a square box.
+  Region(double side) : Region(Box(side)) {}
 
-  double box_side() const { return box_side_; }  ///< [mm]
+  const Box& box() const { return box_; }
   bool is_periodic() const { return !walls_; }
-  double area() const { return walls_ ? walls_->area() : box_side_ * box_side_; }  ///< [mm^2]
+  double area() const { return walls_ ? walls_->area() : box_.area(); }  ///< [mm^2]
   /// Whether a place in the box lies within the walls.
   bool contains(const Vec2& place) const;
   /// From one place to another the shortest way: to the nearest image, or plainly where walls leave none.
@@ -29,11 +32,11 @@ class Region {
   bool in_sight(const Vec2& a, const Vec2& b) const;
 
   /// Area of what lies at most `radius` from `place` and within its sight, so that the straight line to it stays in the
-  /// region [mm^2]; exact. pi radius^2 of a periodic box, of which `radius` must be at most half the side.
+  /// region [mm^2]; exact. pi radius^2 of a periodic box, of which `radius` must be at most half the shorter side.
   double area_in_sight(const Vec2& place, double radius) const;
 
  private:
-  double box_side_;
+  Box box_;
   std::optional<SideWalls> walls_;
 };
 

@@ -8,28 +8,30 @@
 #include <vector>
 
 #include "analysis/summed.h"
+#include "analysis/wave_sums.h"
+#include "base/core/box.h"
 #include "base/core/types.h"
 
 namespace shaken::analysis {
 
 /// S(q) against wave number; all of shape (shells). NaN where the box has no such wave vector, and without samples.
 struct StructureCurve {
-  std::vector<double> q;       ///< 2 pi k / L, k = 1, 2, ... [rad/mm]
+  std::vector<double> q;       ///< 2 pi k / L of the longer side, k = 1, 2, ... [rad/mm]
   std::vector<double> all;     ///< wave vectors in every direction
   std::vector<double> along;   ///< within 30 degrees of the director
   std::vector<double> across;  ///< within 30 degrees of the normal to it
 };
 
-/// Static structure factor of the rods' centres in a periodic square box,
-///   S(q) = |sum_i exp(-i q . r_i)|^2 / N,   q = 2 pi (m, n) / L
+/// Static structure factor of the rods' centres in a periodic box,
+///   S(q) = |sum_i exp(-i q . r_i)|^2 / N,   q = 2 pi (m / L_x, n / L_y)
 /// (Hansen & McDonald, Theory of Simple Liquids, section 4.1), averaged over samples and over the wave vectors whose
 /// length is within half a step of 2 pi k / L. The director is that of the same instant. Of rods that do not know of
 /// each other it is 1 at every q; N on the reciprocal lattice of a perfect crystal; at long waves var(N) / <N> of the
 /// number of rods in a large part of the box. A sample costs 4 n_rods (waves + 1)^2 multiplications.
 class StructureFactor : public Summed<StructureFactor> {
  public:
-  /// Shells k = 1 .. `waves` in a box of side `box_side` [mm].
-  StructureFactor(double box_side, int waves);
+  /// Shells k = 1 .. `waves`.
+  StructureFactor(const Box& box, int waves);
 
   /// Centres (n_rods) [mm] and directors (n_rods); of the latter only the mean axis is used. No rod is no sample.
   void accumulate(std::span<const Vec3> positions, std::span<const Vec3> directors);
@@ -37,7 +39,7 @@ class StructureFactor : public Summed<StructureFactor> {
 
   static constexpr std::string_view kName = "StructureFactor";
   static constexpr auto fields() {
-    return std::tuple(Setting{"box", &StructureFactor::box_side_}, &StructureFactor::all_, &StructureFactor::along_,
+    return std::tuple(Setting{"box", &StructureFactor::vectors_}, &StructureFactor::all_, &StructureFactor::along_,
                       &StructureFactor::across_);
   }
 
@@ -49,7 +51,7 @@ class StructureFactor : public Summed<StructureFactor> {
     std::vector<double> means() const;
   };
 
-  double box_side_;
+  WaveVectors vectors_;
   Shells all_, along_, across_;
 };
 

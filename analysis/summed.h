@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/core/box.h"
 #include "base/core/check.h"
 #include "base/core/state_io.h"
 
@@ -44,7 +45,7 @@ inline constexpr std::int64_t kMostCounted = std::int64_t{1} << 53;
 ///   static constexpr auto fields() { return std::tuple(Setting{"range", &Angles::range_}, &Angles::counts_); }
 ///
 /// and gets merge, save and restore by deriving from Summed<Angles>. A field is a number, a vector or array of numbers
-/// whose length does not change, or a struct with fields() of its own. Whole numbers are counts: never negative, and at
+/// whose length does not change, a Box, or a struct with fields() of its own. Whole numbers are counts: never negative, and at
 /// most kMostCounted.
 template <class Self>
 class Summed {
@@ -118,6 +119,9 @@ class Summed {
   static void put(StateWriter& writer, const T& value) {
     if constexpr (requires { T::fields(); }) {
       for_fields(T::fields(), [&](const auto& field) { put(writer, value.*member_of(field)); });
+    } else if constexpr (std::is_same_v<T, Box>) {  // of a square one number
+      writer.put(value.x());
+      if (value.y() != value.x()) writer.put(value.y());
     } else {
       writer.put(value);
     }
@@ -143,6 +147,10 @@ class Summed {
   static void take(StateReader& reader, T& value) {
     if constexpr (std::is_same_v<T, double>) {
       value = reader.real();
+    } else if constexpr (std::is_same_v<T, Box>) {
+      const bool is_square = value.y() == value.x();
+      const double x = reader.real();
+      value = Box(x, is_square ? x : reader.real());
     } else if constexpr (is_number<T>) {
       value = static_cast<T>(reader.integer(0, std::min<std::int64_t>(kMostCounted, std::numeric_limits<T>::max())));
     } else if constexpr (requires { T::fields(); }) {

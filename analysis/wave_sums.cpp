@@ -54,38 +54,47 @@ void put_powers(double weight, double angle, std::size_t waves, std::size_t plac
 
 }  // namespace
 
-WavePowers wave_powers(std::span<const Vec2> places, std::span<const double> weights, double box_side, int waves) {
+WaveVectors::WaveVectors(const Box& in_box, int most_waves)
+    : box(in_box),
+      waves(most_waves),
+      most_m(static_cast<int>(most_waves / in_box.longer() * in_box.x() * (1 + 1e-12))),
+      most_n(static_cast<int>(most_waves / in_box.longer() * in_box.y() * (1 + 1e-12))) {
+  SHAKEN_CHECK(waves >= 1 && box.shorter() > 0.0, "a box and waves in it");
+}
+
+std::vector<double> wave_powers(std::span<const Vec2> places, std::span<const double> weights,
+                                const WaveVectors& vectors) {
   SHAKEN_CHECK(places.size() == weights.size(), "one weight for each place");
-  SHAKEN_CHECK(waves >= 1 && box_side > 0.0, "a box and waves in it");
-  const auto m_max = static_cast<std::size_t>(waves);
-  const std::size_t tiles = (2 * (m_max + 1) + kTile - 1) / kTile;
-  std::vector<double> of_x(tiles * kChunk * kTile), of_y(of_x.size()), sums(tiles * tiles * kTile * kTile);
+  const auto m_max = static_cast<std::size_t>(vectors.most_m), n_max = static_cast<std::size_t>(vectors.most_n);
+  const auto tiles_for = [](std::size_t waves) { return (2 * (waves + 1) + kTile - 1) / kTile; };
+  const std::size_t rows = tiles_for(m_max), columns = tiles_for(n_max);
+  std::vector<double> of_x(rows * kChunk * kTile), of_y(columns * kChunk * kTile), sums(rows * columns * kTile * kTile);
   for (std::size_t start = 0; start < places.size(); start += kChunk) {
     const std::size_t count = std::min(kChunk, places.size() - start);
     for (std::size_t k = 0; k < count; ++k) {
-      const Vec2 angle = places[start + k] * (2 * kPi / box_side);
-      put_powers(weights[start + k], angle.x(), m_max, k, of_x);
-      put_powers(1.0, angle.y(), m_max, k, of_y);
+      const Vec2& place = places[start + k];
+      put_powers(weights[start + k], place.x() * (2 * kPi / vectors.box.x()), m_max, k, of_x);
+      put_powers(1.0, place.y() * (2 * kPi / vectors.box.y()), n_max, k, of_y);
     }
-    for (std::size_t i = 0; i < tiles; ++i) {
-      for (std::size_t j = 0; j < tiles; ++j) {
+    for (std::size_t i = 0; i < rows; ++i) {
+      for (std::size_t j = 0; j < columns; ++j) {
         add_products(&of_x[i * kChunk * kTile], &of_y[j * kChunk * kTile], count,
-                     &sums[(i * tiles + j) * kTile * kTile]);
+                     &sums[(i * columns + j) * kTile * kTile]);
       }
     }
   }
 
   const auto sum = [&](std::size_t row, std::size_t column) {
-    return sums[((row / kTile) * tiles + column / kTile) * kTile * kTile + row % kTile * kTile + column % kTile];
+    return sums[((row / kTile) * columns + column / kTile) * kTile * kTile + row % kTile * kTile + column % kTile];
   };
-  WavePowers powers{waves, std::vector<double>((m_max + 1) * (2 * m_max + 1))};
-  for (int m = 0; m <= waves; ++m) {
-    for (int n = 0; n <= waves; ++n) {
+  std::vector<double> powers(vectors.size());
+  for (int m = 0; m <= vectors.most_m; ++m) {
+    for (int n = 0; n <= vectors.most_n; ++n) {
       const auto row = static_cast<std::size_t>(m), column = static_cast<std::size_t>(n);
-      const double cc = sum(row, column), ss = sum(row + m_max + 1, column + m_max + 1);
-      const double sc = sum(row + m_max + 1, column), cs = sum(row, column + m_max + 1);
-      powers.values[powers.index(m, n)] = (cc - ss) * (cc - ss) + (sc + cs) * (sc + cs);
-      powers.values[powers.index(m, -n)] = (cc + ss) * (cc + ss) + (sc - cs) * (sc - cs);
+      const double cc = sum(row, column), ss = sum(row + m_max + 1, column + n_max + 1);
+      const double sc = sum(row + m_max + 1, column), cs = sum(row, column + n_max + 1);
+      powers[vectors.index(m, n)] = (cc - ss) * (cc - ss) + (sc + cs) * (sc + cs);
+      powers[vectors.index(m, -n)] = (cc + ss) * (cc + ss) + (sc - cs) * (sc - cs);
     }
   }
   return powers;

@@ -3,26 +3,50 @@
 
 #include <cstddef>
 #include <span>
+#include <tuple>
 #include <vector>
 
+#include "base/core/box.h"
 #include "base/core/types.h"
 
 namespace shaken::analysis {
 
-/// Powers on the wave vectors q = 2 pi (m, n) / L of a periodic box, one of each pair +-q: m in [0, waves], n in
-/// [-waves, waves]. Of m = 0 both signs of n are there, with the same power.
-struct WavePowers {
-  int waves = 0;
-  std::vector<double> values;  ///< (waves + 1, 2 waves + 1), n fastest
+/// The wave vectors q = 2 pi (m / L_x, n / L_y) of a periodic box that are no longer than 2 pi `waves` / L along either
+/// side, L being the longer one; one of each pair +-q: m in [0, most_m], n in [-most_n, most_n]. Of m = 0 both signs of
+/// n are there.
+struct WaveVectors {
+  /// At least one wave.
+  WaveVectors(const Box& box, int waves);
 
+  Box box;
+  int waves;
+  int most_m, most_n;
+
+  std::size_t size() const { return static_cast<std::size_t>(most_m + 1) * static_cast<std::size_t>(2 * most_n + 1); }
+  /// Of (m, n) among them, n fastest.
   std::size_t index(int m, int n) const {
-    return static_cast<std::size_t>(m) * static_cast<std::size_t>(2 * waves + 1) + static_cast<std::size_t>(n + waves);
+    return static_cast<std::size_t>(m) * static_cast<std::size_t>(2 * most_n + 1) +
+           static_cast<std::size_t>(n + most_n);
   }
-  double at(int m, int n) const { return values[index(m, n)]; }
+  /// q in units of 2 pi / L: (m, n) in a square box.
+  Vec2 at(int m, int n) const { return {m * (box.longer() / box.x()), n * (box.longer() / box.y())}; }
+  /// 2 pi k / L [rad/mm].
+  double wave_number(double k) const { return 2 * kPi * k / box.longer(); }
+  /// Calls visit(m, n, at(m, n)) for all but 0, one of each pair.
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    for (int m = 0; m <= most_m; ++m) {
+      for (int n = m == 0 ? 1 : -most_n; n <= most_n; ++n) visit(m, n, at(m, n));
+    }
+  }
+
+  friend bool operator==(const WaveVectors&, const WaveVectors&) = default;
+  static constexpr auto fields() { return std::tuple(&WaveVectors::box); }  ///< as a setting (summed.h)
 };
 
-/// |sum_i w_i exp(-i q . r_i)|^2 over places (n) [mm] with weights (n) in a box of side `box_side` [mm]. Costs about
-/// 4 n (waves + 1)^2 multiplications. Sums are taken in one order on every machine.
-WavePowers wave_powers(std::span<const Vec2> places, std::span<const double> weights, double box_side, int waves);
+/// |sum_i w_i exp(-i q . r_i)|^2 over places (n) [mm] with weights (n), of each wave vector. Costs about
+/// 4 n (most_m + 1) (most_n + 1) multiplications. Sums are taken in one order on every machine.
+std::vector<double> wave_powers(std::span<const Vec2> places, std::span<const double> weights,
+                                const WaveVectors& vectors);
 
 }  // namespace shaken::analysis

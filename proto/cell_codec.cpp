@@ -9,7 +9,8 @@ namespace shaken::proto {
 frame_static_t encode_cell(const Cell& cell, std::size_t n_rods, const std::string& label) {
   frame_static_t message{};
   message.n_rods = static_cast<std::int32_t>(n_rods);
-  message.box_side_mm = cell.box_side;
+  message.box_x_mm = cell.box.x();
+  message.box_y_mm = cell.box.y();
   message.gap_mm = cell.gap;
   for (const auto& [offset, radius] : cell.species) {
     message.species_beads.push_back(static_cast<std::int32_t>(offset.size()));
@@ -30,7 +31,7 @@ frame_static_t encode_cell(const Cell& cell, std::size_t n_rods, const std::stri
 }
 
 std::optional<Cell> decode_cell(const frame_static_t& message) {
-  Cell cell{.box_side = message.box_side_mm, .gap = message.gap_mm, .species_of_rod = message.rod_species};
+  Cell cell{.box = {message.box_x_mm, message.box_y_mm}, .gap = message.gap_mm, .species_of_rod = message.rod_species};
   std::span<const double> offsets(message.bead_offset_mm), radii(message.bead_radius_mm);
   for (const std::int32_t n_beads : message.species_beads) {
     if (n_beads < 1 || static_cast<std::size_t>(n_beads) > std::min(offsets.size(), radii.size())) return std::nullopt;

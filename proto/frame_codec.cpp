@@ -31,7 +31,8 @@ bool plausible(const frame_t& chunk) {
 constexpr int kMostOlder = 5;
 
 bool siblings(const frame_t& a, const frame_t& b) {
-  return a.n_rods == b.n_rods && a.n_chunks == b.n_chunks && a.tick == b.tick && a.box_side_mm == b.box_side_mm;
+  return a.n_rods == b.n_rods && a.n_chunks == b.n_chunks && a.tick == b.tick && a.box_x_mm == b.box_x_mm &&
+         a.box_y_mm == b.box_y_mm;
 }
 
 }  // namespace
@@ -56,7 +57,8 @@ std::vector<frame_t> encode_frame(const Frame& frame) {
     chunk.job_id = frame.job_id;
     chunk.sim_time_s = frame.sim_time_s;
     chunk.tick = frame.tick;
-    chunk.box_side_mm = frame.box_side_mm;
+    chunk.box_x_mm = frame.box.x();
+    chunk.box_y_mm = frame.box.y();
     chunk.order = frame.order;
     chunk.director_rad = frame.director_rad;
     chunk.n_rods = n_rods;
@@ -66,8 +68,8 @@ std::vector<frame_t> encode_frame(const Frame& frame) {
     chunk.n_chunk_rods = std::min(kRodsPerChunk, n_rods - chunk.first_rod);
     for (int i = chunk.first_rod; i < chunk.first_rod + chunk.n_chunk_rods; ++i) {
       const RodPose& rod = frame.rods[static_cast<std::size_t>(i)];
-      chunk.x.push_back(wrap((rod.x / frame.box_side_mm - 0.5) * kSteps));
-      chunk.y.push_back(wrap((rod.y / frame.box_side_mm - 0.5) * kSteps));
+      chunk.x.push_back(wrap((rod.x / frame.box.x() - 0.5) * kSteps));
+      chunk.y.push_back(wrap((rod.y / frame.box.y() - 0.5) * kSteps));
       chunk.heading.push_back(wrap(rod.theta * kSteps / (2 * kPi)));
       chunk.n_z.push_back(static_cast<std::int16_t>(std::lround(std::clamp(rod.n_z, -1.0, 1.0) * kLargestNz)));
     }
@@ -80,7 +82,7 @@ std::vector<RodPose> decode_chunk(const frame_t& chunk) {
   std::vector<RodPose> rods;
   rods.reserve(chunk.x.size());
   for (std::size_t i = 0; i < chunk.x.size(); ++i) {
-    rods.push_back({(chunk.x[i] / kSteps + 0.5) * chunk.box_side_mm, (chunk.y[i] / kSteps + 0.5) * chunk.box_side_mm,
+    rods.push_back({(chunk.x[i] / kSteps + 0.5) * chunk.box_x_mm, (chunk.y[i] / kSteps + 0.5) * chunk.box_y_mm,
                     chunk.heading[i] * 2 * kPi / kSteps, std::max(-1.0, chunk.n_z[i] / kLargestNz)});
   }
   return rods;
@@ -107,7 +109,7 @@ std::optional<Frame> FrameAssembler::add(const frame_t& chunk) {
   if (static_cast<std::int32_t>(chunks_.size()) < chunk.n_chunks) return std::nullopt;
 
   Frame frame{chunk.utime,      chunk.sequence,     chunk.job_id,
-              chunk.sim_time_s, chunk.tick,         chunk.box_side_mm,
+              chunk.sim_time_s, chunk.tick,         {chunk.box_x_mm, chunk.box_y_mm},
               chunk.order,      chunk.director_rad, {}};
   bool in_sequence = true;
   for (const auto& [number, part] : chunks_) {

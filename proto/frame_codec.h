@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/core/box.h"
+
 namespace shaken::proto {
 
 /// Rods of one chunk at most: 8 bytes each, so that a message stays under 60 kB and within one datagram.
@@ -39,13 +41,13 @@ struct Frame {
   std::string job_id;
   double sim_time_s = 0;
   std::int64_t tick = 0;
-  double box_side_mm = 0;
+  Box box;  ///< sides [mm]
   double order = 0;
   double director_rad = 0;
   std::vector<RodPose> rods;
 };
 
-/// The messages of a frame, at least one. Errors of the quantities after decode_chunk: half of box_side/65536 in x and
+/// The messages of a frame, at least one. Errors of the quantities after decode_chunk: half of a side/65536 in x and
 /// y, pi/65536 in theta, 1/65534 in n_z.
 std::vector<frame_t> encode_frame(const Frame& frame);
 

@@ -28,9 +28,9 @@ inline constexpr std::string_view kLayout<job_t> = "88s sss s4 88888";
 template <>
 inline constexpr std::string_view kLayout<observables_t> = "88s8 84 88888888 888 88";
 template <>
-inline constexpr std::string_view kLayout<frame_static_t> = "88s8 488 nW nDD nB s88 s";
+inline constexpr std::string_view kLayout<frame_static_t> = "88s8 4888 nW nDD nB s88 s";
 template <>
-inline constexpr std::string_view kLayout<frame_t> = "88s8 8888 4444 nHHHH";
+inline constexpr std::string_view kLayout<frame_t> = "88s8 88888 4444 nHHHH";
 template <>
 inline constexpr std::string_view kLayout<defects_t> = "88s8 8 nDDDD";
 

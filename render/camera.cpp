@@ -44,7 +44,7 @@ Camera into_the_gap(const RodPicture& picture, const PictureStyle& style, double
   camera.is_cut = camera.fades = true;
   camera.distance = camera.nearest = kDistance * gap;
   camera.farthest = camera.nearest + kDepth * gap;
-  Vec2 at = style.focus * picture.cell.box_side;
+  Vec2 at = style.focus.cwiseProduct(picture.cell.box.sides());
   if (const std::optional<std::size_t> rod = followed_rod(picture.frame, style)) {
     at = picture.frame.position[*rod].head<2>() - Vec2(0, 1.5 * gap);
   }
@@ -55,14 +55,15 @@ Camera into_the_gap(const RodPicture& picture, const PictureStyle& style, double
   const double reach = camera.half.x() * camera.farthest;
   camera.low = Vec2(at.x() - reach, at.y());
   camera.high = Vec2(at.x() + reach, camera.eye.y() + camera.farthest);
-  camera.period = picture.cell.walls ? 0 : picture.cell.box_side;
+  if (!picture.cell.walls) camera.period = picture.cell.box.sides();
   return camera;
 }
 
 Camera around_the_box(const RodPicture& picture, const PictureStyle& style, double aspect) {
   constexpr double kTangent = 0.27;  // of half the angle of view, upwards
   constexpr double kMargin = 1.03;
-  const double side = picture.cell.box_side, gap = picture.cell.gap;
+  const Vec2 sides = picture.cell.box.sides();
+  const double gap = picture.cell.gap;
   const double azimuth = style.orbit.x() * kPi / 180, elevation = style.orbit.y() * kPi / 180;
   const auto round = [](double x) { return std::abs(x) < 1e-12 ? 0.0 : x; };
   Camera camera;
@@ -74,20 +75,20 @@ Camera around_the_box(const RodPicture& picture, const PictureStyle& style, doub
   // As near as leaves the whole box in the picture.
   double radius = 0;
   for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 at((corner & 1) - 0.5, (corner >> 1 & 1) - 0.5, 0);
-    const Vec3 from_middle = side * at + Vec3(0, 0, ((corner >> 2) - 0.5) * gap);
+    const Vec3 from_middle(((corner & 1) - 0.5) * sides.x(), ((corner >> 1 & 1) - 0.5) * sides.y(),
+                           ((corner >> 2) - 0.5) * gap);
     const Vec2 aside(std::abs(camera.right.dot(from_middle)), std::abs(camera.up.dot(from_middle)));
     const double needed = (kMargin * aside.cwiseQuotient(camera.half)).maxCoeff();
     camera.distance = std::max(camera.distance, needed - camera.forward.dot(from_middle));
     radius = std::max(radius, from_middle.norm());
   }
   camera.half /= std::max(style.zoom, 1.0);
-  Vec3 at = Vec3(style.focus.x() * side, style.focus.y() * side, gap / 2);
+  Vec3 at = Vec3(style.focus.x() * sides.x(), style.focus.y() * sides.y(), gap / 2);
   if (const std::optional<std::size_t> rod = followed_rod(picture.frame, style)) at = picture.frame.position[*rod];
   camera.eye = at - camera.distance * camera.forward;
   camera.nearest = 1e-3 * camera.distance;
   camera.farthest = camera.distance + 2 * radius + gap;
-  camera.high = Vec2(side, side);
+  camera.high = sides;
   return camera;
 }
 

@@ -18,7 +18,7 @@ struct Camera {
   bool is_cut = false;         ///< the plates are cut open at `nearest`; rods that the cut would meet are left out
   bool fades = false;          ///< into the page, up to `farthest`
   Vec2 low{0, 0}, high{0, 0};  ///< the part of the plane that is seen, a rectangle around it
-  double period = 0;           ///< of the plane, in x and in y; 0: nothing is repeated
+  Vec2 period{0, 0};           ///< of the plane, in x and in y; 0: nothing is repeated
 
   /// A point as the eye has it: to the right, up, and its depth.
   Vec3 seen(const Vec3& point) const {

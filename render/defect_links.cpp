@@ -15,7 +15,7 @@ Vec2 DefectLife::at(double when) const {
 
 DefectLinks::DefectLinks(const analysis::Region& region, double rod_length)
     : region_(region),
-      tracks_({.box_side = region.box_side(),
+      tracks_({.box = region.box(),
                .area = region.area(),
                .interval = 1,  // of its statistics, which are not asked for; as is the life that counts as lasting
                .max_step = rod_length,
@@ -31,8 +31,7 @@ void DefectLinks::add(double time, const std::vector<analysis::Defect>& defects)
     Vec2 place = defects[i].position;
     if (!life.position.empty() && region_.is_periodic()) {
       const Vec2 last = life.position.back(), way = place - last;
-      const double side = region_.box_side();
-      place = last + Vec2(std::remainder(way.x(), side), std::remainder(way.y(), side));
+      place = last + region_.shortest(way);
     }
     life.charge = defects[i].charge;
     life.time.push_back(time);

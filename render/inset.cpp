@@ -60,11 +60,11 @@ Curve angle_curve(const RodPicture& picture) {
 Curve g2_curve(const RodPicture& picture) {
   constexpr int kBins = 40;
   const std::vector<Vec3> positions = picture.cell.of_species(0, picture.frame.position);
-  analysis::OrientationCorrelation correlation(kBins, picture.cell.box_side / 2);
+  analysis::OrientationCorrelation correlation(kBins, picture.cell.box.shorter() / 2);
   correlation.accumulate(positions, picture.cell.of_species(0, picture.frame.director),
-                         analysis::Region(picture.cell.box_side, picture.cell.walls));
+                         analysis::Region(picture.cell.box, picture.cell.walls));
   analysis::OrientationCurve pairs = correlation.reduce();
-  const double r_max = picture.cell.box_side / 2, step = tick_step(r_max, 3);
+  const double r_max = picture.cell.box.shorter() / 2, step = tick_step(r_max, 3);
   Curve curve{.title = "G\u2082(r)", .x = std::move(pairs.r), .y = std::move(pairs.g2), .y_ticks = kHalves};
   for (const double r : ticks(0, r_max, step)) curve.x_ticks.push_back({r, tick_text(r)});
   curve.x_ticks.back().text += " mm";
@@ -77,12 +77,12 @@ Curve g2_curve(const RodPicture& picture) {
 
 Curve g2_map(const RodPicture& picture) {
   const std::vector<Vec3> positions = picture.cell.of_species(0, picture.frame.position);
-  const double range = std::min(2 * picture.rod_length(), picture.cell.box_side / 2);
+  const double range = std::min(2 * picture.rod_length(), picture.cell.box.shorter() / 2);
   // As fine as leaves some twenty pairs to a bin; odd, so that one is about 0.
-  const double per_area = static_cast<double>(positions.size()) / (picture.cell.box_side * picture.cell.box_side);
+  const double per_area = static_cast<double>(positions.size()) / picture.cell.box.area();
   const double pairs = per_area * static_cast<double>(positions.size()) * (2 * range) * (2 * range);
   const int bins = 2 * std::clamp(static_cast<int>(std::sqrt(pairs / 20) / 2), 4, 20) + 1;
-  analysis::PairMap map({.bins = bins, .range = range, .strip = range, .box_side = picture.cell.box_side});
+  analysis::PairMap map({.bins = bins, .range = range, .strip = range, .box = picture.cell.box});
   map.accumulate(positions, picture.cell.of_species(0, picture.frame.director));
   const std::vector<double> g2 = map.reduce().g2;
   // The part of the scale that most cells need: among aligned rods all are near 1.

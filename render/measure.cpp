@@ -19,40 +19,46 @@ namespace {
 /// rods, so it falls towards them.
 std::vector<double> densities(const Cell& box, const Frame& frame, double width) {
   const std::size_t n = frame.position.size();
-  const double reach = 3 * width, side = box.box_side;
+  const double reach = 3 * width;
+  const Box& sides = box.box;
   const bool is_periodic = !box.walls;
   // Cells at least as wide as the reach, so that neighbours lie in nine of them; fewer than three would count twice.
-  const int cells = static_cast<int>(std::clamp(std::floor(side / reach), 1.0, 512.0));
-  std::vector<std::vector<std::size_t>> in_cell(static_cast<std::size_t>(cells) * static_cast<std::size_t>(cells));
+  const auto cells_along = [&](double side) { return static_cast<int>(std::clamp(std::floor(side / reach), 1.0, 512.0)); };
+  const int columns = cells_along(sides.x()), rows = cells_along(sides.y());
+  std::vector<std::vector<std::size_t>> in_cell(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
   std::vector<Vec2> place(n);
   std::vector<double> area;
   for (const BeadRow& beads : box.species) area.push_back(beads.area());
-  const auto cell_of = [&](double x) { return std::min(static_cast<int>(x / side * cells), cells - 1); };
+  const auto column_of = [&](const Vec2& at) {
+    return std::min(static_cast<int>(at.x() / sides.x() * columns), columns - 1);
+  };
+  const auto row_of = [&](const Vec2& at) { return std::min(static_cast<int>(at.y() / sides.y() * rows), rows - 1); };
   const auto cell = [&](int i, int j) -> std::vector<std::size_t>& {
-    return in_cell[static_cast<std::size_t>((j + cells) % cells) * static_cast<std::size_t>(cells) +
-                   static_cast<std::size_t>((i + cells) % cells)];
+    return in_cell[static_cast<std::size_t>((j + rows) % rows) * static_cast<std::size_t>(columns) +
+                   static_cast<std::size_t>((i + columns) % columns)];
   };
   for (std::size_t i = 0; i < n; ++i) {
-    place[i] = Vec2(analysis::wrapped(frame.position[i].x(), side), analysis::wrapped(frame.position[i].y(), side));
-    cell(cell_of(place[i].x()), cell_of(place[i].y())).push_back(i);
+    const Vec3& at = frame.position[i];
+    place[i] = Vec2(analysis::wrapped(at.x(), sides.x()), analysis::wrapped(at.y(), sides.y()));
+    cell(column_of(place[i]), row_of(place[i])).push_back(i);
   }
   const double norm = 2 * kPi * width * width * (1 - std::exp(-4.5));
   std::vector<double> density(n);
-  const int around = cells >= 3 ? 1 : 0;
+  const bool by_cells = columns >= 3 && rows >= 3;
   for (std::size_t i = 0; i < n; ++i) {
     double sum = 0;
     const auto add = [&](std::size_t j) {
       Vec2 d = place[j] - place[i];
-      if (is_periodic) d = Vec2(analysis::nearest_image(d.x(), side), analysis::nearest_image(d.y(), side));
+      if (is_periodic) d = Vec2(analysis::nearest_image(d.x(), sides.x()), analysis::nearest_image(d.y(), sides.y()));
       const double square = d.squaredNorm();
       if (square < reach * reach) sum += area[box.species_of(j)] * std::exp(-square / (2 * width * width));
     };
-    if (around == 0) {
+    if (!by_cells) {
       for (std::size_t j = 0; j < n; ++j) add(j);
     } else {
       for (int dj = -1; dj <= 1; ++dj) {
         for (int di = -1; di <= 1; ++di) {
-          for (const std::size_t j : cell(cell_of(place[i].x()) + di, cell_of(place[i].y()) + dj)) add(j);
+          for (const std::size_t j : cell(column_of(place[i]) + di, row_of(place[i]) + dj)) add(j);
         }
       }
     }
@@ -78,9 +84,9 @@ void measure(RodPicture& picture, const Asked& asked) {
   scene::MeasureDefects settings;
   settings.smoothing = asked.smoothing;
   settings.grid = asked.grid;
-  const int nodes = analysis::grid_nodes(cell.box_side, settings.grid_for(length));
+  const analysis::Grid grid(cell.box, settings.grid_for(length));
   picture.found.field = std::make_shared<analysis::DirectorField>(cell.of_species(0, picture.frame.position), directors,
-                                                                  analysis::Region(cell.box_side, cell.walls), nodes,
+                                                                  analysis::Region(cell.box, cell.walls), grid,
                                                                   settings.smoothing_for(length));
   if (asked.defects) picture.found.defects = analysis::find_defects(*picture.found.field);
 }

@@ -26,11 +26,12 @@ void draw_frame(const Canvas& canvas, const Layout& layout, const RodPicture& pi
                 const PageColours& colours) {
   cairo_t* cr = canvas.cairo();
   const double line = std::max(1.0, std::round(1.2 * layout.unit));
-  const View box = box_in(picture, style);
-  const double scale = layout.box_side / view_of(picture, style).side, side = box.side * scale;
+  const Framed box = framed_in(picture, style);
+  const double scale = layout.box_side / view_of(picture, style).side;
+  const Vec2 sides = scale * box.sides;
   const double x = layout.box_x + box.corner.x() * scale,
-               y = layout.box_y + layout.box_side - box.corner.y() * scale - side;
-  cairo_rectangle(cr, x - line / 2, y - line / 2, side + line, side + line);
+               y = layout.box_y + layout.box_side - box.corner.y() * scale - sides.y();
+  cairo_rectangle(cr, x - line / 2, y - line / 2, sides.x() + line, sides.y() + line);
   canvas.colour(colours.ink);
   cairo_set_line_width(cr, line);
   cairo_stroke(cr);

@@ -49,13 +49,13 @@ class Plane {
 
 /// Whether there is a director at the node nearest to `place`.
 bool is_defined(const analysis::DirectorField& field, const Vec2& place) {
-  const auto node = [&](double x) { return static_cast<int>(std::lround(x / field.mesh())); };
-  return field.is_defined(node(place.x()), node(place.y()));
+  const Vec2 node = place.cwiseQuotient(field.mesh());
+  return field.is_defined(static_cast<int>(std::lround(node.x())), static_cast<int>(std::lround(node.y())));
 }
 
 /// How much of a director there is at `place`: 1 where all nodes around it have one, 0 where none has.
 double defined_share(const analysis::DirectorField& field, const Vec2& place) {
-  const double x = place.x() / field.mesh(), y = place.y() / field.mesh();
+  const double x = place.x() / field.mesh().x(), y = place.y() / field.mesh().y();
   const int i = static_cast<int>(std::floor(x)), j = static_cast<int>(std::floor(y));
   const auto at = [&](int di, int dj) { return field.is_defined(i + di, j + dj) ? 1.0 : 0.0; };
   const double u = x - i, v = y - j;
@@ -65,7 +65,7 @@ double defined_share(const analysis::DirectorField& field, const Vec2& place) {
 void draw_order(const Canvas& canvas, const Plane& plane, const analysis::DirectorField& field, Theme theme) {
   // Nodes half a mesh apart in the view, or as many as pixels show.
   const View& view = plane.view();
-  const int n = std::clamp(static_cast<int>(std::ceil(2 * view.side / field.mesh())), 8, 400);
+  const int n = std::clamp(static_cast<int>(std::ceil(2 * view.side / field.mesh().minCoeff())), 8, 400);
   Image image(n + 1, n + 1);
   for (int j = 0; j <= n; ++j) {
     for (int i = 0; i <= n; ++i) {
@@ -80,8 +80,8 @@ void draw_order(const Canvas& canvas, const Plane& plane, const analysis::Direct
 }
 
 /// The arena as a path, with its inner wall if there is one; the region is what an even-odd fill would fill.
-void arena_path(cairo_t* cr, const Plane& plane, const SideWalls& walls, double box_side) {
-  const Vec2 middle = plane.pixel(Vec2(box_side, box_side) / 2 - plane.view().corner);
+void arena_path(cairo_t* cr, const Plane& plane, const SideWalls& walls, const Box& box) {
+  const Vec2 middle = plane.pixel(box.sides() / 2 - plane.view().corner);
   const double reach = walls.size / 2 * plane.scale();
   if (walls.arena == Arena::kSquare) {
     cairo_rectangle(cr, middle.x() - reach, middle.y() - reach, 2 * reach, 2 * reach);
@@ -98,7 +98,7 @@ void draw_walls(const Canvas& canvas, const Plane& plane, const Cell& cell, cons
                 bool has_ground) {
   cairo_t* cr = canvas.cairo();
   cairo_rectangle(cr, plane.box().x, plane.box().y, plane.box().width, plane.box().height);
-  arena_path(cr, plane, *cell.walls, cell.box_side);
+  arena_path(cr, plane, *cell.walls, cell.box);
   cairo_set_fill_rule(cr, CAIRO_FILL_RULE_EVEN_ODD);
   if (has_ground) {
     canvas.colour(colours.walls);
@@ -106,7 +106,7 @@ void draw_walls(const Canvas& canvas, const Plane& plane, const Cell& cell, cons
   }
   cairo_new_path(cr);
   cairo_set_fill_rule(cr, CAIRO_FILL_RULE_WINDING);
-  arena_path(cr, plane, *cell.walls, cell.box_side);
+  arena_path(cr, plane, *cell.walls, cell.box);
   canvas.colour(colours.ink);
   cairo_set_line_width(cr, 1.5 * unit);
   cairo_stroke(cr);
@@ -115,21 +115,21 @@ void draw_walls(const Canvas& canvas, const Plane& plane, const Cell& cell, cons
 /// The points of all lines so far, found by place. Periodic.
 class Occupied {
  public:
-  Occupied(double box_side, double distance)
-      : side_(box_side), cells_(std::max(1, static_cast<int>(box_side / distance))) {
-    in_cell_.resize(static_cast<std::size_t>(cells_) * static_cast<std::size_t>(cells_));
+  Occupied(const Box& box, double distance)
+      : box_(box), columns_(cells_along(box.x(), distance)), rows_(cells_along(box.y(), distance)) {
+    in_cell_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
   }
 
-  void add(const Vec2& place) { cell(column(place.x()), column(place.y())).push_back(wrapped(place)); }
+  void add(const Vec2& place) { cell(column(place), row(place)).push_back(wrapped(place)); }
   /// Whether a point lies nearer to `place` than `distance`, which is at most that given at the beginning.
   bool is_near(const Vec2& place, double distance) const {
     const Vec2 here = wrapped(place);
-    const int reach = std::min(1, (cells_ - 1) / 2);
-    for (int dj = -reach; dj <= reach; ++dj) {
-      for (int di = -reach; di <= reach; ++di) {
-        for (const Vec2& point : cell(column(here.x()) + di, column(here.y()) + dj)) {
+    const auto reach = [](int cells) { return std::min(1, (cells - 1) / 2); };
+    for (int dj = -reach(rows_); dj <= reach(rows_); ++dj) {
+      for (int di = -reach(columns_); di <= reach(columns_); ++di) {
+        for (const Vec2& point : cell(column(here) + di, row(here) + dj)) {
           const Vec2 d = point - here;
-          const Vec2 nearest(analysis::nearest_image(d.x(), side_), analysis::nearest_image(d.y(), side_));
+          const Vec2 nearest(analysis::nearest_image(d.x(), box_.x()), analysis::nearest_image(d.y(), box_.y()));
           if (nearest.squaredNorm() < distance * distance) return true;
         }
       }
@@ -138,21 +138,24 @@ class Occupied {
   }
 
  private:
+  static int cells_along(double side, double distance) { return std::max(1, static_cast<int>(side / distance)); }
+  static int cell_along(double x, double side, int cells) {
+    return std::min(static_cast<int>(analysis::wrapped(x, side) / side * cells), cells - 1);
+  }
   Vec2 wrapped(const Vec2& place) const {
-    return {analysis::wrapped(place.x(), side_), analysis::wrapped(place.y(), side_)};
+    return {analysis::wrapped(place.x(), box_.x()), analysis::wrapped(place.y(), box_.y())};
   }
-  int column(double x) const {
-    return std::min(static_cast<int>(analysis::wrapped(x, side_) / side_ * cells_), cells_ - 1);
-  }
+  int column(const Vec2& place) const { return cell_along(place.x(), box_.x(), columns_); }
+  int row(const Vec2& place) const { return cell_along(place.y(), box_.y(), rows_); }
   std::size_t index(int i, int j) const {
-    return static_cast<std::size_t>((j + cells_) % cells_) * static_cast<std::size_t>(cells_) +
-           static_cast<std::size_t>((i + cells_) % cells_);
+    return static_cast<std::size_t>((j + rows_) % rows_) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>((i + columns_) % columns_);
   }
   std::vector<Vec2>& cell(int i, int j) { return in_cell_[index(i, j)]; }
   const std::vector<Vec2>& cell(int i, int j) const { return in_cell_[index(i, j)]; }
 
-  double side_;
-  int cells_;
+  Box box_;
+  int columns_, rows_;
   std::vector<std::vector<Vec2>> in_cell_;
 };
 
@@ -202,8 +205,8 @@ void draw_streamlines(const Canvas& canvas, const Plane& plane, const analysis::
     }
     const Vec2 middle = (low + high) / 2;
     View view = plane.view();
-    view.period = field.region().is_periodic() ? field.region().box_side()
-                                               : 0;  // the field goes on beyond the box, also where rods do not
+    // the field goes on beyond the box, also where rods do not
+    view.period = field.region().is_periodic() ? field.region().box().sides() : Vec2(0, 0);
     for_images(view, middle, (high - low).maxCoeff() / 2, [&](const Vec2& at) {
       for (const Vec2& point : line) {
         const Vec2 p = plane.pixel(at + point - middle);
@@ -326,7 +329,7 @@ void draw_displacements(const Canvas& canvas, const Layout& layout, const RodPic
     const Vec2 way = picture.frame.displacement[i], middle = picture.frame.position[i].head<2>() - way / 2;
     const double length = way.norm() * plane.scale();  // [pixels]
     // A way through many boxes would be drawn in many pieces, and shows nothing.
-    if (length < 1 || way.norm() > 3 * picture.cell.box_side) continue;
+    if (length < 1 || way.norm() > 3 * picture.cell.box.longer()) continue;
     const double head = std::min(longest_head, length / 2);
     for_images(plane.view(), middle, way.norm() / 2 + longest_head / plane.scale(), [&](const Vec2& at) {
       const Vec2 tail = plane.pixel(at - way / 2), tip = plane.pixel(at + way / 2);
@@ -350,11 +353,11 @@ void draw_displacements(const Canvas& canvas, const Layout& layout, const RodPic
 }
 
 std::vector<Streamline> streamlines(const analysis::DirectorField& field, double distance) {
-  const double side = field.region().box_side();
+  const Box& box = field.region().box();
   const double step = distance / 4, near = distance / 2;
-  const auto most = static_cast<std::size_t>(2 * side / step);  // steps of one line to either side
+  const auto most = static_cast<std::size_t>(2 * box.longer() / step);  // steps of one line to either side
   constexpr std::size_t kOwn = 6;                               // steps along a line that may be near to each other
-  Occupied occupied(side, distance);
+  Occupied occupied(box, distance);
   std::vector<Streamline> lines;
 
   // From `seed` along `direction`, without the seed itself.
@@ -372,7 +375,7 @@ std::vector<Streamline> streamlines(const analysis::DirectorField& field, double
       const auto meets = [&](const Streamline& part, std::size_t spared) {
         if (part.size() <= spared) return false;
         return std::any_of(part.begin(), part.end() - static_cast<std::ptrdiff_t>(spared), [&](const Vec2& point) {
-          const Vec2 d(std::remainder(point.x() - next.x(), side), std::remainder(point.y() - next.y(), side));
+          const Vec2 d(std::remainder(point.x() - next.x(), box.x()), std::remainder(point.y() - next.y(), box.y()));
           return d.squaredNorm() < near * near;
         });
       };
@@ -409,10 +412,11 @@ std::vector<Streamline> streamlines(const analysis::DirectorField& field, double
       }
     }
   };
-  const int n_seeds = std::max(1, static_cast<int>(side / distance));
-  for (int j = 0; j < n_seeds; ++j) {
-    for (int i = 0; i < n_seeds; ++i) {
-      begin_at(side / n_seeds * Vec2(i + 0.5, j + 0.5));
+  const auto seeds_along = [distance](double side) { return std::max(1, static_cast<int>(side / distance)); };
+  const int columns = seeds_along(box.x()), rows = seeds_along(box.y());
+  for (int j = 0; j < rows; ++j) {
+    for (int i = 0; i < columns; ++i) {
+      begin_at({box.x() / columns * (i + 0.5), box.y() / rows * (j + 0.5)});
       surround();
     }
   }

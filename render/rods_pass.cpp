@@ -30,7 +30,7 @@ Result<void> check_drawable(const RodPicture& picture, const PictureStyle& style
     return Error{"the rods would be " + std::to_string(width) + " x " + std::to_string(height) +
                  " pixels; possible are 1 to " + std::to_string(RodsPass::kMaxSide) + " each way"};
   }
-  if (!(picture.cell.box_side > 0)) return Error{"the box has no size"};
+  if (!(picture.cell.box.shorter() > 0)) return Error{"the box has no size"};
   if (style.view != ViewPoint::kTop && !(picture.cell.gap > 0)) return Error{"there is no gap to look into"};
   if (picture.frame.director.size() != picture.frame.position.size())
     return Error{"as many directors as positions are needed"};
@@ -52,7 +52,7 @@ Result<void> check_drawable(const RodPicture& picture, const PictureStyle& style
 
 /// Whether one sees where the floor ends: at side walls, or around a box that is not repeated.
 bool has_end(const Cell& cell, const Camera& camera) {
-  return cell.walls || (camera.period == 0 && !camera.is_parallel);
+  return cell.walls || (camera.period.isZero() && !camera.is_parallel);
 }
 
 /// All rods of one species, and their periodic images, of which a part may be seen; relative to the eye.
@@ -121,13 +121,15 @@ void set_scene(GLuint program, const Cell& cell, const Frame& frame, const Pictu
   glUniform1i(at("has_lid"), frame.has_lid ? 1 : 0);
   number("cut", camera.is_cut ? camera.nearest : 0);
   number("grid", camera.is_parallel ? 0 : 5);
-  number("plate", camera.fades || camera.is_parallel ? 1e6 : cell.box_side);
+  const Box plate = camera.fades || camera.is_parallel ? Box(1e6) : cell.box;
+  pair("plate", plate.x(), plate.y());
   number("line", std::max(1.0, height / 480.0) * camera.pixel(height));
-  const SideWalls walls = cell.walls.value_or(SideWalls{Arena::kSquare, cell.box_side, 0});
-  glUniform1i(at("arena"), walls.arena == Arena::kDisc ? 0 : walls.arena == Arena::kSquare ? 1 : 2);
-  pair("middle", cell.box_side / 2 - camera.eye.x(), cell.box_side / 2 - camera.eye.y());
-  number("size", walls.size);
-  number("inner", walls.inner);
+  const Arena arena = cell.walls ? cell.walls->arena : Arena::kSquare;
+  const Box size = cell.walls ? Box(cell.walls->size) : cell.box;
+  glUniform1i(at("arena"), arena == Arena::kDisc ? 0 : arena == Arena::kSquare ? 1 : 2);
+  pair("middle", cell.box.x() / 2 - camera.eye.x(), cell.box.y() / 2 - camera.eye.y());
+  pair("size", size.x(), size.y());
+  number("inner", cell.walls ? cell.walls->inner : 0);
   const PageColours colours = ground_colours(style);
   three("page", colours.page);
   three("floor_colour", colours.floor);

@@ -22,9 +22,9 @@ vec2 corner() { return vec2(gl_VertexID & 1, gl_VertexID >> 1); }
 
 /// What fragment shaders know of the floor: where it ends (ENDS), and how all fades with depth (FADES).
 inline constexpr const char* kFloor = R"(#version 330 core
-uniform int arena;       // 0 disc, 1 square, 2 annulus
+uniform int arena;       // 0 disc, 1 rectangle, 2 annulus
 uniform vec2 middle;     // of the arena
-uniform float size;      // diameter, or side of the square
+uniform vec2 size;       // diameter, or sides of the rectangle
 uniform float inner;     // diameter of the annulus' inner wall
 uniform vec2 fade;       // depths where fading into the page begins and ends
 uniform vec3 page;
@@ -37,8 +37,9 @@ float beyond(vec2 at) {
 #endif
   vec2 from_middle = at - middle;
   float r = length(from_middle);
-  if (arena == 1) return max(abs(from_middle.x), abs(from_middle.y)) - 0.5 * size;
-  return arena == 2 ? max(r - 0.5 * size, 0.5 * inner - r) : r - 0.5 * size;
+  vec2 beyond = abs(from_middle) - 0.5 * size;
+  if (arena == 1) return max(beyond.x, beyond.y);
+  return arena == 2 ? max(r - 0.5 * size.x, 0.5 * inner - r) : r - 0.5 * size.x;
 }
 vec3 faded(vec3 colour, float depth) {
 #ifndef FADES
@@ -243,7 +244,7 @@ uniform bool has_lid;
 uniform float cut;         // depth where they are cut open; 0: they are not
 uniform float grid;        // distance of the lines on them; 0: none
 uniform float line;        // thickness of the arena's edge
-uniform float plate;       // side of the square plates
+uniform vec2 plate;        // sides of the plates
 uniform vec3 forward;
 uniform vec3 cut_colour;
 uniform vec3 outside;
@@ -271,8 +272,8 @@ void main() {
   float t = ray.z == 0.0 ? -1.0 : ((is_base ? plates.x : plates.y) - start.z) / ray.z;
   vec3 at = start + t * ray;
   float depth = dot(at, forward);
-  vec2 from_middle = abs(at.xy - middle);
-  if (t < 0.0 || max(from_middle.x, from_middle.y) > 0.5 * plate + line || depth > fade.y || (!is_base && !has_lid)) {
+  vec2 beyond = abs(at.xy - middle) - 0.5 * plate;
+  if (t < 0.0 || max(beyond.x, beyond.y) > line || depth > fade.y || (!is_base && !has_lid)) {
     pixel = vec4(page, 1.0);
     return;
   }

@@ -41,11 +41,11 @@ Result<void> check_sizes(const std::string& who, const RodPicture& picture, cons
   if (auto done = scene::check_cell(picture.cell, picture.n_rods()); !done)
     return Error{who + " " + done.error().message};
   const double mesh = asked.grid > 0 ? asked.grid : scene::MeasureDefects{}.grid_for(picture.rod_length());
-  if ((asked.defects || asked.field) && picture.cell.box_side / mesh > kMostNodes) {
+  if ((asked.defects || asked.field) && picture.cell.box.longer() / mesh > kMostNodes) {
     return Error{
         fmt::format("a box of {} mm is too large for a picture of rods of {} mm with defects on this mesh (at most {} "
                     "nodes each way); draw it without them",
-                    picture.cell.box_side, picture.rod_length(), kMostNodes)};
+                    picture.cell.box.longer(), picture.rod_length(), kMostNodes)};
   }
   return {};
 }
@@ -189,7 +189,7 @@ Result<const std::vector<analysis::Defect>*> TrajectorySource::defects_of(std::s
 Result<void> TrajectorySource::link(std::size_t first, std::size_t last) {
   if (!links_ || first < links_begin_ || first > links_end_) {
     const Cell& cell = reader_.header().cell;
-    links_.emplace(analysis::Region(cell.box_side, cell.walls), cell.species.front().length());
+    links_.emplace(analysis::Region(cell.box, cell.walls), cell.species.front().length());
     links_begin_ = links_end_ = first;
   }
   for (; links_end_ <= last; ++links_end_) {
@@ -225,7 +225,7 @@ Result<std::vector<Vec2>> TrajectorySource::displacements(const Snapshot& now, s
   const Result<Snapshot> before = reader_.frame(*past);
   if (!before) return before.error();
   const auto unwrapped = [&](const Snapshot& frame, std::size_t i) -> Vec2 {
-    return frame.position[i].head<2>() + reader_.header().cell.box_side * Vec2(frame.image[i][0], frame.image[i][1]);
+    return frame.position[i].head<2>() + reader_.header().cell.box.sides().cwiseProduct(Vec2(frame.image[i][0], frame.image[i][1]));
   };
   std::vector<Vec2> ways;
   for (std::size_t i = 0; i < now.position.size(); ++i) ways.emplace_back(unwrapped(now, i) - unwrapped(*before, i));
@@ -339,7 +339,7 @@ Result<RodPicture> live_picture(const std::string& lcm_url, const std::string& j
   const std::optional<Cell> cell = proto::decode_cell(*constants);
   if (!cell) return Error{"the job's messages have numbers of beads that contradict each other"};
   picture.cell = *cell;
-  picture.cell.box_side = frame->box_side_mm;
+  picture.cell.box = frame->box;
   for (const proto::RodPose& rod : frame->rods) {
     const std::array<double, 3> axis = rod.axis();
     picture.frame.position.emplace_back(rod.x, rod.y, cell->gap / 2);

@@ -83,7 +83,7 @@ struct PictureStyle {
   std::optional<int> followed;                    ///< a rod that stays in the middle; `focus` is then not asked
   std::optional<FollowedDefect> followed_defect;  ///< as `followed`; one of them at most
   bool whole = false;           ///< rods across the border of a periodic box are drawn once and whole, beyond its frame
-  double zoom = 1.0;            ///< >= 1: shows a square of box_side / zoom
+  double zoom = 1.0;            ///< >= 1: shows a square of the longer side of the box / zoom
   Vec2 focus{0.5, 0.5};         ///< middle of the view, in box sides; a periodic box wraps round
   double fps = 30;              ///< frames per second of playing
   std::optional<double> speed;  ///< simulated seconds per second of playing; as the frames come if not given

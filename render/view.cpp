@@ -17,21 +17,26 @@ bool is_whole(const Cell& cell, const PictureStyle& style) {
 }  // namespace
 
 View view_of(const RodPicture& picture, const PictureStyle& style) {
+  const Box& box = picture.cell.box;
   View view;
+  const auto look_at = [&](const Vec2& middle) { view.corner = middle - Vec2(view.side, view.side) / 2; };
   if (is_whole(picture.cell, style)) {
     // A rod whose centre lies in the box reaches at most half a length beyond it, whichever its species.
     double margin = 0;
     for (const BeadRow& beads : picture.cell.species) margin = std::max(margin, beads.reach());
-    return {Vec2(-margin, -margin), picture.cell.box_side + 2 * margin, 0};
+    view.side = box.longer() + 2 * margin;
+    look_at(box.sides() / 2);
+    return view;
   }
-  view.side = picture.cell.box_side / std::max(style.zoom, 1.0);
-  view.period = picture.cell.walls ? 0 : picture.cell.box_side;
+  view.side = box.longer() / std::max(style.zoom, 1.0);
+  if (!picture.cell.walls) view.period = box.sides();
   if (const std::optional<std::size_t> rod = followed_rod(picture.frame, style)) {
-    view.corner = picture.frame.position[*rod].head<2>() - Vec2(view.side, view.side) / 2;
+    look_at(picture.frame.position[*rod].head<2>());
   } else if (style.followed_defect && picture.found.followed) {
-    view.corner = *picture.found.followed - Vec2(view.side, view.side) / 2;
-  } else if (style.zoom > 1) {
-    view.corner = style.focus * picture.cell.box_side - Vec2(view.side, view.side) / 2;
+    look_at(*picture.found.followed);
+  } else {
+    const Vec2 middle(0.5, 0.5);
+    look_at((style.zoom > 1 ? style.focus : middle).cwiseProduct(box.sides()));
   }
   return view;
 }
@@ -48,10 +53,12 @@ bool is_in_view(const RodPicture& picture, const PictureStyle& style, const Vec2
   return is_seen;
 }
 
-View box_in(const RodPicture& picture, const PictureStyle& style) {
+Framed framed_in(const RodPicture& picture, const PictureStyle& style) {
   const View view = view_of(picture, style);
-  if (!is_whole(picture.cell, style)) return {Vec2(0, 0), view.side, view.period};
-  return {-view.corner, picture.cell.box_side, 0};
+  const Box& box = picture.cell.box;
+  const bool shows_more = is_whole(picture.cell, style) || (style.zoom <= 1 && box.x() != box.y());
+  if (shows_more && !followed_rod(picture.frame, style) && !style.followed_defect) return {-view.corner, box.sides()};
+  return {Vec2(0, 0), Vec2(view.side, view.side)};
 }
 
 }  // namespace shaken::render

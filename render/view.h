@@ -14,28 +14,33 @@ namespace shaken::render {
 struct View {
   Vec2 corner{0, 0};  ///< lower left
   double side = 0;
-  double period = 0;  ///< of the plane, in x and in y; 0: nothing is repeated
+  Vec2 period{0, 0};  ///< of the plane, in x and in y; 0: nothing is repeated
 };
+/// Of a periodic box that is longer than wide, the longer side: its images stand beside it.
 View view_of(const RodPicture& picture, const PictureStyle& style);
-/// Where the box lies in the view, from its corner; the view itself unless rods are drawn whole.
-View box_in(const RodPicture& picture, const PictureStyle& style);
+/// What is framed in the view [mm], from its corner: the view itself, unless more than the box is seen.
+struct Framed {
+  Vec2 corner{0, 0};
+  Vec2 sides{0, 0};
+};
+Framed framed_in(const RodPicture& picture, const PictureStyle& style);
 /// Whether a point, or an image of it, is in the view from above; other views show the whole box.
 bool is_in_view(const RodPicture& picture, const PictureStyle& style, const Vec2& point);
 /// The rod that the view follows, if the frame has it.
 std::optional<std::size_t> followed_rod(const Frame& frame, const PictureStyle& style);
 
 /// Calls `visit(place)` for each image of `point` that lies in the rectangle or within `reach` of it; images are
-/// `period` apart, and none but the point itself if that is 0.
+/// `period` apart each way, and none but the point itself if that is 0.
 template <class Visit>
-void for_images(const Vec2& low, const Vec2& high, double period, const Vec2& point, double reach, const Visit& visit) {
-  if (period <= 0) {
+void for_images(const Vec2& low, const Vec2& high, const Vec2& period, const Vec2& point, double reach, const Visit& visit) {
+  if (period.isZero()) {
     if ((point - low).minCoeff() >= -reach && (high - point).minCoeff() >= -reach) visit(point);
     return;
   }
-  const auto first = [&](int axis) { return std::ceil((low[axis] - reach - point[axis]) / period); };
-  const auto last = [&](int axis) { return std::floor((high[axis] + reach - point[axis]) / period); };
+  const auto first = [&](int axis) { return std::ceil((low[axis] - reach - point[axis]) / period[axis]); };
+  const auto last = [&](int axis) { return std::floor((high[axis] + reach - point[axis]) / period[axis]); };
   for (double ky = first(1); ky <= last(1); ++ky) {
-    for (double kx = first(0); kx <= last(0); ++kx) visit(Vec2(point + period * Vec2(kx, ky)));
+    for (double kx = first(0); kx <= last(0); ++kx) visit(Vec2(point + period.cwiseProduct(Vec2(kx, ky))));
   }
 }
 

@@ -75,7 +75,7 @@ void Measurements::sample(const Snapshot& snapshot) {
     if (!cell_.species_of_rod.empty()) {
       measured = {snapshot.tick,
                   snapshot.time,
-                  snapshot.box_side,
+                  snapshot.box,
                   theirs(snapshot.position),
                   theirs(snapshot.image),
                   theirs(snapshot.director),

@@ -18,7 +18,7 @@ proto::Frame make_frame(const World& world, const Snapshot& snapshot) {
   proto::Frame frame;
   frame.sim_time_s = snapshot.time;
   frame.tick = snapshot.tick;
-  frame.box_side_mm = snapshot.box_side;
+  frame.box = snapshot.box;
   frame.order = order.order;
   frame.director_rad = order.director;
   frame.rods.reserve(snapshot.n_rods());

@@ -20,7 +20,7 @@ Result<void> check_cell(const Cell& cell, std::size_t n_rods) {
     if (value >= low * (1 - kRounding) && value <= high * (1 + kRounding)) return;  // false for NaN
     wrong = fmt::format("a {} of {} mm; a scene has {} to {} mm", what, value, low, high);
   };
-  hold("box side", cell.box_side, "box.side");
+  for (const double side : {cell.box.x(), cell.box.y()}) hold("box side", side, "box.side");
   hold("gap", cell.gap, "box.gap");
   for (const BeadRow& beads : cell.species) {
     for (const double radius : beads.radius) hold("bead radius", radius, "rods.bead_diameters", 0.5);

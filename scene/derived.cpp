@@ -46,7 +46,7 @@ double arena_size_for(const SideWalls& walls, double area) {
   return std::sqrt(4.0 * area / kPi + (walls.arena == Arena::kAnnulus ? squared(walls.inner) : 0.0));
 }
 
-double area_for_rods(const System& scene) { return scene.walls ? scene.walls->area() : squared(scene.box_side); }
+double area_for_rods(const System& scene) { return scene.walls ? scene.walls->area() : scene.box().area(); }
 
 double area_fraction_of(const System& scene) { return area_fraction_of(scene, scene.rod, scene.n_rods); }
 

@@ -236,7 +236,9 @@ std::vector<std::vector<Field>> groups() {
             "must be given"),
 
     quantity("box.side", sys<&System::box_side>, kLength, 1, 2000,
-             "Side L of the square box, which is periodic in x and y."),
+             "Side L of the box along x. The box is periodic in x and y."),
+    later(quantity("box.aspect", sys<&System::box_aspect>, kPlain, 0.02, 50,
+                   "Side of the box along y over that along x; 1: a square.")),
     quantity("box.gap", sys<&System::gap>, kLength, 0.05, 100, "Distance w between base and lid."),
 
     instead("plates.gamma", fetch_gamma, kPlain, 0, 200, kDefaultGamma,

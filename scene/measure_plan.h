@@ -87,6 +87,7 @@ struct MeasurePairs {
   double every = 0.5;  ///< [s]
   int bins = 81;       ///< each way
   double range = 0.0;  ///< half the map's width [mm]; 0: what range_for() says
+  /// In a box whose shorter side is `box_side`.
   double range_for(double rod_length, double box_side) const {
     return range > 0 ? range : std::min(3 * rod_length, box_side / 2);
   }

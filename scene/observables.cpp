@@ -39,22 +39,26 @@ double Sizes::for_lags(double columns, double quantities) const {
 
 namespace {
 
-/// The nodes of a square grid of waves, of which one of each pair +-q is kept (analysis/wave_sums.h).
-double half_plane(double waves) { return (waves + 1) * (2 * waves + 1); }
+/// Wave vectors up to `waves` of them to the longer side of the box, one of each pair +-q (analysis/wave_sums.h).
+double half_plane(double waves, const Box& box) {
+  const Vec2 most = (waves / box.longer() * box.sides()).array().floor();
+  return (most.x() + 1) * (2 * most.y() + 1);
+}
 
 MeasureMemory of_defects(const Sizes& sizes) {
   const System& system = sizes.plan.system;
   const MeasureDefects& defects = *sizes.plan.defects;
-  const double side = std::max(4.0, std::ceil(system.box_side / defects.grid_for(system.rod.length) - 1e-9));
+  const double mesh = defects.grid_for(system.rod.length);
+  const double nodes = std::max(4.0, std::ceil(system.box().x() / mesh - 1e-9)) *
+                       std::max(4.0, std::ceil(system.box().y() / mesh - 1e-9));
   // Zeros of a Gaussian field that is smoothed over s: 1 / (4 pi s^2) of them an area (Halperin, Les Houches 35, 813
   // (1981)); the field has no more than one in a mesh.
   const double smoothing = defects.smoothing_for(system.rod.length);
-  const double found =
-      std::min(system.box_side * system.box_side / (4 * std::numbers::pi * smoothing * smoothing), side * side);
+  const double found = std::min(system.box().area() / (4 * std::numbers::pi * smoothing * smoothing), nodes);
   constexpr double kTrack = 1200;  // with its last 17 places
   const double list = defects.list ? 6 * kNumberBytes * found * sizes.samples : 0;
   // Q, the density of rods and that of the nodes, each node's sum by rows and in all
-  return {"", sizes.series(3) + found * kTrack + list, 5 * kNumberBytes * side * side, sizes.series(3) + list,
+  return {"", sizes.series(3) + found * kTrack + list, 5 * kNumberBytes * nodes, sizes.series(3) + list,
           sizes.spare_series(3) + kSpare * list};
 }
 
@@ -73,15 +77,17 @@ MeasureMemory of_rods(const Sizes& sizes) {
 
 MeasureMemory of_pairs(const Sizes& sizes) {
   const double bins = sizes.plan.pairs->bins;
-  const double side = sizes.plan.system.box_side;
+  const double side = sizes.plan.system.box().shorter();
   const double range = std::min(sizes.plan.pairs->range_for(sizes.plan.system.rod.length, side), side / 2);
   const double cut = side / 2 / (2 * range / bins);
   return {"", sizes.in_blocks(2 * kNumberBytes * (bins * bins + 2 * cut)), 0};
 }
 
 MeasureMemory of_layers(const Sizes& sizes) {
-  const double waves = std::min(40.0, std::floor(2 * sizes.plan.system.box_side / sizes.plan.system.rod.length));
-  return {"", sizes.in_blocks(2 * kNumberBytes * (half_plane(waves) + 2 * waves)), half_plane(waves) * kNumberBytes};
+  const Box box = sizes.plan.system.box();
+  const double waves = std::min(40.0, std::floor(2 * box.longer() / sizes.plan.system.rod.length));
+  const double vectors = half_plane(waves, box);
+  return {"", sizes.in_blocks(2 * kNumberBytes * (vectors + 2 * waves)), vectors * kNumberBytes};
 }
 
 /// The rows, each by the name of its observable.
@@ -159,7 +165,7 @@ Observable g2() {
     .axis = AxisUse::kPartly,
     .keys = {
       whole("bins", at<&Plan::g2, &MeasureG2::bins>, 2, 10000,
-            "Number of bins over distances from 0 to half the box.")},
+            "Number of bins over distances from 0 to half the box, by its shorter side.")},
     .memory = [](const Sizes& s) -> MeasureMemory {
       return {"", s.in_blocks(3 * kNumberBytes * s.plan.g2->bins + 100), 0}; },
     .remedy = "fewer `bins`"};
@@ -186,6 +192,7 @@ Observable frank() {
     .doc = "Fluctuations of the director against the wave vector, and the ratio of the Frank constants of bend and "
            "splay.",
     .periodic = "the waves",
+    .is_of_squares = true,
     .axis = AxisUse::kNeeded,
     // 84 waves in each sector that the director visits; a few of 36
     .memory = [](const Sizes& s) -> MeasureMemory { return {"", s.in_blocks(3 * 90 * kNumberBytes), 0}; }};
@@ -235,7 +242,7 @@ Observable pairs() {
             "Number of bins of a map in each direction; use an odd number to have a bin centred on 0. A run keeps 64 "
             "maps, one for each interval of time, with 16 bytes per bin: 41 MB at most."),
       derived(quantity("range", at<&Plan::pairs, &MeasurePairs::range>, kLength, 0.01, 1000,
-                       "Half the width of the map. It is at most half the box."),
+                       "Half the width of the map. It is at most half the box, by its shorter side."),
               "three rod lengths, at most half the box")},
     .memory = of_pairs,
     .remedy = "fewer `bins`"};
@@ -253,7 +260,7 @@ Observable lattice() {
   return {
     .doc = "Crystalline order: psi_6 and the largest Bragg peak.",
     .periodic = "the nearest images and waves",
-    .memory = [](const Sizes& s) -> MeasureMemory { return {"", s.in_blocks(200), half_plane(128) * kNumberBytes}; }};
+    .memory = [](const Sizes& s) -> MeasureMemory { return {"", s.in_blocks(200), half_plane(128, s.plan.system.box()) * kNumberBytes}; }};
 }
 
 Observable structure() {
@@ -263,10 +270,10 @@ Observable structure() {
     .axis = AxisUse::kPartly,
     .keys = {
       whole("waves", at<&Plan::structure, &MeasureStructure::waves>, 2, 128,
-            "Number of wave numbers 2 pi k / L. The time that a sample takes grows with its square.")},
+            "Number of wave numbers 2 pi k / L, L being the longer side of the box. The time that a sample takes grows with its square.")},
     .memory = [](const Sizes& s) -> MeasureMemory {
       const double waves = s.plan.structure->waves;
-      return {"", s.in_blocks(6 * kNumberBytes * waves + 100), half_plane(waves) * kNumberBytes}; },
+      return {"", s.in_blocks(6 * kNumberBytes * waves + 100), half_plane(waves, s.plan.system.box()) * kNumberBytes}; },
     .remedy = "fewer `waves`"};
 }
 
@@ -297,6 +304,7 @@ Observable of(const char* name, Observable row) {
   const std::string path = "measure." + row.name;
   std::string doc = row.doc;
   if (!row.within_walls()) doc += " Not available with walls.";
+  if (row.is_of_squares) doc += " Only in square boxes.";
   if (row.axis == AxisUse::kNeeded) doc += " Not measured of spheres, which have no axis.";
   row.block = block(path, at<settings>, row.is_usual, doc);
   row.every = every(

@@ -50,6 +50,7 @@ struct Observable {
   std::string doc;            ///< one line, for the reference
   bool is_usual = false;      ///< measured where a scene has no "measure" at all
   std::string periodic = "";  ///< what it takes of a periodic box ("the waves"); empty: nothing
+  bool is_of_squares = false;  ///< of a periodic box it takes that it is square
   AxisUse axis = AxisUse::kNone;
   std::string every_doc = "Time between samples.";     ///< of the key `every`
   std::vector<Field> keys = {};                        ///< further keys, by their names in the block

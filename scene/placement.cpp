@@ -24,6 +24,7 @@ RunPlan placed_alike(const RunPlan& plan) {
   alike.system.n_rods = system.n_rods;
   alike.system.added = system.added;
   alike.system.box_side = system.box_side;
+  alike.system.box_aspect = system.box_aspect;
   alike.system.gap = system.gap;
   alike.system.walls = system.walls;
   alike.system.start = system.start;
@@ -42,7 +43,7 @@ class Placings {
   bool* find_or_add(const RunPlan& plan) {
     const System& system = plan.system;
     std::size_t hash = 0;
-    for (const double part : {static_cast<double>(system.n_rods), system.box_side, system.gap, system.rod.length,
+    for (const double part : {static_cast<double>(system.n_rods), system.box_side, system.box_aspect, system.gap, system.rod.length,
                               static_cast<double>(system.start == Start::kRandom ? system.seed : 0)}) {
       hash = 31 * hash + std::hash<double>()(part);
     }

@@ -14,8 +14,8 @@ namespace shaken {
 /// Where the rods of a run are, and of which species: what stays the same from frame to frame, and is needed to
 /// draw or measure one. A System says how a scene wants it; this is what came of it, and what files and messages carry.
 struct Cell {
-  double box_side = 0;  ///< of the square box, periodic in x and y [mm]
-  double gap = 0;       ///< between the plates [mm]
+  Box box;  ///< periodic in x and y
+  double gap = 0;           ///< between the plates [mm]
   std::optional<SideWalls> walls{};
   std::vector<BeadRow> species{};              ///< order, director and defects are of the first
   std::vector<std::uint8_t> species_of_rod{};  ///< (n_rods) from 0; empty if there is one species
@@ -35,7 +35,7 @@ struct Cell {
   /// Whether the rods of the first species have axes: spheres have none, and no order, director or defects.
   bool has_axes() const { return !species.empty() && species.front().has_axis(); }
   /// What the rods have to share [mm^2].
-  double area() const { return walls ? walls->area() : box_side * box_side; }
+  double area() const { return walls ? walls->area() : box.area(); }
 
   friend bool operator==(const Cell&, const Cell&) = default;
 };

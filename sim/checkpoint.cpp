@@ -79,6 +79,7 @@ void each_scene_key(Archive&& visit, const System& system) {
     visit(system.walls->inner);
   }
   visit(system.box_side);
+  if (system.box_aspect != 1) visit(system.box_aspect);
   visit(system.gap);
   visit(system.amplitude);
   visit(system.frequency);

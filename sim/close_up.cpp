@@ -45,7 +45,7 @@ void add_wall_contacts(const World& world, const CloseUp::Rod& rod, CloseUp& out
   const Species& species = world.species_of(static_cast<std::size_t>(rod.rod));
   for (int bead = 0; bead < species.n_beads(); ++bead) {
     const Vec3 center = rod.pose.position + species.bead_offset[bead] * rod.pose.director;
-    const WallsSeen seen = see_walls(*world.system.walls, world.system.box_side, center);
+    const WallsSeen seen = see_walls(*world.system.walls, world.system.box(), center);
     for (int w = 0; w < seen.n; ++w) {
       const double overlap = species.bead_radius[bead] - seen.walls[w].distance;
       if (!(overlap > 0)) continue;
@@ -106,7 +106,7 @@ CloseUp look_closely(const World& world, Tick tick, const std::vector<int>& conc
     for (std::size_t a = 0; a < n_asked; ++a) {
       const CloseUp::Rod rod = out.rods[a];
       if (rod.rod == other || (is_asked && rod.rod > other)) continue;
-      const Vec3 D = nearest_image(rod.pose.position, state->pose.position, world.system.box_side);
+      const Vec3 D = nearest_image(rod.pose.position, state->pose.position, world.system.box());
       const Species& mine = world.species_of(static_cast<std::size_t>(rod.rod));
       const Species& its = world.species_of(static_cast<std::size_t>(other));
       const double near = mine.max_radius + its.max_radius + reach;

@@ -112,7 +112,7 @@ class Compression {
     for (auto& added : loose.added) {
       if (added) added->rod = thicker(added->rod, more);
     }
-    const double fraction = area_of(aim_) / (system_.box_side * system_.box_side);
+    const double fraction = area_of(aim_) / system_.box().area();
     double wanted = kLoose;
     for (int k = 1;; ++k, wanted *= kLooser) {
       loose.box_side = system_.box_side * std::max(1.0, std::sqrt(fraction / wanted));
@@ -143,7 +143,7 @@ class Compression {
     double overlap = 0;
     for (const auto& [i, j] : neighbors.pairs()) {
       contacts.clear();
-      Vec3 D = nearest_image(poses_[i].position, poses_[j].position, world_.system.box_side);
+      Vec3 D = nearest_image(poses_[i].position, poses_[j].position, world_.system.box());
       D.x() *= shrunk;
       D.y() *= shrunk;
       find_bead_contacts(species[world_.species_of_rod[i]], poses_[i].director, species[world_.species_of_rod[j]],
@@ -154,7 +154,7 @@ class Compression {
   }
 
   NeighborList neighbors() const {
-    NeighborList list(world_.species, world_.species_of_rod, world_.system.box_side, NeighborList::kSkin);
+    NeighborList list(world_.species, world_.species_of_rod, world_.system.box(), NeighborList::kSkin);
     list.build(poses_);
     return list;
   }
@@ -176,26 +176,25 @@ class Compression {
   /// Begins flights where the rods were when they were looked at last, their centres scaled with the side of the box.
   void fly_anew_from(double side) {
     const double scale = side / world_.system.box_side;
+    world_.system.box_side = side;
     for (std::size_t i = 0; i < world_.rods.size(); ++i) {
       Pose pose = poses_[i];
       pose.position.x() *= scale;
       pose.position.y() *= scale;
       const Species& species = world_.species_of(i);
-      begin_flight(world_.rods[i], 0, pose, motions_[i], side, species.inertia_par / species.inertia_perp);
+      begin_flight(world_.rods[i], 0, pose, motions_[i], world_.system.box(), species.inertia_par / species.inertia_perp);
     }
     world_.tick = 0;
-    world_.system.box_side = side;
   }
 
   Result<void> may_go_on(bool there_is_hope) const {
     if (go_on_ && !go_on_()) return Error{"stopped"};
     if (there_is_hope) return {};
-    const double side = world_.system.box_side;
     char text[160];
     std::snprintf(text, sizeof text,
                   "the rods jammed at area fraction %.3f, before they were compressed to %.3f; rods.start \"aligned\" "
                   "packs more",
-                  area_of(aim_) / (side * side), area_of(aim_) / (system_.box_side * system_.box_side));
+                  area_of(aim_) / world_.system.box().area(), area_of(aim_) / system_.box().area());
     return Error{text};
   }
 
@@ -227,8 +226,8 @@ class Compression {
       Flight& flight = flights[i];
       std::int32_t ignored = 0;
       flight.position = poses_[i].position;
-      wrap(flight.position.x(), ignored, system_.box_side);
-      wrap(flight.position.y(), ignored, system_.box_side);
+      wrap(flight.position.x(), ignored, aim_.system.box().x());
+      wrap(flight.position.y(), ignored, aim_.system.box().y());
       flight.position.z() += raised;
       flight.director = poses_[i].director;
       Rng rng(system_.seed, RngStream::kVelocity, 0, static_cast<std::uint64_t>(i));

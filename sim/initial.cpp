@@ -103,25 +103,25 @@ class Placement {
   std::vector<Beads> poses_;
 };
 
-Vec3 site_position(const Lattice& lattice, double side, int site) {
+Vec3 site_position(const Lattice& lattice, const Box& box, int site) {
   const int row = site / lattice.columns;
   const int column = site % lattice.columns;
   const auto shift = static_cast<double>(static_cast<long>(row) * lattice.turns % lattice.rows) / lattice.rows;
-  return {(column + 0.25 + shift) * (side / lattice.columns), (row + 0.5) * (side / lattice.rows), 0};
+  return {(column + 0.25 + shift) * (box.x() / lattice.columns), (row + 0.5) * (box.y() / lattice.rows), 0};
 }
 
 /// Sites at which any rod is clear of the side walls, whichever way it lies along x.
 std::vector<int> usable_sites(const Lattice& lattice, const Placement& rods) {
-  const double side = rods.system.box_side;
+  const Box box = rods.system.box();
   const double reach = 0.5 * rods.rod_extent() + kClearance;  // beyond it no bead is near a wall, however the rod lies
   std::vector<int> sites;
   for (int site = 0; site < lattice.sites(); ++site) {
-    const Vec3 position = site_position(lattice, side, site);
+    const Vec3 position = site_position(lattice, box, site);
     bool clear = true;
-    if (rods.system.walls && distance_to_walls(*rods.system.walls, side, position) < reach) {
+    if (rods.system.walls && distance_to_walls(*rods.system.walls, box, position) < reach) {
       for (const Species& kind : rods.species) {
         for (const double sign : {1.0, -1.0}) {
-          clear = clear && is_within(*rods.system.walls, side, kind, Pose{position, Vec3(sign, 0, 0)});
+          clear = clear && is_within(*rods.system.walls, box, kind, Pose{position, Vec3(sign, 0, 0)});
         }
       }
     }
@@ -143,14 +143,14 @@ struct Columns {
   int max_rows = 0;
 };
 std::vector<Columns> possible_columns(const Placement& rods) {
-  const double side = rods.system.box_side;
-  const int max_columns = static_cast<int>(side / (rods.rod_extent() + kClearance));
+  const Box box = rods.system.box();
+  const int max_columns = static_cast<int>(box.x() / (rods.rod_extent() + kClearance));
   std::vector<Columns> all;
   for (int columns = 1; columns <= max_columns; ++columns) {
-    const double pitch = side / columns;
+    const double pitch = box.x() / columns;
     const double next_row = rods.least_row_distance(pitch, 0.5 * pitch) + kClearance;
     const double row_after = rods.least_row_distance(pitch, 0.0) + kClearance;
-    const int max_rows = static_cast<int>(std::min(side / next_row, 2.0 * side / row_after)) / 2 * 2;
+    const int max_rows = static_cast<int>(std::min(box.y() / next_row, 2.0 * box.y() / row_after)) / 2 * 2;
     all.push_back({columns, pitch, next_row, row_after, max_rows});
   }
   return all;
@@ -158,7 +158,7 @@ std::vector<Columns> possible_columns(const Placement& rods) {
 
 /// The roomiest lattice with a usable site for every rod.
 std::optional<Lattice> find_lattice(const Placement& rods) {
-  const double side = rods.system.box_side;
+  const Box box = rods.system.box();
   const int n_rods = rods.n_rods();
   const double extent = rods.rod_extent();
   std::optional<Lattice> best;
@@ -166,7 +166,7 @@ std::optional<Lattice> find_lattice(const Placement& rods) {
     int rows = (n_rods + columns - 1) / columns + ((n_rods + columns - 1) / columns) % 2;
     while (rows <= max_rows && n_usable(every_other_row_shifted(columns, rows), rods) < n_rods) rows += 2;
     if (rows > max_rows) continue;
-    const double row_pitch = side / rows;
+    const double row_pitch = box.y() / rows;
     const double clearance = std::min({pitch - extent, row_pitch - next_row, 2.0 * row_pitch - row_after});
     if (!best || clearance > best->clearance) best = every_other_row_shifted(columns, rows, clearance);
   }
@@ -176,8 +176,8 @@ std::optional<Lattice> find_lattice(const Placement& rods) {
 /// The roomiest lattice with so many columns and rows whose rows are shifted evenly, by any part of a column; none if
 /// rods overlap in each.
 std::optional<Lattice> winding_rows(int columns, int rows, const Placement& rods) {
-  const double pitch = rods.system.box_side / columns;
-  const double apart = rods.system.box_side / rows;
+  const double pitch = rods.system.box().x() / columns;
+  const double apart = rods.system.box().y() / rows;
   const double reach = 2.0 * rods.max_radius() + kClearance;
   std::vector<double> least_distance;  // of two rows, by their shift in parts of `rows`; it is the same to either side
   for (int part = 0; part <= rows / 2; ++part) {
@@ -201,12 +201,12 @@ template <class Visit>
 void for_each_columns(const Placement& rods, const Visit& visit) {
   constexpr int kMostRods = 1000;  // beyond, whole rods leave little of a side over, and the search takes seconds
   if (rods.system.walls || rods.n_rods() > kMostRods) return;
-  const double side = rods.system.box_side;
+  const Box box = rods.system.box();
   double area = 0;
   for (const Species& kind : rods.species) area = std::max(area, kind.area);
-  const int max_columns = static_cast<int>(side / (rods.rod_extent() + kClearance));
+  const int max_columns = static_cast<int>(box.x() / (rods.rod_extent() + kClearance));
   for (int columns = 1; columns <= max_columns; ++columns) {
-    visit(columns, static_cast<int>(side * side / (area * columns)));
+    visit(columns, static_cast<int>(box.area() / (area * columns)));
   }
 }
 
@@ -274,7 +274,7 @@ std::string amount(const Placement& rods, int count) {
   const System& system = rods.system;
   double area = 0;
   for (int i = 0; i < rods.n_rods(); ++i) area += rods.species_of(i).area;
-  const double room = system.walls ? system.walls->area() : system.box_side * system.box_side;
+  const double room = system.walls ? system.walls->area() : system.box().area();
   char text[64];
   std::snprintf(text, sizeof text, "%d rods (area fraction %.3f)", count, area / rods.n_rods() * count / room);
   return text;
@@ -302,7 +302,7 @@ Result<Lattice> lattice_at_angle(const Placement& rods, const SinCos& angle) {
     const double tilt = most_tilt(system, kind);
     shorter = std::max(shorter, kind.half_length * (1.0 - std::sqrt(1.0 - tilt * tilt)));
   }
-  const TurnedRows turned(rods.species, system.box_side, Vec2(angle.cos, angle.sin), kClearance + 2.0 * shorter);
+  const TurnedRows turned(rods.species, system.box(), Vec2(angle.cos, angle.sin), kClearance + 2.0 * shorter);
   if (const auto lattice = turned.find(rods.n_rods())) return *lattice;
   char degrees[32];
   std::snprintf(degrees, sizeof degrees, "%.10g", system.start_angle);
@@ -326,10 +326,10 @@ Result<std::vector<Flight>> place_aligned(const Placement& rods) {
   std::vector<Flight> flights(sites.size());
   for (int i = 0; i < rods.n_rods(); ++i) {
     Rng rng(system.seed, RngStream::kVelocity, 0, static_cast<std::uint64_t>(i));
-    flights[i].position = site_position(*lattice, system.box_side, sites[i]);
+    flights[i].position = site_position(*lattice, system.box(), sites[i]);
     if (angle != 0) {
       std::int32_t ignored = 0;
-      wrap(flights[i].position.x(), ignored, system.box_side);
+      wrap(flights[i].position.x(), ignored, system.box().x());
     }
     // polar rods point either way
     const bool turned = Placement::is_polar(rods.species_of(i)) && rng.uniform() < 0.5;
@@ -344,21 +344,28 @@ Result<std::vector<Flight>> place_random(const Placement& rods) {
   std::vector<BeadContact> contacts;
   // rods are flat here, so centres further apart than one rod length cannot touch: cells of that width
   const double width = rods.rod_extent();
-  const int cells = std::max(1, static_cast<int>(system.box_side / width));
-  std::vector<std::vector<int>> members(static_cast<std::size_t>(cells) * cells);
-  const auto cell_of = [&](double x) { return std::min(cells - 1, static_cast<int>(x / system.box_side * cells)); };
+  const Box box = system.box();
+  const int columns = std::max(1, static_cast<int>(box.x() / width));
+  const int rows = std::max(1, static_cast<int>(box.y() / width));
+  std::vector<std::vector<int>> members(static_cast<std::size_t>(columns) * rows);
+  const auto column_of = [&](const Flight& rod) {
+    return std::min(columns - 1, static_cast<int>(rod.position.x() / box.x() * columns));
+  };
+  const auto row_of = [&](const Flight& rod) {
+    return std::min(rows - 1, static_cast<int>(rod.position.y() / box.y() * rows));
+  };
   const auto is_free = [&](const Flight& candidate, const Species& species) {
     if (system.walls &&
-        !is_within(*system.walls, system.box_side, species, Pose{candidate.position, candidate.director}))
+        !is_within(*system.walls, box, species, Pose{candidate.position, candidate.director}))
       return false;
     const auto touches = [&](int other) {
       contacts.clear();
-      Vec3 D = nearest_image(candidate.position, flights[other].position, system.box_side);
+      Vec3 D = nearest_image(candidate.position, flights[other].position, box);
       D.z() = 0;  // as if at one height: then it does not matter how high they jump
       find_bead_contacts(species, candidate.director, rods.species_of(other), flights[other].director, D, contacts);
       return !contacts.empty();
     };
-    if (cells < 3) {
+    if (columns < 3 || rows < 3) {
       for (std::size_t other = 0; other < flights.size(); ++other) {
         if (touches(static_cast<int>(other))) return false;
       }
@@ -366,9 +373,9 @@ Result<std::vector<Flight>> place_random(const Placement& rods) {
     }
     for (int dy = -1; dy <= 1; ++dy) {
       for (int dx = -1; dx <= 1; ++dx) {
-        const int cx = (cell_of(candidate.position.x()) + dx + cells) % cells;
-        const int cy = (cell_of(candidate.position.y()) + dy + cells) % cells;
-        for (int other : members[cy * cells + cx]) {
+        const int cx = (column_of(candidate) + dx + columns) % columns;
+        const int cy = (row_of(candidate) + dy + rows) % rows;
+        for (int other : members[cy * columns + cx]) {
           if (touches(other)) return false;
         }
       }
@@ -381,7 +388,7 @@ Result<std::vector<Flight>> place_random(const Placement& rods) {
     Flight candidate;
     bool placed = false;
     for (int attempt = 0; attempt < kMaxInsertions && !placed; ++attempt) {
-      candidate.position = {system.box_side * place.uniform(), system.box_side * place.uniform(), 0};
+      candidate.position = {box.x() * place.uniform(), box.y() * place.uniform(), 0};
       const double angle = (Placement::is_polar(rods.species_of(i)) ? 2.0 * kPi : kPi) * place.uniform();
       const SinCos plane = sincos(angle);
       candidate.director = {plane.cos, plane.sin, 0};
@@ -394,7 +401,7 @@ Result<std::vector<Flight>> place_random(const Placement& rods) {
       return does_not_fit(rods, "at random there was no room for another after " + amount(rods, i) + ", in " +
                                     std::to_string(kMaxInsertions) + " tries; rods.start \"aligned\" packs more");
     }
-    members[cell_of(candidate.position.y()) * cells + cell_of(candidate.position.x())].push_back(i);
+    members[row_of(candidate) * columns + column_of(candidate)].push_back(i);
     flights.push_back(candidate);
   }
   return flights;
@@ -412,7 +419,7 @@ std::string what_differs(const System& one, const System& other) {
   };
   compare(one.rod == other.rod && one.added == other.added, "the rods");
   compare(one.n_rods == other.n_rods, "their number");
-  compare(one.box_side == other.box_side, "the side of the box");
+  compare(one.box() == other.box(), "the sides of the box");
   compare(one.gap == other.gap, "the gap");
   compare(one.base == other.base && one.lid == other.lid, "the plates that are there");
   compare(arena_of(one) == arena_of(other), "the walls");
@@ -447,7 +454,7 @@ Result<std::vector<Flight>> initial_flights(const System& system, std::span<cons
   SHAKEN_CHECK(system.start != Start::kCompressed, "sim/compression.h makes that");
   const Placement rods(system, species, species_of_rod);
   if (system.gap < 2.0 * rods.max_radius()) return Error{"the gap is smaller than the thickest bead"};
-  if (const double least = least_box_side(species); system.box_side < least * (1.0 - 1e-9)) {
+  if (const double least = least_box_side(species); system.box().shorter() < least * (1.0 - 1e-9)) {
     return Error{"the box is too small: rods might meet two images of another below " + std::to_string(least) + " mm"};
   }
   auto flights = system.start == Start::kAligned ? place_aligned(rods) : place_random(rods);
@@ -456,12 +463,12 @@ Result<std::vector<Flight>> initial_flights(const System& system, std::span<cons
   // what was promised is checked, not believed
   std::vector<Pose> poses;
   for (const Flight& flight : *flights) poses.push_back({flight.position, flight.director});
-  NeighborList neighbors(species, species_of_rod, system.box_side, 0.01);
+  NeighborList neighbors(species, species_of_rod, system.box(), 0.01);
   neighbors.build(poses);
   std::vector<BeadContact> contacts;
   for (const auto& [i, j] : neighbors.pairs()) {
     find_bead_contacts(rods.species_of(i), poses[i].director, rods.species_of(j), poses[j].director,
-                       nearest_image(poses[i].position, poses[j].position, system.box_side), contacts);
+                       nearest_image(poses[i].position, poses[j].position, system.box()), contacts);
   }
   SHAKEN_CHECK(contacts.empty(), std::to_string(contacts.size()) + " overlaps in the initial state");
   return flights;
@@ -504,7 +511,7 @@ Result<World> make_world(const System& system, const World& left) {
       Rng rng(system.seed, RngStream::kKicks, 0, static_cast<std::uint64_t>(i));
       for (double& component : motion.velocity) component *= 1.0 + kKick * rng.normal();
     }
-    begin_flight(world.rods[i], 0, pose, motion, system.box_side, ratio);
+    begin_flight(world.rods[i], 0, pose, motion, system.box(), ratio);
     world.rods[i].image = {0, 0};
   }
   world.start = content(world);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/core/box.h"
 #include "base/core/types.h"
 
 namespace shaken {
@@ -13,9 +14,9 @@ namespace shaken {
 struct Snapshot {
   Tick tick = 0;
   double time = 0;                                 ///< tick * dt [s]
-  double box_side = 0;                             ///< [mm]
-  std::vector<Vec3> position;                      ///< centre; x and y in [0, box_side), z above the base's rest [mm]
-  std::vector<std::array<std::int32_t, 2>> image;  ///< box crossings: unwrapped x = position.x + image[0] * box_side
+  Box box;                         ///< sides [mm]
+  std::vector<Vec3> position;                      ///< centre; x and y in the box, z above the base's rest [mm]
+  std::vector<std::array<std::int32_t, 2>> image;  ///< box crossings: unwrapped x = position.x + image[0] * box.x
   std::vector<Vec3> director;                      ///< unit vector along the rod; its sign is a label that stays
   std::vector<Vec3> velocity;                      ///< of the centre [mm/s]
   std::vector<Vec3> angular_velocity;              ///< [rad/s]

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/core/box.h"
 #include "base/core/types.h"
 
 namespace shaken {
@@ -107,7 +108,8 @@ struct System {
   RodShape rod;
   int n_rods = 2109;                              ///< number of rods of this kind
   std::array<std::optional<AddedRods>, 2> added;  ///< other species
-  double box_side = 83.73;                        ///< L, of the square box, periodic in x and y [mm]
+  double box_side = 83.73;                        ///< L, of the box along x; it is periodic in x and y [mm]
+  double box_aspect = 1.0;                        ///< its side along y over that along x
   double gap = 1.2;                               ///< w, between base and lid [mm]
 
   double amplitude = 0.043486;  ///< a, of the plates' vibration [mm]; Gamma = a (2 pi f)^2 / g
@@ -142,6 +144,7 @@ struct System {
   bool has_rotational_noise() const { return rotational_noise > 0; }
   bool has_impacts_at_instant() const { return impacts == ImpactTime::kAtInstant; }
   /// Nothing pushes or pulls across the plane, and rods that start in it stay there to the last bit.
+  Box box() const { return Box::of_aspect(box_side, box_aspect); }
   bool is_planar() const { return !base && !lid && gravity == 0; }
 
   friend bool operator==(const System&, const System&) = default;

@@ -14,8 +14,8 @@ constexpr double kMostWork = 3e8;  ///< pairs of beads looked at before it is gi
 
 }  // namespace
 
-TurnedRows::TurnedRows(std::span<const Species> species, double box_side, const Vec2& along, double clearance)
-    : side_(box_side), along_(along), least_clearance_(clearance) {
+TurnedRows::TurnedRows(std::span<const Species> species, const Box& box, const Vec2& along, double clearance)
+    : box_(box), along_(along), least_clearance_(clearance) {
   std::vector<std::pair<double, double>> beads;  // offset and radius of every bead that may lie ahead of a site
   for (const Species& kind : species) {
     area_ = std::max(area_, kind.area);
@@ -64,9 +64,9 @@ double TurnedRows::clearance_of(const Lattice& lattice, double least) const {
     return Vec2((along_.x() * x + along_.y() * y) / long_unit, (along_.x() * y - along_.y() * x) / wide_unit);
   };
   const auto gap_at = [&](const Vec2& site) { return gap(site.x() * long_unit, site.y() * wide_unit); };
-  const double pitch = side_ / lattice.columns;
+  const double pitch = box_.x() / lattice.columns;
   Vec2 one = seen(pitch, 0);
-  Vec2 other = seen(pitch * lattice.turns / lattice.rows, side_ / lattice.rows);
+  Vec2 other = seen(pitch * lattice.turns / lattice.rows, box_.y() / lattice.rows);
   // the two shortest vectors of the lattice (Lagrange & Gauss)
   while (true) {
     if (other.squaredNorm() < one.squaredNorm()) std::swap(one, other);
@@ -108,7 +108,7 @@ double TurnedRows::search(int n_sites, std::optional<Lattice>& best) const {
   return n_lattices * static_cast<double>(pairs_.size());
 }
 
-int TurnedRows::most_sites() const { return static_cast<int>(std::min(side_ * side_ / area_, 2e9)); }
+int TurnedRows::most_sites() const { return static_cast<int>(std::min(box_.area() / area_, 2e9)); }
 
 std::optional<Lattice> TurnedRows::find(int n_rods) const {
   std::optional<Lattice> best;

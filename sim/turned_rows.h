@@ -4,11 +4,12 @@
 #include <optional>
 #include <span>
 
+#include "base/core/box.h"
 #include "sim/rod/species.h"
 
 namespace shaken {
 
-/// A lattice that tiles the square periodic box: `columns` sites to a row along x, each row shifted against the one
+/// A lattice that tiles the periodic box: `columns` sites to a row along x, each row shifted against the one
 /// before by `turns` / `rows` of a column, so that the rows close in themselves. Each lattice of columns * rows sites
 /// that the box can have is one of these, with 0 <= turns < rows (Hermite's normal form of its basis).
 struct Lattice {
@@ -19,14 +20,14 @@ struct Lattice {
   int sites() const { return columns * rows; }
 };
 
-/// Parallel rods at an angle to the sides of a square periodic box. The box has to be tiled by the lattice of their
+/// Parallel rods at an angle to the sides of a periodic box. The box has to be tiled by the lattice of their
 /// centres alone: the rods may point anywhere, as long as those at neighbouring sites are apart. So the angle is met
 /// exactly, and what has to be found is a lattice with room for rods that lie so.
 class TurnedRows {
  public:
   /// Rods of any of the species, either end ahead, may be at any site; their angle to the x axis is that of `along`, a
   /// unit vector. Gaps are at least `clearance` [mm].
-  TurnedRows(std::span<const Species> species, double box_side, const Vec2& along, double clearance);
+  TurnedRows(std::span<const Species> species, const Box& box, const Vec2& along, double clearance);
 
   /// The roomiest lattice, by its smallest gap, of those with n_rods sites or a few more; where none of these has room,
   /// the first with more sites that has. None if all are too narrow.
@@ -50,7 +51,7 @@ class TurnedRows {
   double gap(double ahead, double aside) const;
   int most_sites() const;
 
-  double side_;
+  Box box_;
   Vec2 along_;
   double least_clearance_;
   double reach_ = 0;      ///< centres this far ahead of each other belong to rods that are apart [mm]

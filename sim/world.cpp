@@ -37,7 +37,7 @@ World empty_world(const System& system) {
 }
 
 Cell World::cell() const {
-  Cell cell{.box_side = system.box_side, .gap = system.gap, .walls = system.walls};
+  Cell cell{.box = system.box(), .gap = system.gap, .walls = system.walls};
   for (const Species& kind : species) cell.species.push_back(kind.beads());
   if (species.size() > 1) cell.species_of_rod = species_of_rod;
   return cell;
@@ -47,7 +47,7 @@ Snapshot snapshot(const World& world) {
   Snapshot out;
   out.tick = world.tick;
   out.time = static_cast<double>(world.tick) * world.system.dt;
-  out.box_side = world.system.box_side;
+  out.box = world.system.box();
   const std::size_t n = world.rods.size();
   out.position.reserve(n);
   out.image.reserve(n);
@@ -62,8 +62,8 @@ Snapshot snapshot(const World& world) {
     const Motion motion =
         motion_after(flight, tau, world.system.gravity, pose.director, species.inertia_par / species.inertia_perp);
     auto image = flight.image;
-    wrap(pose.position.x(), image[0], world.system.box_side);
-    wrap(pose.position.y(), image[1], world.system.box_side);
+    wrap(pose.position.x(), image[0], out.box.x());
+    wrap(pose.position.y(), image[1], out.box.y());
     out.position.push_back(pose.position);
     out.image.push_back(image);
     out.director.push_back(pose.director);

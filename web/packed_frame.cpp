@@ -36,7 +36,7 @@ nlohmann::ordered_json head_of(const client::RodFrame& frame) {
              {"size_mm", frame.cell.walls->size},
              {"inner_mm", frame.cell.walls->inner}};
   }
-  return {{"time_s", frame.time},           {"box_side_mm", frame.cell.box_side},    {"order", frame.order},
+  return {{"time_s", frame.time},           {"box_mm", {frame.cell.box.x(), frame.cell.box.y()}},    {"order", frame.order},
           {"director_rad", frame.director}, {"n_rods", frame.rods.size()},           {"outlines", outlines},
           {"gap_mm", frame.cell.gap},       {"has_heights", !frame.heights.empty()}, {"walls", walls}};
 }
@@ -53,7 +53,7 @@ std::string packed(const client::RodFrame& frame) {
   bytes += head;
   // One way of rounding for all that is sent.
   proto::Frame plain;
-  plain.box_side_mm = frame.cell.box_side;
+  plain.box = frame.cell.box;
   plain.rods = frame.rods;
   const std::vector<frame_t> chunks = proto::encode_frame(plain);
   for (const auto array : {&frame_t::x, &frame_t::y, &frame_t::heading, &frame_t::n_z}) {

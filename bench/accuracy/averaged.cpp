@@ -53,8 +53,8 @@ void ObservableSeries::sample(const Simulation& simulation) {
 
   std::vector<Vec2> places;
   for (std::size_t i = 0; i < rods.n_rods(); ++i) {
-    places.emplace_back(rods.position[i].x() + rods.image[i][0] * rods.box_side,
-                        rods.position[i].y() + rods.image[i][1] * rods.box_side);
+    places.emplace_back(rods.position[i].x() + rods.image[i][0] * rods.box.x(),
+                        rods.position[i].y() + rods.image[i][1] * rods.box.y());
   }
   if (places_.size() == kLagSamples) {
     double square = 0;

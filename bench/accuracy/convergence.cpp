@@ -68,7 +68,7 @@ Errors errors_between(const World& state, const World& truth) {
   double angle = 0;
   for (std::size_t i = 0; i < b.n_rods(); ++i) {
     Vec3 apart = a.position[i] - b.position[i];
-    for (int axis = 0; axis < 2; ++axis) apart[axis] += (a.image[i][axis] - b.image[i][axis]) * b.box_side;
+    for (int axis = 0; axis < 2; ++axis) apart[axis] += (a.image[i][axis] - b.image[i][axis]) * b.box[axis];
     position += apart.squaredNorm();
     // exact for small angles too, where the cosine loses all digits
     const double turn = 2 * std::atan2((a.director[i] - b.director[i]).norm(), (a.director[i] + b.director[i]).norm());

@@ -96,7 +96,7 @@ Simulation continued(const Simulation& from, const System& scene) {
     Flight flight;
     flight.image = rods.image[i];
     begin_flight(flight, world.tick, {rods.position[i], rods.director[i]}, {rods.velocity[i], rods.angular_velocity[i]},
-                 scene.box_side, world.species[0].inertia_par / world.species[0].inertia_perp);
+                 scene.box(), world.species[0].inertia_par / world.species[0].inertia_perp);
     world.rods.push_back(flight);
   }
   return Simulation::start_from(std::move(world));

@@ -34,7 +34,7 @@ Result<RodFrame> constants_of(const Cell& cell, std::size_t n_rods) {
     largest = std::max(largest, 4 * (outline.half_length + outline.end) * outline.middle);
   }
   // Rods that lie flat and fill the box several times are no rods of a scene, and would take long to draw.
-  if (static_cast<double>(n_rods) * largest <= kMostLayers * cell.box_side * cell.box_side) return frame;
+  if (static_cast<double>(n_rods) * largest <= kMostLayers * cell.box.area()) return frame;
   return Error{"more rods than a box can hold"};
 }
 
@@ -68,7 +68,7 @@ bool has_fitting_order(double order, const RodFrame& constants) {
 void LiveRods::note(const frame_t& message) {
   if (!constants_ || message.job_id != job_) return;
   const bool fits = message.n_rods >= 0 && static_cast<std::size_t>(message.n_rods) == n_rods_ &&
-                    message.box_side_mm == constants_->cell.box_side && has_fitting_order(message.order, *constants_) &&
+                    Box(message.box_x_mm, message.box_y_mm) == constants_->cell.box && has_fitting_order(message.order, *constants_) &&
                     std::abs(message.director_rad) <= 4 && std::isfinite(message.sim_time_s);
   if (!fits) return;
   std::optional<proto::Frame> frame = assembler_.add(message);

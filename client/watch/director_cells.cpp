@@ -34,14 +34,15 @@ class SmoothedDirector {
 
   Director at(double x, double y) const {
     const Vec2 q = field_.q_at({x, y});
-    const auto node = [&](double place) { return static_cast<int>(std::lround(place / field_.mesh())); };
-    return {field_.is_defined(node(x), node(y)), 2 * q.norm(), std::atan2(q.y(), q.x()) / 2};
+    const auto node = [](double place, double mesh) { return static_cast<int>(std::lround(place / mesh)); };
+    const Vec2 mesh = field_.mesh();
+    return {field_.is_defined(node(x, mesh.x()), node(y, mesh.y())), 2 * q.norm(), std::atan2(q.y(), q.x()) / 2};
   }
 
   bool allows(const DefectMark& defect) const {
     constexpr int kPlaces = 12;
-    const double side = field_.region().box_side();
-    if (std::max(std::abs(defect.x), std::abs(defect.y)) > side) return false;  // anybody can send messages
+    const Box& box = field_.region().box();
+    if (std::abs(defect.x) > box.x() || std::abs(defect.y) > box.y()) return false;  // anybody can send messages
     double order = 0;
     for (int k = 0; k < kPlaces; ++k) {
       const double angle = 2 * std::numbers::pi * k / kPlaces, ring = 2 * field_.smoothing();
@@ -61,10 +62,10 @@ class SmoothedDirector {
     }
     const RodOutline& outline = frame.outlines.front();
     const double length = 2 * (outline.half_length + outline.end);
-    const double side = frame.cell.box_side;
+    const Box& box = frame.cell.box;
     const double smoothing =
-        std::max({scene::MeasureDefects{}.smoothing_for(length), cell / 2, side / kMostSmoothingLengths});
-    return {positions, directors, analysis::Region(side, frame.cell.walls), analysis::grid_nodes(side, smoothing / 2),
+        std::max({scene::MeasureDefects{}.smoothing_for(length), cell / 2, box.longer() / kMostSmoothingLengths});
+    return {positions, directors, analysis::Region(box, frame.cell.walls), analysis::Grid(box, smoothing / 2),
             smoothing};
   }
 

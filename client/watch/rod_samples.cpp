@@ -29,23 +29,23 @@ int bounded(double place, int most) { return static_cast<int>(std::clamp(place, 
 }  // namespace
 
 double samples_per_mm(const RodFrame& frame, const RodView& view, int width, int height) {
-  return view.zoom * std::min(width, height) / frame.cell.box_side;
+  return view.zoom * std::min(width, height) / frame.cell.box.longer();
 }
 
 RodSamples::RodSamples(const RodFrame& frame, const RodView& view, Colouring colouring, int width, int height)
     : frame_(frame),
-      x_(view.x * frame.cell.box_side),
-      y_(view.y * frame.cell.box_side),
+      x_(view.x * frame.cell.box.x()),
+      y_(view.y * frame.cell.box.y()),
       per_mm_(samples_per_mm(frame, view, width, height)),
       width_(width),
       height_(height),
       tones_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), kFloorTone) {
   // A periodic box is seen from half a side left of the middle of the view to half a side right of it.
-  const double half = frame.cell.box_side / 2;
-  const double left = frame.cell.walls ? -x_ : -half, bottom = frame.cell.walls ? -y_ : -half;
+  const Box& box = frame.cell.box;
+  const double left = frame.cell.walls ? -x_ : -box.x() / 2, bottom = frame.cell.walls ? -y_ : -box.y() / 2;
   column_begin_ = std::max(0, first_column(left));
-  column_end_ = std::min(width_, first_column(left + frame.cell.box_side));
-  row_begin_ = std::max(0, first_row(bottom + frame.cell.box_side));
+  column_end_ = std::min(width_, first_column(left + box.x()));
+  row_begin_ = std::max(0, first_row(bottom + box.y()));
   row_end_ = std::min(height_, first_row(bottom));
   if (frame.cell.walls) draw_walls(*frame.cell.walls);
   for (std::size_t i = 0; i < frame.rods.size(); ++i) {
@@ -55,7 +55,7 @@ RodSamples::RodSamples(const RodFrame& frame, const RodView& view, Colouring col
 
 std::pair<double, double> RodSamples::from_middle(double x, double y) const {
   if (frame_.cell.walls) return {x - x_, y - y_};
-  return {folded(x - x_, frame_.cell.box_side), folded(y - y_, frame_.cell.box_side)};
+  return {folded(x - x_, frame_.cell.box.x()), folded(y - y_, frame_.cell.box.y())};
 }
 
 /// The first column or row of samples whose middle is not left of, or above, a distance from the middle of the view.
@@ -74,11 +74,11 @@ void RodSamples::draw(const proto::RodPose& rod, const RodOutline& outline, Tone
   const double flat = std::hypot(axis[0], axis[1]);
   const double half = outline.half_length * flat;
   const double ux = flat > 0 ? axis[0] / flat : 1, uy = flat > 0 ? axis[1] / flat : 0;
-  const double period = frame_.cell.walls ? 0 : frame_.cell.box_side;
+  const Box& period = frame_.cell.box;
   const int n_images = frame_.cell.walls ? 0 : 1;
   for (int i = -n_images; i <= n_images; ++i) {
     for (int j = -n_images; j <= n_images; ++j) {
-      draw_image(dx + i * period, dy + j * period, ux, uy, half, outline, tone);
+      draw_image(dx + i * period.x(), dy + j * period.y(), ux, uy, half, outline, tone);
     }
   }
 }
@@ -87,7 +87,7 @@ void RodSamples::draw_walls(const SideWalls& walls) {
   const double reach = 0.75 / per_mm_;
   for (int row = row_begin_; row < row_end_; ++row) {
     for (int column = column_begin_; column < column_end_; ++column) {
-      const double x = x_ + x_of(column) - frame_.cell.box_side / 2, y = y_ + y_of(row) - frame_.cell.box_side / 2;
+      const double x = x_ + x_of(column) - frame_.cell.box.x() / 2, y = y_ + y_of(row) - frame_.cell.box.y() / 2;
       const double distance = walls.arena == Arena::kSquare ? std::max(std::abs(x), std::abs(y)) : std::hypot(x, y);
       const bool is_outer = std::abs(distance - walls.size / 2) < reach;
       const bool is_inner = walls.arena == Arena::kAnnulus && std::abs(distance - walls.inner / 2) < reach;

@@ -54,7 +54,8 @@ def test_types_are_those_of_the_definitions(tmp_path):
     finally:
         sys.path.remove(str(tmp_path))
     frame = frame_t()
-    frame.job_id, frame.sim_time_s, frame.tick, frame.box_side_mm, frame.order = "abc", 1.5, 7, 20.0, 0.5
+    frame.job_id, frame.sim_time_s, frame.tick, frame.order = "abc", 1.5, 7, 0.5
+    frame.box_x_mm = frame.box_y_mm = 20.0
     frame.n_rods, frame.chunk, frame.n_chunks, frame.n_chunk_rods = 3, 0, 2, 2
     frame.x, frame.y, frame.heading, frame.n_z = [0, 32767], [-32768, 0], [0, 16384], [32767, 0]
     parts = bus._FrameParts()

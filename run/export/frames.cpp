@@ -60,7 +60,7 @@ Result<std::size_t> export_frames(const TrajectoryReader& trajectory, const Fram
     const auto frame = trajectory.recorded().frame(i);
     if (!frame) return frame.error();
     // whether every number is one that a rod can have
-    if (const auto decoded = decode(*frame, trajectory.header().cell.box_side); !decoded) {
+    if (const auto decoded = decode(*frame, trajectory.header().cell.box); !decoded) {
       return Error{fmt::format("{}: frame {}: {}", trajectory.path().string(), i, decoded.error().message)};
     }
     if (auto done = format.write(*frame, sink); !done) return done.error();

@@ -200,8 +200,8 @@ class Gsd final : public FrameFormat {
 
   /// What the first frame says for all.
   void append_first(StateWriter& bytes) const {
-    const auto side = static_cast<float>(header_.cell.box_side);
-    append_all(bytes, std::vector<float>{side, side, static_cast<float>(height_), 0, 0, 0});
+    const Eigen::Vector2f sides = header_.cell.box.sides().cast<float>();
+    append_all(bytes, std::vector<float>{sides.x(), sides.y(), static_cast<float>(height_), 0, 0, 0});
     bytes.put(static_cast<std::uint32_t>(header_.n_rods));
     append_text(bytes, types_);
     for (std::size_t i = 0; i < static_cast<std::size_t>(header_.n_rods); ++i) {
@@ -213,8 +213,8 @@ class Gsd final : public FrameFormat {
   std::vector<float> positions(const RecordedFrame& frame) const {
     std::vector<float> centred = frame.position;
     for (std::size_t i = 0; i < centred.size(); i += 3) {
-      centred[i] = from_middle(centred[i], header_.cell.box_side);
-      centred[i + 1] = from_middle(centred[i + 1], header_.cell.box_side);
+      centred[i] = from_middle(centred[i], header_.cell.box.x());
+      centred[i + 1] = from_middle(centred[i + 1], header_.cell.box.y());
       centred[i + 2] = static_cast<float>(centred[i + 2] - height_ / 2);
     }
     return centred;

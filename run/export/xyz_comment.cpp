@@ -16,8 +16,8 @@ double swept_height(const TrajectoryHeader& header) {
 }
 
 XyzComment::XyzComment(const TrajectoryHeader& header, const std::string& properties)
-    : before_time_(fmt::format(R"(Lattice="{} 0 0 0 {} 0 0 0 {}" Properties={} pbc="{}")", header.cell.box_side,
-                               header.cell.box_side, swept_height(header), properties,
+    : before_time_(fmt::format(R"(Lattice="{} 0 0 0 {} 0 0 0 {}" Properties={} pbc="{}")", header.cell.box.x(),
+                               header.cell.box.y(), swept_height(header), properties,
                                header.cell.walls ? "F F F" : "T T F")),
       after_time_(R"(units="mm s")") {
   std::string run_id = header.provenance.run_id;

@@ -74,7 +74,8 @@ std::optional<RecordedFrame> frame_of(std::string_view record, std::size_t n_rod
 Json json_of(const TrajectoryHeader& header) {
   const Cell& cell = header.cell;
   Json json{{"n_rods", header.n_rods},
-            {"box_side_mm", cell.box_side},
+            {"box_side_mm", cell.box.x()},
+            {"box_aspect", cell.box.y() / cell.box.x()},
             {"gap_mm", cell.gap},
             {"dt_s", header.dt},
             {"species_of_rod", cell.species_of_rod},
@@ -96,7 +97,7 @@ Json json_of(const TrajectoryHeader& header) {
 /// Throws what the JSON library throws if something is missing.
 TrajectoryHeader header_of(const Json& json) {
   TrajectoryHeader header{.n_rods = json.at("n_rods"),
-                          .cell = {.box_side = json.at("box_side_mm"),
+                          .cell = {.box = Box::of_aspect(json.at("box_side_mm"), json.value("box_aspect", 1.0)),
                                    .gap = json.at("gap_mm"),
                                    .species_of_rod = json.at("species_of_rod").get<std::vector<std::uint8_t>>()},
                           .dt = json.at("dt_s"),

@@ -93,6 +93,8 @@ Id open_group(hid_t where, const std::string& name) {
   return {check(H5Gopen2(where, name.c_str(), H5P_DEFAULT), "find " + name), H5Gclose};
 }
 
+bool has_attribute(hid_t where, const std::string& name) { return H5Aexists(where, name.c_str()) > 0; }
+
 bool exists(hid_t where, const std::string& name) { return H5Lexists(where, name.c_str(), H5P_DEFAULT) > 0; }
 
 /// How data sets are made: without the time of day, so that equal runs have equal files.
@@ -181,7 +183,7 @@ void write_provenance(hid_t file, const Provenance& provenance) {
 }
 
 Provenance read_provenance(hid_t file) {
-  if (H5Aexists(file, "run_id") <= 0) return {};
+  if (!has_attribute(file, "run_id")) return {};
   Provenance provenance;
   {
     const Id attribute(check(H5Aopen(file, "run_id", H5P_DEFAULT), "find run_id"), H5Aclose);

@@ -86,6 +86,7 @@ void write_free_text_attribute(hid_t where, const std::string& name, const std::
 /// The attribute `unit` of a data set, as H5MD's module "units" writes it: "mm s-1"; "1" where there is none.
 void write_unit(hid_t dataset, const std::string& unit);
 void write_attribute(hid_t where, const std::string& name, hid_t type, const Shape& shape, const void* values);
+bool has_attribute(hid_t where, const std::string& name);
 void read_attribute(hid_t where, const std::string& name, hid_t type, void* value);
 /// A string of fixed length, as write_attribute makes it.
 std::string read_text_attribute(hid_t where, const std::string& name);

@@ -24,12 +24,11 @@ RecordedFrame record(const Snapshot& snapshot) {
   RecordedFrame frame;
   frame.tick = snapshot.tick;
   frame.time = snapshot.time;
-  const double side = snapshot.box_side;
   for (std::size_t i = 0; i < snapshot.n_rods(); ++i) {
     const Vec3& x = snapshot.position[i];
     const Vec3& v = snapshot.velocity[i];
     frame.position.insert(frame.position.end(),
-                          {wrapped_float(x.x(), side), wrapped_float(x.y(), side), static_cast<float>(x.z())});
+                          {wrapped_float(x.x(), snapshot.box.x()), wrapped_float(x.y(), snapshot.box.y()), static_cast<float>(x.z())});
     frame.velocity.insert(frame.velocity.end(),
                           {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())});
     for (const double q : quaternion_of_director(snapshot.director[i])) {
@@ -40,14 +39,14 @@ RecordedFrame record(const Snapshot& snapshot) {
   return frame;
 }
 
-Result<Snapshot> decode(const RecordedFrame& recorded, double box_side) {
+Result<Snapshot> decode(const RecordedFrame& recorded, const Box& box) {
   constexpr double kMost = 1e9;  // heights without a base, and speeds [mm], [mm/s]
   const auto wrong = [](const char* what, std::size_t rod, double value) {
     return Error{fmt::format("the {} of rod {} is {:g}: the file is damaged", what, rod, value)};
   };
   if (!std::isfinite(recorded.time)) return Error{fmt::format("the time is {:g}: the file is damaged", recorded.time)};
   Snapshot frame;
-  frame.box_side = box_side;
+  frame.box = box;
   frame.tick = recorded.tick;
   frame.time = recorded.time;
   const auto &x = recorded.position, &v = recorded.velocity, &q = recorded.orientation;
@@ -59,7 +58,7 @@ Result<Snapshot> decode(const RecordedFrame& recorded, double box_side) {
     }
     // A box to either side leaves room for rounding, and for files that count from its middle; false for NaN.
     for (std::size_t k = 0; k < 2; ++k) {
-      if (!(std::abs(x[3 * i + k]) <= 2 * box_side)) return wrong("position", i, x[3 * i + k]);
+      if (!(std::abs(x[3 * i + k]) <= 2 * box[static_cast<Eigen::Index>(k)])) return wrong("position", i, x[3 * i + k]);
     }
     if (!(std::abs(x[3 * i + 2]) <= kMost)) return wrong("height", i, x[3 * i + 2]);
     for (std::size_t k = 0; k < 3; ++k) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/core/box.h"
 #include "base/core/result.h"
 #include "sim/snapshot.h"
 
@@ -21,7 +22,7 @@ struct RecordedFrame {
 
 RecordedFrame record(const Snapshot& snapshot);
 /// The frame without angular velocities, which files lack. Fails, naming the rod, if a number is none that a rod in
-/// a box of `box_side` [mm] can have: orientations are of unit length, positions in the box, everything finite.
-Result<Snapshot> decode(const RecordedFrame& frame, double box_side);
+/// a box of sides `box` [mm] can have: orientations are of unit length, positions in the box, everything finite.
+Result<Snapshot> decode(const RecordedFrame& frame, const Box& box);
 
 }  // namespace shaken::run

@@ -35,7 +35,12 @@ TrajectoryHeader read_header(hid_t file) {
   TrajectoryHeader header;
   Cell& cell = header.cell;
   hdf5::read_attribute(parameters, "n_rods", H5T_NATIVE_INT, &header.n_rods);
-  hdf5::read_attribute(parameters, "box_side_mm", H5T_NATIVE_DOUBLE, &cell.box_side);
+  double side = 0, aspect = 1;
+  hdf5::read_attribute(parameters, "box_side_mm", H5T_NATIVE_DOUBLE, &side);
+  if (hdf5::has_attribute(parameters, "box_aspect")) {
+    hdf5::read_attribute(parameters, "box_aspect", H5T_NATIVE_DOUBLE, &aspect);
+  }
+  cell.box = Box::of_aspect(side, aspect);
   hdf5::read_attribute(parameters, "gap_mm", H5T_NATIVE_DOUBLE, &cell.gap);
   hdf5::read_attribute(parameters, "dt_s", H5T_NATIVE_DOUBLE, &header.dt);
   header.scene_json = hdf5::read_string(parameters, "scene_json");
@@ -115,7 +120,7 @@ Result<Snapshot> TrajectoryReader::frame(std::size_t index) const {
   }
   const Result<RecordedFrame> recorded = frames_->frame(index);
   if (!recorded) return recorded.error();
-  Result<Snapshot> frame = decode(*recorded, header().cell.box_side);
+  Result<Snapshot> frame = decode(*recorded, header().cell.box);
   if (!frame) return Error{path_.string() + ": frame " + std::to_string(index) + ": " + frame.error().message};
   return frame;
 }

@@ -50,7 +50,9 @@ void write_walls(hid_t file, const SideWalls& walls) {
 void write_parameters(hid_t file, const TrajectoryHeader& header) {
   const hdf5::Id parameters = hdf5::create_group(file, "parameters");
   hdf5::write_attribute(parameters, "n_rods", H5T_NATIVE_INT, {}, &header.n_rods);
-  hdf5::write_attribute(parameters, "box_side_mm", H5T_NATIVE_DOUBLE, {}, &header.cell.box_side);
+  const double side = header.cell.box.x(), aspect = header.cell.box.y() / side;
+  hdf5::write_attribute(parameters, "box_side_mm", H5T_NATIVE_DOUBLE, {}, &side);
+  if (aspect != 1) hdf5::write_attribute(parameters, "box_aspect", H5T_NATIVE_DOUBLE, {}, &aspect);
   hdf5::write_attribute(parameters, "gap_mm", H5T_NATIVE_DOUBLE, {}, &header.cell.gap);
   hdf5::write_attribute(parameters, "dt_s", H5T_NATIVE_DOUBLE, {}, &header.dt);
   write_beads(parameters, header.cell.species.at(0));
@@ -102,7 +104,7 @@ void write_particles(hid_t file, const TrajectoryHeader& header) {
 
 /// Adds one row to each data set.
 void append(const DataSets& sets, const TrajectoryHeader& header, const RecordedFrame& frame) {
-  const std::array<double, 9> edges{header.cell.box_side, 0, 0, 0, header.cell.box_side, 0, 0, 0, header.cell.gap};
+  const std::array<double, 9> edges{header.cell.box.x(), 0, 0, 0, header.cell.box.y(), 0, 0, 0, header.cell.gap};
   hdf5::append_row(sets.position, H5T_NATIVE_FLOAT, frame.position.data());
   hdf5::append_row(sets.image, H5T_NATIVE_INT32, frame.image.data());
   hdf5::append_row(sets.velocity, H5T_NATIVE_FLOAT, frame.velocity.data());

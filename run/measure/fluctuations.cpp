@@ -47,17 +47,17 @@ MeasurementKind fluctuations_kind() {
       .sources = "number_fluctuations",
       .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
         const System& system = context.plan.system;
-        double area = system.box_side * system.box_side;
+        double area = system.box().area();
         analysis::NumberFluctuations::Where counts;
         if (system.walls) {
           area = system.walls->area();
-          counts = [walls = *system.walls, box = system.box_side](const Vec2& centre, double side) {
+          counts = [walls = *system.walls, box = system.box()](const Vec2& centre, double side) {
             const double to_the_corner = side / std::numbers::sqrt2;
             return distance_to_walls(walls, box, Vec3(centre.x(), centre.y(), 0)) >= to_the_corner;
           };
         }
         return std::make_unique<MeasuredFluctuations>(
-            analysis::NumberFluctuations(system.box_side, area, 2 * system.rod.length, counts));
+            analysis::NumberFluctuations(system.box(), area, 2 * system.rod.length, counts));
       },
       .arrays =
           {

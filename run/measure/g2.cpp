@@ -12,7 +12,7 @@ namespace {
 class MeasuredG2 : public Measurement {
  public:
   MeasuredG2(int bins, const analysis::Region& region)
-      : region_(region), g2_(analysis::OrientationCorrelation(bins, region.box_side() / 2)) {}
+      : region_(region), g2_(analysis::OrientationCorrelation(bins, region.box().shorter() / 2)) {}
 
   void sample(const Sample& sample) override {
     g2_.accumulate(sample->time, sample->position, sample->director, region_);
@@ -48,7 +48,7 @@ MeasurementKind g2_kind() {
       .sources = "g2, region",
       .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
         const System& system = context.plan.system;
-        return std::make_unique<MeasuredG2>(context.plan.g2->bins, analysis::Region(system.box_side, system.walls));
+        return std::make_unique<MeasuredG2>(context.plan.g2->bins, analysis::Region(system.box(), system.walls));
       },
       .arrays =
           {

@@ -39,7 +39,7 @@ MeasurementKind lattice_kind() {
       .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
         const double length = context.plan.system.rod.length, width = 2 * context.species.max_radius;
         return std::make_unique<MeasuredLattice>(
-            analysis::LatticeOrder::Shape{context.plan.system.box_side, length / width, width / 2, 2 * length});
+            analysis::LatticeOrder::Shape{context.plan.system.box(), length / width, width / 2, 2 * length});
       },
       .numbers =
           {

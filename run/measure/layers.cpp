@@ -12,8 +12,7 @@ namespace {
 /// Layers: their spectrum, wavelength and order.
 class MeasuredLayers : public Measurement {
  public:
-  MeasuredLayers(double box_side, double shortest)
-      : box_side_(box_side), layers_(analysis::LayerOrder(box_side, shortest)) {}
+  MeasuredLayers(const Box& box, double shortest) : layers_(analysis::LayerOrder(box, shortest)) {}
 
   void sample(const Sample& sample) override { layers_.accumulate(sample->time, sample->position, sample->director); }
   void reduce(Reduction& result) const override {
@@ -27,7 +26,7 @@ class MeasuredLayers : public Measurement {
     // The errors are those of the one peak, not of which is the highest; and of the steps in which waves fit the box.
     const auto found = block_estimates(layers_, result.t_steady, [&](const analysis::LayerOrder& part) {
       const analysis::LayerPeak same = part.peak_at(peak->m, peak->n);
-      return std::vector<double>{same.wavelength, box_side_ / same.wavelength, same.order};
+      return std::vector<double>{same.wavelength, same.side / same.wavelength, same.order};
     });
     const auto with_steps = [&](const Scalar& of_blocks, double step) -> Scalar {
       if (!peak->stands_out()) return {};  // there are no layers to have a wavelength
@@ -35,7 +34,7 @@ class MeasuredLayers : public Measurement {
       scalar.sem = std::hypot(of_blocks.sem, step / std::sqrt(12.0));
       return scalar;
     };
-    result.scalars["wavelength_mm"] = with_steps(found[0], peak->wavelength * peak->wavelength / box_side_);
+    result.scalars["wavelength_mm"] = with_steps(found[0], peak->wavelength * peak->wavelength / peak->side);
     result.scalars["layers_per_box"] = with_steps(found[1], 1);
     result.scalars["layer_order"] = found[2];
   }
@@ -43,7 +42,6 @@ class MeasuredLayers : public Measurement {
   void restore(StateReader& reader) override { layers_.restore(reader); }
 
  private:
-  double box_side_;  ///< [mm]
   analysis::Blocked<analysis::LayerOrder> layers_;
 };
 
@@ -55,18 +53,18 @@ MeasurementKind layers_kind() {
       .sources = "layers, wave_sums",
       .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
         const System& system = context.plan.system;
-        return std::make_unique<MeasuredLayers>(system.box_side, system.rod.length / 2);
+        return std::make_unique<MeasuredLayers>(system.box(), system.rod.length / 2);
       },
       .arrays =
           {
-              {"q_per_mm", "wave numbers 2πk/L"},
+              {"q_per_mm", "wave numbers 2πk/L, L being the longer side of the box"},
               {"spectrum_across", "power of sin 2(θ - director), wave vectors across the director"},
               {"spectrum_along", "wave vectors along it"},
           },
       .numbers =
           {
               {"wavelength_mm", "wavelength of the layers; null where there are none"},
-              {"layers_per_box", "side of the box over that wavelength"},
+              {"layers_per_box", "side of the box across the layers, over that wavelength"},
               {"layer_order", "amplitude of the wave of sin 2(θ − θ_N) with the most power"},
           },
   };

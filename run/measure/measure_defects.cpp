@@ -14,8 +14,8 @@ namespace {
 
 analysis::DefectTracks::Settings track_settings(const MeasureContext& context) {
   const System& system = context.plan.system;
-  const analysis::Region region(system.box_side, system.walls);
-  return {region.box_side(),   region.area(), context.interval, system.rod.length, context.plan.defects->min_lifetime,
+  const analysis::Region region(system.box(), system.walls);
+  return {region.box(), region.area(), context.interval, system.rod.length, context.plan.defects->min_lifetime,
           region.is_periodic()};
 }
 
@@ -43,7 +43,7 @@ void put_tracks(const analysis::TrackSummary::Tracks& tracks, const std::string&
 }  // namespace
 
 MeasuredDefects::MeasuredDefects(const MeasureContext& context)
-    : region_(context.plan.system.box_side, context.plan.system.walls),
+    : region_(context.plan.system.box(), context.plan.system.walls),
       smoothing_(context.plan.defects->smoothing_for(context.plan.system.rod.length)),
       mesh_(context.plan.defects->grid_for(context.plan.system.rod.length)),
       series_(context.plan.defects->list),
@@ -51,7 +51,7 @@ MeasuredDefects::MeasuredDefects(const MeasureContext& context)
 
 void MeasuredDefects::sample(const Sample& sample) {
   const analysis::DirectorField field(sample->position, sample->director, region_,
-                                      analysis::grid_nodes(region_.box_side(), mesh_), smoothing_);
+                                      analysis::Grid(region_.box(), mesh_), smoothing_);
   std::vector<analysis::Defect> defects = analysis::find_defects(field);
   last_ = DefectSample{sample->tick, sample->time, smoothing_, std::move(defects)};
   tracks_.accumulate(sample->time, last_->defects);

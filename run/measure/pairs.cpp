@@ -60,11 +60,11 @@ MeasurementKind pairs_kind() {
       .sources = "pair_map, oscillation",
       .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
         const scene::MeasurePairs& pairs = *context.plan.pairs;
-        const double box = context.plan.system.box_side;
+        const Box box = context.plan.system.box();
         const double width = 2 * context.species.max_radius;
-        const double range = pairs.range_for(context.plan.system.rod.length, box);
+        const double range = pairs.range_for(context.plan.system.rod.length, box.shorter());
         return std::make_unique<MeasuredPairs>(
-            analysis::PairMap::Shape{pairs.bins, std::min(range, box / 2), std::min(width, box / 2), box});
+            analysis::PairMap::Shape{pairs.bins, std::min(range, box.shorter() / 2), std::min(width, box.shorter() / 2), box});
       },
       .arrays =
           {

@@ -27,7 +27,7 @@ class Sample {
     if (unwrapped_.empty()) {
       unwrapped_ = rods_.position;
       for (std::size_t i = 0; i < unwrapped_.size(); ++i) {
-        unwrapped_[i] += rods_.box_side * Vec3(rods_.image[i][0], rods_.image[i][1], 0);
+        unwrapped_[i] += Vec3(rods_.image[i][0] * rods_.box.x(), rods_.image[i][1] * rods_.box.y(), 0);
       }
     }
     return unwrapped_;

@@ -23,13 +23,13 @@ void defects(const Resolution& scene, MeasureDefects& settings) {
 }
 
 void pairs(Resolution& scene, MeasurePairs& settings) {
-  if (!scene.ok({"rods.length", "box.side", "measure.pairs.range"})) return;
+  if (!scene.ok({"rods.length", "box.side", "box.aspect", "measure.pairs.range"})) return;
   const System& system = scene.plan.system;
-  const double half_box = system.box_side / 2;
-  settings.range = settings.range_for(system.rod.length, system.box_side);
+  const double half_box = system.box().shorter() / 2;
+  settings.range = settings.range_for(system.rod.length, 2 * half_box);
   if (settings.range <= half_box * (1 + 1e-12)) return;
   scene.report(
-      {"measure.pairs.range", "box.side"},
+      {"measure.pairs.range", "box.side", "box.aspect"},
       fmt::format("a map of {} each way reaches beyond half the box, {}: distances have no nearest image there",
                   length_text(settings.range), length_text(half_box)));
 }
@@ -44,10 +44,14 @@ void resolve_measurements(Resolution& scene) {
 }
 
 void check_walls(Resolution& scene) {
-  if (!scene.plan.system.walls) return;
+  const System& system = scene.plan.system;
   for (const Observable& observable : observables()) {
     const std::string& block = observable.block.path;
-    if (observable.within_walls() || !scene.draft.is_on(block)) continue;
+    if (!scene.draft.is_on(block)) continue;
+    if (observable.is_of_squares && system.box_aspect != 1 && !system.walls) {
+      scene.report({block, "box.aspect"}, fmt::format("{} is of square boxes only; remove it or box.aspect", block));
+    }
+    if (observable.within_walls() || !system.walls) continue;
     scene.report({block, "walls"},
                  fmt::format("{} is of {} of a periodic box: walls leave none", block, observable.periodic));
   }

@@ -21,9 +21,16 @@ constexpr double kRoomRoundArena = 0.2;  // [mm]
 std::string room_for_rods(const Resolution& scene) {
   const System& system = scene.plan.system;
   std::string box = "box.side " + length_text(system.box_side);
+  if (system.box_aspect != 1) box += fmt::format(", box.aspect {:.10g}", system.box_aspect);
   if (!system.walls) return box;
   if (scene.given("walls.size")) return "walls.size " + length_text(system.walls->size);
   return fmt::format("{} (an arena of {})", box, length_text(system.walls->size));
+}
+
+/// "40 mm", or of a rectangle "21 mm by 126 mm".
+std::string sides_text(const System& system) {
+  if (system.box_aspect == 1) return length_text(system.box_side);
+  return length_text(system.box().x()) + " by " + length_text(system.box().y());
 }
 
 /// Number and area fraction of one species; false if a problem is reported.
@@ -41,14 +48,14 @@ bool resolve_number_of(Resolution& scene, const RodGroup& group) {
   if (!scene.given(count_path)) {
     const Field& field = field_at(count_path);
     if (count_for() < field.low || count_for() > field.high) {
-      return scene.refuse({fraction_path, "walls.size", "box.side"},
+      return scene.refuse({fraction_path, "walls.size", "box.side", "box.aspect"},
                           fmt::format("{} {:.10g} and {} make {} rods, outside [{:.10g}, {:.10g}]", fraction_path,
                                       wanted, room_for_rods(scene), count_for(), field.low, field.high));
     }
     group.count = static_cast<int>(count_for());
   } else if (is_first && scene.given(fraction_path) && !scene.given("box.side") && !system.walls) {
-    system.box_side = std::sqrt(group.count * area / wanted);
-    scene.check_derived("box.side", {"rods.count", "rods.area_fraction"});
+    system.box_side = std::sqrt(group.count * area / (wanted * system.box_aspect));
+    scene.check_derived("box.side", {"rods.count", "rods.area_fraction", "box.aspect"});
   } else if (scene.given(fraction_path) && count_for() != group.count &&
              !agree(area_fraction_of(system, group.rod, group.count), wanted)) {
     return scene.refuse(
@@ -63,8 +70,11 @@ bool resolve_number_of(Resolution& scene, const RodGroup& group) {
 
 bool resolve_arena(Resolution& scene) {
   System& system = scene.plan.system;
-  if (!scene.ok({"walls.size", "walls.inner", "walls.arena", "box.side"})) return false;
+  if (!scene.ok({"walls.size", "walls.inner", "walls.arena", "box.side", "box.aspect"})) return false;
   if (!system.walls) return true;
+  if (system.box_aspect != 1) {
+    return scene.refuse({"box.aspect", "walls"}, "an arena lies in the middle of a square box: remove box.aspect or walls");
+  }
   double thickest = 0;
   double longest = 0;
   for (const RodGroup& group : rod_groups(system)) {
@@ -126,14 +136,14 @@ void resolve_numbers(Resolution& scene) {
     causes.push_back(group.path("area_fraction"));
     causes.push_back(group.path("count"));
   }
-  causes.insert(causes.end(), {"walls.size", "box.side", "rods.start"});
+  causes.insert(causes.end(), {"walls.size", "box.side", "box.aspect", "rods.start"});
   const bool in_rows = system.start == Start::kAligned, random = system.start == Start::kRandom;
   const double most = in_rows ? kMaxAreaFractionAligned : random ? kMaxAreaFractionRandom : kMaxAreaFractionCompressed;
   if (scene.draft.is_ok("rods.start") && fraction > most) {
     scene.report(causes,
                  fmt::format("{} rods in {} of {} are an area fraction of {:.4g}; {} at most {} can be placed{}",
                              system.n_all_rods(), system.walls ? "an arena" : "a box",
-                             length_text(system.walls ? system.walls->size : system.box_side), fraction,
+                             system.walls ? length_text(system.walls->size) : sides_text(system), fraction,
                              in_rows  ? "in rows"
                              : random ? "at random"
                                       : "by compression",
@@ -148,14 +158,19 @@ void resolve_numbers(Resolution& scene) {
 
 void check_box(Resolution& scene) {
   System& system = scene.plan.system;
+  const Field& side = field_at("box.side");
+  if (scene.ok({"box.side", "box.aspect"}) && system.box().y() > side.high) {
+    scene.report({"box.aspect", "box.side"}, fmt::format("a box of {}: no side may be longer than {}",
+                                                         sides_text(system), length_text(side.high)));
+  }
   for (const RodGroup& group : rod_groups(system)) {
     const Species species = species_of(group.rod);
     const double least = least_box_side(std::span(&species, 1));
-    if (scene.ok({"box.side", group.path("count"), group.path("area_fraction")}) &&
-        system.box_side < least * (1.0 - 1e-9)) {
-      scene.report({"box.side", "walls.size", group.path("count"), group.path("length")},
+    if (scene.ok({"box.side", "box.aspect", group.path("count"), group.path("area_fraction")}) &&
+        system.box().shorter() < least * (1.0 - 1e-9)) {
+      scene.report({"box.side", "box.aspect", "walls.size", group.path("count"), group.path("length")},
                    fmt::format("a periodic box of {} is too small for rods of {}: at least {}",
-                               length_text(system.box_side), length_text(group.rod.length), length_text(least)));
+                               sides_text(system), length_text(group.rod.length), length_text(least)));
     }
   }
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/core/box.h"
 #include "base/core/types.h"
 #include "sim/bounds/safe_time.h"
 
@@ -16,12 +17,12 @@ namespace shaken {
 ///         their centres are no further apart than `reach` along any axis. In a box that is wide enough
 ///         (least_box_side) the time is never 0.
 /// Arguments: D from centre i to the nearest centre j [mm], `reach` the sum of both rods' (Species::reach()) [mm].
-inline float image_safe_time(const Vec3& D, const FlightBound& i, const FlightBound& j, double box_side, double reach,
+inline float image_safe_time(const Vec3& D, const FlightBound& i, const FlightBound& j, const Box& box, double reach,
                              float horizon) {
   float safe = horizon;
   for (int c = 0; c < 2; ++c) {
     const auto room =
-        static_cast<float>((box_side - std::abs(D[c]) - reach) - margins::kImageRoom * box_side);  // less the rounding
+        static_cast<float>((box[c] - std::abs(D[c]) - reach) - margins::kImageRoom * box[c]);  // less the rounding
     const float speed = std::abs(j.velocity[c] - i.velocity[c]) + (i.velocity_rounding + j.velocity_rounding);
     const float open = std::max(room, 0.0F) * (1.0F - margins::kTime);
     if (speed * safe > open) safe = open / speed;
@@ -31,8 +32,9 @@ inline float image_safe_time(const Vec3& D, const FlightBound& i, const FlightBo
 
 /// Whether no other image of rod j can come to touch rod i within `horizon` [s] if neither moves faster than `slow`
 /// along x or y [mm/s].
-inline bool images_stay_away(const Vec3& D, double box_side, double reach, double slow, double horizon) {
-  const double room = box_side * (1 - margins::kImageRoom) - std::max(std::abs(D.x()), std::abs(D.y())) - reach;
+inline bool images_stay_away(const Vec3& D, const Box& box, double reach, double slow, double horizon) {
+  const Vec2 open = box.sides() * (1 - margins::kImageRoom) - D.head<2>().cwiseAbs();
+  const double room = open.minCoeff() - reach;
   return room > 2 * slow * horizon;
 }
 

@@ -28,7 +28,7 @@ void off_surface_ticks(std::span<const int> rods, const World& world, const std:
   }
   if (!rules.walls) return;
   for (std::size_t lane = 0; lane < rods.size(); ++lane) {
-    const double time = wall_safe_time(*rules.walls, rules.box_side, species, at_tick[rods[lane]].pose,
+    const double time = wall_safe_time(*rules.walls, rules.box, species, at_tick[rods[lane]].pose,
                                        world.rods[rods[lane]], static_cast<double>(horizon) * rules.dt);
     ticks[lane] = std::min(ticks[lane], static_cast<Tick>(time / rules.dt * (1.0 - margins::kWallTime)));
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "base/core/box.h"
 #include "base/core/sincos.h"
 #include "base/core/types.h"
 #include "sim/rod/species.h"
@@ -28,7 +29,7 @@ struct Motion {
 /// rate |J| / I_perp while the spin about the rod's own axis stays (Landau & Lifshitz, Mechanics, section 33).
 struct Flight {
   Tick since = 0;
-  Vec3 position = Vec3::Zero();             ///< at `since`; x and y in [0, box side) [mm]
+  Vec3 position = Vec3::Zero();             ///< at `since`; x and y in the box [mm]
   Vec3 velocity = Vec3::Zero();             ///< at `since` [mm/s]
   Vec3 director = Vec3::UnitX();            ///< at `since`
   Vec3 precession = Vec3::Zero();           ///< J / I_perp [rad/s]
@@ -92,12 +93,12 @@ inline void wrap(double& x, std::int32_t& image, double side) {
 }
 
 /// Stores a new flight that begins at tick `now`; `inertia_ratio` is I_par / I_perp.
-inline void begin_flight(Flight& flight, Tick now, const Pose& pose, const Motion& motion, double box_side,
+inline void begin_flight(Flight& flight, Tick now, const Pose& pose, const Motion& motion, const Box& box,
                          double inertia_ratio) {
   flight.since = now;
   flight.position = pose.position;
-  wrap(flight.position.x(), flight.image[0], box_side);
-  wrap(flight.position.y(), flight.image[1], box_side);
+  wrap(flight.position.x(), flight.image[0], box.x());
+  wrap(flight.position.y(), flight.image[1], box.y());
   flight.velocity = motion.velocity;
   // one Newton step towards |n| = 1 keeps the length of the director from drifting over 10^7 flights
   flight.director = pose.director * (0.5 * (3.0 - pose.director.squaredNorm()));

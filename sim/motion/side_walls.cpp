@@ -8,15 +8,15 @@ namespace shaken {
 namespace {
 
 /// More than rounding moves a bead or a wall [mm].
-double margin_for_rounding(double box_side) { return 1e-9 * (1.0 + box_side); }
+double margin_for_rounding(const Box& box) { return 1e-9 * (1.0 + box.longer()); }
 
 /// A rod's axis in the plane, as seen from the middle of the arena.
 struct Axis {
   Vec2 center;  ///< of the rod
   Vec2 along;   ///< the director's part in the plane
 
-  Axis(double box_side, const Pose& pose)
-      : center(pose.position.x() - 0.5 * box_side, pose.position.y() - 0.5 * box_side),
+  Axis(const Box& box, const Pose& pose)
+      : center(pose.position.x() - 0.5 * box.x(), pose.position.y() - 0.5 * box.y()),
         along(pose.director.x(), pose.director.y()) {}
   Vec2 at(double offset) const { return center + offset * along; }
   /// Squared distance of its nearest point to the middle, from the first bead to the last.
@@ -72,9 +72,9 @@ double time_to_inner_wall(const BeadPath& path, double radius, double time) {
 
 }  // namespace
 
-WallsSeen see_walls(const SideWalls& walls, double box_side, const Vec3& point) {
-  const double x = point.x() - 0.5 * box_side;
-  const double y = point.y() - 0.5 * box_side;
+WallsSeen see_walls(const SideWalls& walls, const Box& box, const Vec3& point) {
+  const double x = point.x() - 0.5 * box.x();
+  const double y = point.y() - 0.5 * box.y();
   const double half = 0.5 * walls.size;
   if (walls.arena == Arena::kSquare) {
     const Vec3 from_x(x > 0 ? -1.0 : 1.0, 0, 0);
@@ -88,22 +88,22 @@ WallsSeen see_walls(const SideWalls& walls, double box_side, const Vec3& point) 
   return {{outer, WallSeen{r - 0.5 * walls.inner, -inwards}}, 2};
 }
 
-double distance_to_walls(const SideWalls& walls, double box_side, const Vec3& point) {
-  const WallsSeen seen = see_walls(walls, box_side, point);
+double distance_to_walls(const SideWalls& walls, const Box& box, const Vec3& point) {
+  const WallsSeen seen = see_walls(walls, box, point);
   return seen.n == 1 ? seen.walls[0].distance : std::min(seen.walls[0].distance, seen.walls[1].distance);
 }
 
-bool is_within(const SideWalls& walls, double box_side, const Species& species, const Pose& pose) {
+bool is_within(const SideWalls& walls, const Box& box, const Species& species, const Pose& pose) {
   for (int b = 0; b < species.n_beads(); ++b) {
     const Vec3 center = pose.position + species.bead_offset[b] * pose.director;
-    if (distance_to_walls(walls, box_side, center) < species.bead_radius[b]) return false;
+    if (distance_to_walls(walls, box, center) < species.bead_radius[b]) return false;
   }
   return true;
 }
 
-bool may_touch_walls(const SideWalls& walls, double box_side, const Species& species, const Pose& pose) {
-  const Axis axis(box_side, pose);
-  const double margin = margin_for_rounding(box_side);
+bool may_touch_walls(const SideWalls& walls, const Box& box, const Species& species, const Pose& pose) {
+  const Axis axis(box, pose);
+  const double margin = margin_for_rounding(box);
   for (const int b : species.outer_beads) {
     const Vec2 point = axis.at(species.bead_offset[b]);
     const double most = 0.5 * walls.size - species.bead_radius[b] - margin;
@@ -116,15 +116,15 @@ bool may_touch_walls(const SideWalls& walls, double box_side, const Species& spe
   return !(axis.nearest_squared(species) > least * least);
 }
 
-double wall_safe_time(const SideWalls& walls, double box_side, const Species& species, const Pose& pose,
+double wall_safe_time(const SideWalls& walls, const Box& box, const Species& species, const Pose& pose,
                       const Flight& flight, double horizon) {
-  const double margin = margin_for_rounding(box_side);
+  const double margin = margin_for_rounding(box);
   const Vec2 velocity(flight.velocity.x(), flight.velocity.y());
   const double fastest = velocity.norm() + species.half_length * flight.rate;  // of its beads
-  const double gap = distance_to_walls(walls, box_side, pose.position) - species.half_length - species.max_radius;
+  const double gap = distance_to_walls(walls, box, pose.position) - species.half_length - species.max_radius;
   if (gap - margin > fastest * horizon) return horizon;
 
-  const Axis axis(box_side, pose);
+  const Axis axis(box, pose);
   const Vec3 turning = flight.precession.cross(pose.director);
   const auto path_of = [&](int bead) {
     const double offset = species.bead_offset[bead];

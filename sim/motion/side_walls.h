@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "base/core/box.h"
 #include "sim/motion/flight.h"
 #include "sim/rod/species.h"
 #include "sim/system.h"
@@ -20,13 +21,13 @@ struct WallsSeen {
   std::array<WallSeen, 2> walls;
   int n = 0;
 };
-WallsSeen see_walls(const SideWalls& walls, double box_side, const Vec3& point);
+WallsSeen see_walls(const SideWalls& walls, const Box& box, const Vec3& point);
 
 /// Distance of a point to the nearest wall, negative outside of the arena [mm]. No faster than the point itself.
-double distance_to_walls(const SideWalls& walls, double box_side, const Vec3& point);
+double distance_to_walls(const SideWalls& walls, const Box& box, const Vec3& point);
 
 /// No bead of the rod touches a wall.
-bool is_within(const SideWalls& walls, double box_side, const Species& species, const Pose& pose);
+bool is_within(const SideWalls& walls, const Box& box, const Species& species, const Pose& pose);
 
 /// Whether a bead of the rod may touch a wall. If not, `see_walls` finds that none of them does.
 ///
@@ -35,7 +36,7 @@ bool is_within(const SideWalls& walls, double box_side, const Species& species, 
 /// along the straight lines between the outer beads; no bead is thicker. So an outer bead reaches farthest. At an inner
 /// wall it may be any bead, but none is nearer to the middle than the nearest point of the axis, or thicker than the
 /// hull. Numerics: squares, and a margin for rounding; a rod that misses a wall by less may be said to touch it.
-bool may_touch_walls(const SideWalls& walls, double box_side, const Species& species, const Pose& pose);
+bool may_touch_walls(const SideWalls& walls, const Box& box, const Species& species, const Pose& pose);
 
 /// Time for which no bead of a flying rod touches a wall; 0 if one does, at most `horizon` [s]. Rigorous.
 ///
@@ -46,7 +47,7 @@ bool may_touch_walls(const SideWalls& walls, double box_side, const Species& spe
 ///   quadratic in t, and without a bend the very time.
 /// An inner wall lies behind its tangent at the point nearest to p, so each bead meets it no earlier than it would meet
 /// a straight wall there. Numerics: all walls are taken to be nearer by a margin for rounding, 1e-9 of the box.
-double wall_safe_time(const SideWalls& walls, double box_side, const Species& species, const Pose& pose,
+double wall_safe_time(const SideWalls& walls, const Box& box, const Species& species, const Pose& pose,
                       const Flight& flight, double horizon);
 
 }  // namespace shaken

@@ -20,17 +20,19 @@ Vec2 flat_direction(const Pose& pose) {
 }  // namespace
 
 NeighborList::NeighborList(std::span<const Species> species, std::span<const std::uint8_t> species_of_rod,
-                           double box_side, double skin)
-    : species_of_rod_(species_of_rod.begin(), species_of_rod.end()), skin_(skin), box_side_(box_side) {
+                           const Box& box, double skin)
+    : species_of_rod_(species_of_rod.begin(), species_of_rod.end()), skin_(skin), box_(box) {
   double farthest = 0;  // that two centres of a pair can be apart
   for (const Species& kind : species) {
     shadows_.push_back({kind.half_length, kind.max_radius});
     farthest = std::max(farthest, 2.0 * kind.half_length + (2.0 * kind.max_radius + skin));
   }
-  // cells at least as wide; below 3 x 3 cells every rod is a candidate
-  n_cells_ = static_cast<int>(std::floor(box_side / farthest));
-  if (n_cells_ < 3) n_cells_ = 1;
-  n_images_ = static_cast<int>(std::floor(farthest / box_side + 0.5));
+  // cells at least as wide; where fewer than 3 fit along a side, one of them is as long as it
+  for (int c = 0; c < 2; ++c) {
+    n_cells_[c] = static_cast<int>(std::floor(box[c] / farthest));
+    if (n_cells_[c] < 3) n_cells_[c] = 1;
+    n_images_[c] = static_cast<int>(std::floor(farthest / box[c] + 0.5));
+  }
 }
 
 std::size_t NeighborList::bytes() const {
@@ -42,13 +44,16 @@ std::size_t NeighborList::bytes() const {
 
 void NeighborList::note_place(int i, const Pose& pose) {
   placed_center_[i] = {pose.position.x(), pose.position.y()};
-  for (double& x : placed_center_[i]) x -= box_side_ * std::floor(x / box_side_);
+  for (int c = 0; c < 2; ++c) {
+    double& x = placed_center_[i][c];
+    x -= box_[c] * std::floor(x / box_[c]);
+  }
   placed_direction_[i] = flat_direction(pose);
 }
 
 double NeighborList::slack(int i, const Pose& pose) const {
   const Vec3 from(placed_center_[i].x(), placed_center_[i].y(), 0);
-  const Vec2 shift = nearest_image(from, pose.position, box_side_).head<2>();
+  const Vec2 shift = nearest_image(from, pose.position, box_).head<2>();
   const Vec2 turn = shadow(i).half_length * (flat_direction(pose) - placed_direction_[i]);
   return 0.5 * skin_ - std::sqrt(std::max((shift + turn).squaredNorm(), (shift - turn).squaredNorm()));
 }
@@ -64,11 +69,11 @@ bool NeighborList::is_due(std::span<const Pose> poses) const {
 // ---- who is near whom
 
 int NeighborList::cell_of(const Vec2& center) const {
-  const auto along = [&](double x) {
-    const double fraction = x / box_side_ - std::floor(x / box_side_);
-    return std::min(n_cells_ - 1, static_cast<int>(fraction * n_cells_));
+  const auto along = [&](int c) {
+    const double x = center[c] / box_[c];
+    return std::min(n_cells_[c] - 1, static_cast<int>((x - std::floor(x)) * n_cells_[c]));
   };
-  return along(center.y()) * n_cells_ + along(center.x());
+  return along(1) * n_cells_[0] + along(0);
 }
 
 void NeighborList::put_into_cell(int i, int cell) {
@@ -83,26 +88,27 @@ void NeighborList::for_candidates(int i, const Each& each) const {
       if (j != i) each(j);
     }
   };
-  if (n_cells_ == 1) return visit(0);
-  const int cx = cell_[i] % n_cells_;
-  const int cy = cell_[i] / n_cells_;
-  for (int dy = -1; dy <= 1; ++dy) {
-    const int row = (cy + dy + n_cells_) % n_cells_ * n_cells_;
-    for (int dx = -1; dx <= 1; ++dx) visit(row + (cx + dx + n_cells_) % n_cells_);
+  const auto& [nx, ny] = n_cells_;
+  const int cx = cell_[i] % nx;
+  const int cy = cell_[i] / nx;
+  const int wide = nx > 1 ? 1 : 0, high = ny > 1 ? 1 : 0;
+  for (int dy = -high; dy <= high; ++dy) {
+    const int row = (cy + dy + ny) % ny * nx;
+    for (int dx = -wide; dx <= wide; ++dx) visit(row + (cx + dx + nx) % nx);
   }
 }
 
 bool NeighborList::are_near(int i, int j) const {
   const Vec2 apart = (placed_center_[i] - placed_center_[j]).cwiseAbs();
-  const Vec2 in_nearest_image = apart.cwiseMin(Vec2::Constant(box_side_) - apart);
+  const Vec2 in_nearest_image = apart.cwiseMin(box_.sides() - apart);
   const double centers = shadow(i).half_length + shadow(j).half_length + reach(i, j);
   if (in_nearest_image.squaredNorm() > centers * centers) return false;
   const auto level = [](const Vec2& v) { return Vec3(v.x(), v.y(), 0); };
-  const Vec3 nearest = nearest_image(level(placed_center_[i]), level(placed_center_[j]), box_side_);
+  const Vec3 nearest = nearest_image(level(placed_center_[i]), level(placed_center_[j]), box_);
   // of two rods in a small box, it may be the ends of an image further away that come near
-  for (int x = -n_images_; x <= n_images_; ++x) {
-    for (int y = -n_images_; y <= n_images_; ++y) {
-      if (are_near(i, j, nearest + box_side_ * Vec3(x, y, 0))) return true;
+  for (int x = -n_images_[0]; x <= n_images_[0]; ++x) {
+    for (int y = -n_images_[1]; y <= n_images_[1]; ++y) {
+      if (are_near(i, j, nearest + Vec3(x * box_.x(), y * box_.y(), 0))) return true;
     }
   }
   return false;
@@ -156,7 +162,7 @@ void NeighborList::build(std::span<const Pose> poses) {
   placed_center_.resize(n);
   placed_direction_.resize(n);
   cell_.resize(n);
-  members_.assign(static_cast<std::size_t>(n_cells_) * n_cells_, {});
+  members_.assign(static_cast<std::size_t>(n_cells_[0]) * n_cells_[1], {});
   for (int i = 0; i < n; ++i) {
     note_place(i, poses[i]);
     put_into_cell(i, cell_of(placed_center_[i]));

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "base/core/box.h"
 #include "base/core/types.h"
 #include "sim/lanes/prefetch.h"
 #include "sim/motion/flight.h"
@@ -15,15 +16,15 @@ namespace shaken {
 
 /// The vector from `from` to the nearest periodic image of `to`; periodic in x and y only. The two must not be more
 /// than a few million boxes apart.
-inline Vec3 nearest_image(const Vec3& from, const Vec3& to, double box_side) {
+inline Vec3 nearest_image(const Vec3& from, const Vec3& to, const Box& box) {
   // adding and taking away 1.5 * 2^52 rounds to the nearest whole number, ties to even, as nearbyint does
   const auto rounded = [](double x) {
     constexpr double kRounder = 6755399441055744.0;
     return (x + kRounder) - kRounder;
   };
   Vec3 d = to - from;
-  d.x() -= box_side * rounded(d.x() / box_side);
-  d.y() -= box_side * rounded(d.y() / box_side);
+  d.x() -= box.x() * rounded(d.x() / box.x());
+  d.y() -= box.y() * rounded(d.y() / box.y());
   return d;
 }
 
@@ -45,7 +46,7 @@ class NeighborList {
   };
 
   /// `species_of_rod` (n_rods): the index of each rod's species.
-  NeighborList(std::span<const Species> species, std::span<const std::uint8_t> species_of_rod, double box_side,
+  NeighborList(std::span<const Species> species, std::span<const std::uint8_t> species_of_rod, const Box& box,
                double skin);
 
   /// True if the list may be incomplete for these poses (or was never built).
@@ -101,14 +102,15 @@ class NeighborList {
   std::vector<Shadow> shadows_;               ///< (n_species)
   std::vector<std::uint8_t> species_of_rod_;  ///< (n_rods)
   double skin_;
-  double box_side_;
-  int n_cells_;   ///< per side; 1: no grid
-  int n_images_;  ///< to each side of the nearest that may be near; 0 in a box twice as wide as pairs are long
+  Box box_;
+  std::array<int, 2> n_cells_;   ///< along x and y; 1, 1: no grid
+  std::array<int, 2> n_images_;  ///< to each side of the nearest that may be near; 0 where the box is twice as wide as pairs
+                                 ///< are long
 
   std::vector<Vec2> placed_center_;        ///< in the box
   std::vector<Vec2> placed_direction_;     ///< of the segment
   std::vector<int> cell_;                  ///< (n_rods) cell of each rod
-  std::vector<std::vector<int>> members_;  ///< (n_cells^2) rods of each cell
+  std::vector<std::vector<int>> members_;  ///< (n_cells) rods of each cell
 
   std::vector<Pair> pairs_;
   std::vector<int> unused_;    ///< numbers

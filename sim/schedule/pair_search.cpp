@@ -24,7 +24,7 @@ PairSearch::PairSearch(const TickRules& rules) : rules_(rules) {
   const double longest = *std::max_element(reach_.begin(), reach_.end());
   // such that pairs in the neighbour list, and rods of 1.2 times the reach, are near
   const double near = 4.0 * longest + std::max(0.4 * longest, 2.0 * NeighborList::kSkin);
-  slow_ = static_cast<float>(std::max(0.0, rules.box_side - near) /
+  slow_ = static_cast<float>(std::max(0.0, rules.box.shorter() - near) /
                              (2.0 * static_cast<double>(TimingWheel::horizon()) * rules.dt));
 }
 
@@ -33,7 +33,7 @@ bool PairSearch::find(const PairRods& pair, const Pose& pose_i, const Pose& pose
   const auto& [i, j] = pair;
   const std::uint8_t species_i = rules_.species_of_rod[i];
   const std::uint8_t species_j = rules_.species_of_rod[j];
-  const Vec3 D = nearest_image(pose_i.position, pose_j.position, rules_.box_side);
+  const Vec3 D = nearest_image(pose_i.position, pose_j.position, rules_.box);
   const Vec3 d(direction[0], direction[1], direction[2]);
   if (hull_gap(hulls_[species_i], std::abs(pose_i.director.dot(d)), hulls_[species_j], std::abs(pose_j.director.dot(d)),
                D.dot(d)) > margins::kHullsApart)
@@ -56,7 +56,7 @@ void PairSearch::bound(std::span<const PairRods> pairs, const std::vector<RodAtT
   Vec3 D[kLanes];
   for (std::size_t lane = 0; lane < pairs.size(); ++lane) {
     const auto& [i, j] = pairs[lane];
-    D[lane] = nearest_image(rods[i].pose.position, rods[j].pose.position, rules_.box_side);
+    D[lane] = nearest_image(rods[i].pose.position, rods[j].pose.position, rules_.box);
     lanes.set(static_cast<int>(lane), D[lane], motion[i], motion[j]);
   }
   const auto horizon = static_cast<float>(static_cast<double>(TimingWheel::horizon() - 1) * rules_.dt);
@@ -84,8 +84,8 @@ void PairSearch::bound(std::span<const PairRods> pairs, const std::vector<RodAtT
         isotropic = true;
       }
     }
-    if (!(i.slow && j.slow && images_stay_away(D[lane], rules_.box_side, reach, slow_, horizon))) {
-      time = std::min(time, image_safe_time(D[lane], i, j, rules_.box_side, reach, horizon));
+    if (!(i.slow && j.slow && images_stay_away(D[lane], rules_.box, reach, slow_, horizon))) {
+      time = std::min(time, image_safe_time(D[lane], i, j, rules_.box, reach, horizon));
       left = -1;
     }
     const auto ticks = static_cast<int>(time * per_dt);

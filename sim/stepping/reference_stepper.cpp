@@ -15,7 +15,7 @@ constexpr double kReferenceSkin = 0.3;
 
 ReferenceStepper::ReferenceStepper(const World& world)
     : rules_(world),
-      neighbors_(world.species, world.species_of_rod, world.system.box_side, kReferenceSkin),
+      neighbors_(world.species, world.species_of_rod, world.system.box(), kReferenceSkin),
       rods_(world.rods.size()),
       poses_(world.rods.size()) {}
 
@@ -45,7 +45,7 @@ std::optional<NumericalTrouble> ReferenceStepper::step(World& world, Tick now) {
   contacts_.clear();
   for (const auto& [i, j] : neighbors_.pairs()) {
     bead_contacts_.clear();
-    const Vec3 D = nearest_image(poses_[i].position, poses_[j].position, rules_.box_side);
+    const Vec3 D = nearest_image(poses_[i].position, poses_[j].position, rules_.box);
     find_bead_contacts(rules_.species_of(i), poses_[i].director, rules_.species_of(j), poses_[j].director, D,
                        bead_contacts_);
     for (const BeadContact& beads : bead_contacts_) contacts_.push_back({i, j, beads});

@@ -52,7 +52,7 @@ namespace {
   }
   // from bead to bead as the rods are now: an impulse of the same tick may have displaced them since detection
   const auto bead_to_bead = [&]() -> Vec3 {
-    return nearest_image(rod_i.pose.position, rod_j.pose.position, rules.box_side) + offset_j * rod_j.pose.director -
+    return nearest_image(rod_i.pose.position, rod_j.pose.position, rules.box) + offset_j * rod_j.pose.director -
            offset_i * rod_i.pose.director;
   };
   const Vec3 r = bead_to_bead();

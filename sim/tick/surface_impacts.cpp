@@ -176,9 +176,9 @@ std::optional<NumericalTrouble> meet_side_walls(int index, RodAtTick& rod, const
                                                 Counters& counters) {
   const SpeciesMechanics& species = rules.species_of(index);
   const SideWalls& walls = *rules.walls;
-  if (!may_touch_walls(walls, rules.box_side, species, rod.pose)) return {};
+  if (!may_touch_walls(walls, rules.box, species, rod.pose)) return {};
   const auto seen_by = [&](int bead) {
-    return see_walls(walls, rules.box_side, rod.pose.position + species.bead_offset[bead] * rod.pose.director);
+    return see_walls(walls, rules.box, rod.pose.position + species.bead_offset[bead] * rod.pose.director);
   };
   std::bitset<std::size_t{2} * kMostBeads> met;  // of each bead one wall or two
   while (true) {

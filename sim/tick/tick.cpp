@@ -24,7 +24,7 @@ TickRules::TickRules(const World& world)
     : species_of_rod(world.species_of_rod),
       gravity(world.system.gravity),
       dt(world.system.dt),
-      box_side(world.system.box_side),
+      box(world.system.box()),
       rod_rod(world.system.rod_rod),
       rod_base(world.system.rod_base),
       rod_lid(world.system.rod_lid),

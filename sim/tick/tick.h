@@ -59,7 +59,7 @@ struct TickRules {
   std::vector<std::uint8_t> species_of_rod;  ///< (n_rods)
   double gravity;
   double dt;
-  double box_side;
+  Box box;  ///< sides along x and y [mm]
   ContactParameters rod_rod, rod_base, rod_lid;
   ImpulseFunction impulse;  ///< of contacts with friction
   bool impacts_at_instant;
@@ -139,7 +139,7 @@ NumericalTrouble motion_trouble(int index, const RodAtTick& rod, Tick now, const
 
 /// Phase 4 for one changed rod.
 inline void store(int index, Flight& flight, const RodAtTick& rod, Tick now, const TickRules& rules) {
-  begin_flight(flight, now, rod.pose, rod.motion, rules.box_side, rules.species_of(index).inertia_ratio);
+  begin_flight(flight, now, rod.pose, rod.motion, rules.box, rules.species_of(index).inertia_ratio);
 }
 
 }  // namespace shaken

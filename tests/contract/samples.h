@@ -80,7 +80,8 @@ inline frame_static_t make() {
   m.job_id = "0123456789abcdef";
   m.sim_time_s = 1.5;
   m.n_rods = 2109;
-  m.box_side_mm = 83.73;
+  m.box_x_mm = 83.73;
+  m.box_y_mm = 41.5;
   m.gap_mm = 1.2;
   m.n_species = 2;
   m.species_beads = {3, 1};
@@ -104,7 +105,8 @@ inline frame_t make() {
   m.job_id = "0123456789abcdef";
   m.sim_time_s = 1.5;
   m.tick = 375000;
-  m.box_side_mm = 83.73;
+  m.box_x_mm = 83.73;
+  m.box_y_mm = 41.5;
   m.order = 0.5;
   m.director_rad = 0.25;
   m.n_rods = 3;

@@ -272,7 +272,7 @@ TEST(EndToEnd, SweepIsRunStreamedTabledPlottedAndDrawn) {
       ASSERT_TRUE(&message != &messages.back() || index_of.contains(tick)) << "the last state is recorded, and sent";
       if (!index_of.contains(tick)) continue;
       const Snapshot frame = *reader->frame(index_of[tick]);
-      const double side = message.at("box_side_mm");
+      const double side = message.at("box_mm").at(0);
       EXPECT_EQ(side, 12.0);
       ASSERT_EQ(message.at("x").size(), frame.position.size());
       for (std::size_t i = 0; i < frame.position.size(); ++i) {

@@ -22,10 +22,10 @@ Json fields(const shaken::status_t& m) { return {{"pid", m.pid}, {"n_slots", m.n
 Json fields(const shaken::job_t& m) { return {{"job", m.job_id}, {"state", m.state}, {"progress", m.progress}}; }
 Json fields(const shaken::observables_t& m) { return {{"job", m.job_id}, {"order", m.order}, {"n_rods", m.n_rods}}; }
 Json fields(const shaken::frame_static_t& m) {
-  return {{"job", m.job_id}, {"n_rods", m.n_rods}, {"box_side_mm", m.box_side_mm}, {"n_beads", m.n_beads}};
+  return {{"job", m.job_id}, {"n_rods", m.n_rods}, {"box_mm", {m.box_x_mm, m.box_y_mm}}, {"n_beads", m.n_beads}};
 }
 Json fields(const shaken::frame_t& m) {
-  return {{"job", m.job_id},  {"tick", m.tick},     {"box_side_mm", m.box_side_mm},
+  return {{"job", m.job_id},  {"tick", m.tick},     {"box_mm", {m.box_x_mm, m.box_y_mm}},
           {"order", m.order}, {"n_rods", m.n_rods}, {"n_chunks", m.n_chunks},
           {"x", m.x},         {"y", m.y},           {"heading", m.heading},
           {"n_z", m.n_z}};

@@ -80,7 +80,7 @@ def frame(k, f):
     y = [-32768 + 6554 * (i // side) + 3000 for i in range(N_RODS)]
     angles = [spread * math.sin(7.3 * i + 0.02 * f) for i in range(N_RODS)]
     order = math.hypot(sum(math.cos(2 * a) for a in angles), sum(math.sin(2 * a) for a in angles)) / N_RODS
-    head = json.dumps({"time_s": EVERY_S * f, "box_side_mm": BOX_MM, "order": order, "director_rad": 0.0, "n_rods": N_RODS,
+    head = json.dumps({"time_s": EVERY_S * f, "box_mm": [BOX_MM, BOX_MM], "order": order, "director_rad": 0.0, "n_rods": N_RODS,
                        "outlines": [[1.1, 0.4, 0.25]], "gap_mm": 1.2, "has_heights": True, "walls": None}).encode()
     head += b" " * (-len(head) % 4)
     values = x + y + [round(a / math.pi * 32768) for a in angles] + [1000 * (i % 5) for i in range(N_RODS)]
@@ -356,7 +356,7 @@ def use(page, address, daemon):
         const done = arguments[arguments.length - 1];
         import("/page/painter.js").then(({instancesOf}) => {
           const n = 2000, place = (k) => Int16Array.from({length: n}, (_, i) => ((i * k) % 65536) - 32768);
-          const frame = {n_rods: n, box_side_mm: 80, walls: null, outlines: [[2, 0.4, 0.25]], x: place(7919), y: place(104729),
+          const frame = {n_rods: n, box_mm: [80, 80], walls: null, outlines: [[2, 0.4, 0.25]], x: place(7919), y: place(104729),
                          heading: place(31), n_z: new Int16Array(n), species: new Uint8Array(n)};
           const whole = instancesOf(frame, {x: 0.5, y: 0.5, zoom: 1}), shifted = instancesOf(frame, {x: 0.1, y: 0.9, zoom: 1});
           // the slow twin: every image of every rod
@@ -555,10 +555,10 @@ def use_by_everybody(page, daemon, pictures):
 ORBIT = """
   const done = arguments[arguments.length - 1];
   import("/page/orbit.js").then(({cameraOf, matrixOf}) => {
-    const eyes = [[0, 30], [90, 30], [0, 90]].map((orbit) => cameraOf({box_side_mm: 10, gap_mm: 2}, {x: 0.5, y: 0.5, zoom: 1, orbit}));
+    const eyes = [[0, 30], [90, 30], [0, 90]].map((orbit) => cameraOf({box_mm: [10, 10], gap_mm: 2}, {x: 0.5, y: 0.5, zoom: 1, orbit}));
     // how far the corners of the box are from the middle of the picture, in halves of it
     const outermost = (orbit) => {
-      const look = matrixOf(cameraOf({box_side_mm: 10, gap_mm: 2}, {x: 0.5, y: 0.5, zoom: 1, orbit}));
+      const look = matrixOf(cameraOf({box_mm: [10, 10], gap_mm: 2}, {x: 0.5, y: 0.5, zoom: 1, orbit}));
       const seen = [0, 1, 2, 3, 4, 5, 6, 7].map((k) => [0, 1, 2, 3].map((row) =>
         look[row] * 10 * (k & 1) + look[4 + row] * 10 * (k >> 1 & 1) + look[8 + row] * 2 * (k >> 2) + look[12 + row]));
       return [Math.max(...seen.map(([x, y, , w]) => Math.max(Math.abs(x), Math.abs(y)) / w)),

@@ -185,6 +185,12 @@ void draw_start(std::uint64_t seed, Json& scene) {
   }
 }
 
+/// Boxes that are not square, by numbers of their own.
+void draw_box(std::uint64_t seed, Json& scene) {
+  SceneDraw draw(seed + 2'000'000'011);
+  if (!scene.contains("walls") && draw.chance(0.25)) scene["box"]["aspect"] = draw.by_size(0.2, 5);
+}
+
 }  // namespace
 
 SceneCase draw_scene_case(std::uint64_t seed) {
@@ -244,6 +250,7 @@ SceneCase draw_scene_case(std::uint64_t seed) {
   if (draw.chance(0.2)) one.heat = draw.by_size(1, 1000);
   if (draw.chance(0.15)) one.spin = draw.by_size(1, 2000);
   draw_start(seed, scene);
+  draw_box(seed, scene);
   return one;
 }
 

@@ -51,18 +51,18 @@ const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a
  * from below the picture from above, 90 from its right, elevation 90 from above [degrees]. At zoom 1 the box just fits.
  * Returns {eye, right, up, forward, half: tangent, distance, radius}; lengths in mm.
  */
-export function cameraOf({box_side_mm: side, gap_mm: gap}, {x, y, zoom, orbit}) {
+export function cameraOf({box_mm: [width, height], gap_mm: gap}, {x, y, zoom, orbit}) {
   const [azimuth, elevation] = orbit.map((degrees) => degrees * Math.PI / 180);
   const right = [Math.cos(azimuth), Math.sin(azimuth), 0], flat = Math.cos(elevation);
   const forward = [-right[1] * flat, right[0] * flat, -Math.sin(elevation)], up = cross(right, forward);
   let distance = 0, radius = 0;
   for (let corner = 0; corner < 8; ++corner) {
-    const at = [((corner & 1) - 0.5) * side, ((corner >> 1 & 1) - 0.5) * side, ((corner >> 2) - 0.5) * gap];
+    const at = [((corner & 1) - 0.5) * width, ((corner >> 1 & 1) - 0.5) * height, ((corner >> 2) - 0.5) * gap];
     const aside = Math.max(Math.abs(dot(right, at)), Math.abs(dot(up, at)));
     distance = Math.max(distance, kMargin * aside / kTangent - dot(forward, at));
     radius = Math.max(radius, Math.hypot(...at));
   }
-  const eye = [x * side, y * side, gap / 2].map((one, k) => one - distance * forward[k]);
+  const eye = [x * width, y * height, gap / 2].map((one, k) => one - distance * forward[k]);
   return {eye, right, up, forward, half: kTangent / Math.max(zoom, 1), distance, radius};
 }
 
@@ -91,12 +91,12 @@ function bodyOfRings() {
 }
 
 /** The edge of what rods may be in, at height `z`: of the box, or of its arena. Corners of closed lines. */
-function edges({box_side_mm: side, walls}) {
-  const square = (size) => [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([x, y]) => [side / 2 + x * size / 2, side / 2 + y * size / 2]);
-  if (!walls) return [square(side)];
-  if (walls.arena === "square") return [square(walls.size_mm)];
+function edges({box_mm: [width, height], walls}) {
+  const rectangle = (a, b) => [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([x, y]) => [(width + x * a) / 2, (height + y * b) / 2]);
+  if (!walls) return [rectangle(width, height)];
+  if (walls.arena === "square") return [rectangle(walls.size_mm, walls.size_mm)];
   return [walls.size_mm, walls.inner_mm].filter((size) => size > 0).map((size) => Array.from({length: 72}, (_, k) =>
-    [side / 2 + size / 2 * Math.cos(k * Math.PI / 36), side / 2 + size / 2 * Math.sin(k * Math.PI / 36)]));
+    [width / 2 + size / 2 * Math.cos(k * Math.PI / 36), height / 2 + size / 2 * Math.sin(k * Math.PI / 36)]));
 }
 
 export class OrbitPainter {
@@ -157,11 +157,11 @@ export class OrbitPainter {
   }
 
   paintRods(frame, look, toEye, colouring) {
-    const {gl, bodies} = this, {n_rods: n, box_side_mm: side, gap_mm: gap, z} = frame;
+    const {gl, bodies} = this, {n_rods: n, box_mm: [width, height], gap_mm: gap, z} = frame;
     const rods = new Float32Array(4 * n), kinds = new Float32Array(2 * n);
     for (let i = 0; i < n; ++i) {
       const height = z ? (z[i] / 32767 + 0.5) * gap : gap / 2;
-      rods.set([(frame.x[i] / 65536 + 0.5) * side, (frame.y[i] / 65536 + 0.5) * side, height, frame.heading[i] / 32768], 4 * i);
+      rods.set([(frame.x[i] / 65536 + 0.5) * width, (frame.y[i] / 65536 + 0.5) * height, height, frame.heading[i] / 32768], 4 * i);
       kinds.set([frame.n_z[i] / 32767, frame.species[i]], 2 * i);
     }
     useForRods(gl, bodies, this.palettes, frame, colouring);

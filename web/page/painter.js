@@ -50,19 +50,24 @@ void main() {
  * and its species. `view` is {x, y, zoom}; without walls the box is periodic.
  */
 export function instancesOf(frame, view) {
-  const {n_rods: n, box_side_mm: side} = frame, half = side / 2 / view.zoom;
+  const {n_rods: n, box_mm: box} = frame, half = Math.max(...box) / 2 / view.zoom;
   const reach = frame.outlines.map(([length, , end]) => length + end);
-  const rods = new Float32Array(4 * 9 * n), species = new Uint8Array(9 * n), shifts = frame.walls ? [0] : [0, -side, side];
+  const shifts = box.map((side) => {  // to the images that may be seen: of a square, to the nearest
+    const most = frame.walls ? 0 : Math.ceil(Math.max(...box) / side / 2 + 0.5);
+    return Array.from({length: 2 * most + 1}, (_, k) => (k - most) * side);
+  });
+  const images = shifts[0].length * shifts[1].length;
+  const rods = new Float32Array(4 * images * n), species = new Uint8Array(images * n);
   let count = 0;
-  const placed = (at, middle) => {  // of the centre, from the middle of the view
+  const placed = (at, middle, side) => {  // of the centre, from the middle of the view
     const d = (at / 65536 + 0.5 - middle) * side;
     return frame.walls ? d : d - side * Math.round(d / side);
   };
   for (let i = 0; i < n; ++i) {
-    const x = placed(frame.x[i], view.x), y = placed(frame.y[i], view.y), most = half + reach[frame.species[i]];
-    for (const dx of shifts) {
+    const x = placed(frame.x[i], view.x, box[0]), y = placed(frame.y[i], view.y, box[1]), most = half + reach[frame.species[i]];
+    for (const dx of shifts[0]) {
       if (Math.abs(x + dx) > most) continue;
-      for (const dy of shifts) {
+      for (const dy of shifts[1]) {
         if (Math.abs(y + dy) > most) continue;
         rods.set([x + dx, y + dy, frame.heading[i] / 32768, frame.n_z[i] / 32768], 4 * count);
         species[count++] = frame.species[i];
@@ -120,7 +125,7 @@ export class RodPainter {
       return;
     }
     useForRods(gl, program, palettes, frame, colouring);
-    gl.uniform1f(program.at.scale, 2 * view.zoom / frame.box_side_mm);
+    gl.uniform1f(program.at.scale, 2 * view.zoom / Math.max(...frame.box_mm));
     const {count, rods, species} = instancesOf(frame, view);
     gl.bindVertexArray(this.vertices);
     fill(gl, this.rods, rods);

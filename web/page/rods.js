@@ -30,14 +30,13 @@ export function angleToDirector(frame, i) {
  */
 export function rodAt(frame, view, x, y, reach = 0) {
   let best = -1, least = Infinity;
-  const side = frame.box_side_mm;
   for (let i = 0; i < frame.n_rods; ++i) {
     const [length, middle, end] = frame.outlines[frame.species[i]], theta = frame.heading[i] / 32768 * Math.PI;
-    const off = (at, from, to) => {
+    const off = (at, from, to, side) => {
       const d = to - (at / 65536 + 0.5 - from) * side;
       return frame.walls ? d : d - side * Math.round(d / side);
     };
-    const dx = off(frame.x[i], view.x, x), dy = off(frame.y[i], view.y, y);
+    const dx = off(frame.x[i], view.x, x, frame.box_mm[0]), dy = off(frame.y[i], view.y, y, frame.box_mm[1]);
     const along = dx * Math.cos(theta) + dy * Math.sin(theta), across = -dx * Math.sin(theta) + dy * Math.cos(theta);
     const flat = length * Math.sqrt(Math.max(0, 1 - (frame.n_z[i] / 32768) ** 2));
     const beyond = Math.hypot(Math.max(0, Math.abs(along) - flat), across);
@@ -124,14 +123,14 @@ export class RodCanvas {
       this.write(context, this.viewWords(), size);
       return;
     }
-    const side = frame.box_side_mm, perMm = size * view.zoom / side;
+    const [width, height] = frame.box_mm, perMm = size * view.zoom / Math.max(width, height);
     const toPixel = (x, y) => {
-      let dx = x - view.x * side, dy = y - view.y * side;
-      if (!frame.walls) { dx -= side * Math.round(dx / side); dy -= side * Math.round(dy / side); }
+      let dx = x - view.x * width, dy = y - view.y * height;
+      if (!frame.walls) { dx -= width * Math.round(dx / width); dy -= height * Math.round(dy / height); }
       return [size / 2 + dx * perMm, size / 2 - dy * perMm];
     };
     if (frame.walls) {
-      const {arena, size_mm, inner_mm} = frame.walls, [x, y] = toPixel(side / 2, side / 2);
+      const {arena, size_mm, inner_mm} = frame.walls, [x, y] = toPixel(width / 2, height / 2);
       context.strokeStyle = cssColour("edge");
       context.lineWidth = 2;
       if (arena === "square") context.strokeRect(x - size_mm * perMm / 2, y - size_mm * perMm / 2, size_mm * perMm, size_mm * perMm);
@@ -141,7 +140,7 @@ export class RodCanvas {
         context.stroke();
       }
     }
-    if (this.path) this.drawPath(context, toPixel, side, perMm);
+    if (this.path) this.drawPath(context, toPixel, perMm);
     if (this.showsDefects) for (const one of this.defects) this.drawDefect(context, one, toPixel, size);
     const bar = [1, 2, 5, 10, 20, 50, 100, 200].filter((mm) => mm * perMm < size / 3).at(-1) ?? 1;
     this.write(context, `${bar} mm`, size);
@@ -159,16 +158,17 @@ export class RodCanvas {
   }
 
   /** A line for each step, the short way round. */
-  drawPath(context, toPixel, side, perMm) {
-    const {x_mm: x, y_mm: y} = this.path, short = (d) => (this.frame.walls ? d : d - side * Math.round(d / side));
-    for (const [colour, width] of [[cssColour("panel"), 5], [cssColour("warm"), 2.5]]) {
+  drawPath(context, toPixel, perMm) {
+    const {x_mm: x, y_mm: y} = this.path, [width, height] = this.frame.box_mm;
+    const short = (d, side) => (this.frame.walls ? d : d - side * Math.round(d / side));
+    for (const [colour, thickness] of [[cssColour("panel"), 5], [cssColour("warm"), 2.5]]) {
       context.strokeStyle = colour;
-      context.lineWidth = width;
+      context.lineWidth = thickness;
       context.beginPath();
       for (let k = 1; k < x.length; ++k) {
         const [px, py] = toPixel(x[k], y[k]);
         context.moveTo(px, py);
-        context.lineTo(px - short(x[k] - x[k - 1]) * perMm, py + short(y[k] - y[k - 1]) * perMm);
+        context.lineTo(px - short(x[k] - x[k - 1], width) * perMm, py + short(y[k] - y[k - 1], height) * perMm);
       }
       context.stroke();
     }
@@ -197,15 +197,15 @@ export class RodCanvas {
   describe(event) {
     const {frame, view, marks} = this;
     if (!frame || view.orbit) return;
-    const width = frame.box_side_mm / view.zoom;
+    const width = Math.max(...frame.box_mm) / view.zoom;
     this.tell(rodAt(frame, view, (event.offsetX / marks.clientWidth - 0.5) * width, (0.5 - event.offsetY / marks.clientHeight) * width));
   }
 
   /** What there is to say of rod i; nothing at -1. */
   tell(i) {
-    const {frame} = this, place = (at) => ((at / 65536 + 0.5) * frame.box_side_mm).toFixed(2);
+    const {frame} = this, place = (at, side) => ((at / 65536 + 0.5) * side).toFixed(2);
     if (!this.onRod) return;
-    this.onRod(i < 0 ? "" : `Rod ${i}: x = ${place(frame.x[i])} mm, y = ${place(frame.y[i])} mm, ` +
+    this.onRod(i < 0 ? "" : `Rod ${i}: x = ${place(frame.x[i], frame.box_mm[0])} mm, y = ${place(frame.y[i], frame.box_mm[1])} mm, ` +
       (frame.order === null ? "" : `${angleToDirector(frame, i).toFixed(1)}° to the director, `) +
       `n_z = ${(frame.n_z[i] / 32768).toFixed(3)}`, i);
   }
@@ -235,11 +235,15 @@ export class RodCanvas {
     this.onView();
   }
 
+  /** How many boxes the view at zoom 1 is wide and high: 1 each of a square one. */
+  viewInBoxes() { return (this.frame?.box_mm ?? [1, 1]).map((side, _, sides) => Math.max(...sides) / side); }
+
   /** Keeps the point under (`across`, `up`), parts of the canvas from its middle, where it is. */
   zoomTo(wanted, across = 0, up = 0) {
     const {view} = this, zoom = Math.min(40, Math.max(1, wanted));
-    view.x += across / view.zoom - across / zoom;
-    view.y += up / view.zoom - up / zoom;
+    const [wide, high] = this.viewInBoxes();
+    view.x += wide * (across / view.zoom - across / zoom);
+    view.y += high * (up / view.zoom - up / zoom);
     view.zoom = zoom;
     this.onView();
   }
@@ -247,8 +251,9 @@ export class RodCanvas {
   /** Moves the view by parts of the canvas; in orbit, turns it: by half a turn from one side of the canvas to the other. */
   move(across, up) {
     if (this.view.orbit) return this.turn(180 * across, 180 * up);
-    this.view.x += across / this.view.zoom;
-    this.view.y += up / this.view.zoom;
+    const {view} = this, [wide, high] = this.viewInBoxes();
+    view.x += wide * across / view.zoom;
+    view.y += high * up / view.zoom;
     this.onView();
   }
 

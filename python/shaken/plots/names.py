@@ -17,6 +17,7 @@ TABLE: dict[str, tuple[str, str, str]] = {
     "rods.area_fraction": ("area fraction", "$φ$", ""),
     "rods.count": ("number of rods", "$N$", ""),
     "box.side": ("side of the box", "$L$", "mm"),
+    "box.aspect": ("aspect of the box", "$L_y/L_x$", ""),
     "box.gap": ("gap between the plates", "$w$", "mm"),
     "plates.gamma": ("shaking strength", "$Γ$", ""),
     "plates.amplitude": ("amplitude of the plates", "$a$", "mm"),

@@ -6,6 +6,7 @@
 #include <random>
 #include <vector>
 
+#include "base/core/box.h"
 #include "base/core/types.h"
 
 namespace shaken::analysis {
@@ -35,9 +36,9 @@ inline std::vector<Vec3> random_axes(Draw& draw, std::size_t n) {
   return axes;
 }
 
-inline std::vector<Vec3> random_places(Draw& draw, std::size_t n, double box_side) {
+inline std::vector<Vec3> random_places(Draw& draw, std::size_t n, const Box& box) {
   std::vector<Vec3> places;
-  for (std::size_t i = 0; i < n; ++i) places.push_back({draw.uniform(0, box_side), draw.uniform(0, box_side), 0.5});
+  for (std::size_t i = 0; i < n; ++i) places.push_back({draw.uniform(0, box.x()), draw.uniform(0, box.y()), 0.5});
   return places;
 }
 

@@ -65,8 +65,8 @@ TEST(Defects, OnePlantedPair) {
     const Defect& minus = defects[0].charge > 0 ? defects[1] : defects[0];
     EXPECT_EQ(plus.charge, 0.5);
     EXPECT_EQ(minus.charge, -0.5);
-    EXPECT_LT(distance(plus.position, centre - Vec2(kBox / 4, 0)), 2 * field.mesh());
-    EXPECT_LT(distance(minus.position, centre + Vec2(kBox / 4, 0)), 2 * field.mesh());
+    EXPECT_LT(distance(plus.position, centre - Vec2(kBox / 4, 0)), 2 * field.mesh().x());
+    EXPECT_LT(distance(minus.position, centre + Vec2(kBox / 4, 0)), 2 * field.mesh().x());
     EXPECT_NEAR(std::remainder(plus.direction - phase, 2 * kPi), 0, 0.12);
     EXPECT_NEAR(std::remainder(minus.direction - (kPi + phase) / 3, 2 * kPi / 3), 0, 0.12);
     for (const Defect& d : defects) {
@@ -134,8 +134,8 @@ TEST(Defects, NoneInTheVoid) {
   // Without a floor the strays make some.
   const DirectorField field(holed.positions, holed.directors, kBox, 100, 2.0);
   int wound = 0;
-  for (int j = 0; j < field.n(); ++j) {
-    for (int i = 0; i < field.n(); ++i) {
+  for (int j = 0; j < field.grid().rows; ++j) {
+    for (int i = 0; i < field.grid().rows; ++i) {
       const double round[] = {field.theta(i, j), field.theta(i + 1, j), field.theta(i + 1, j + 1),
                               field.theta(i, j + 1), field.theta(i, j)};
       double sum = 0;
@@ -187,8 +187,8 @@ TEST(Defects, OnTheCornerOfTheBoxBelongsInside) {
 /// Defects counted by the textbook recipe: sum of the four folded steps over 2 pi.
 int slow_count(const DirectorField& field, double sign) {
   int count = 0;
-  for (int j = 0; j < field.n(); ++j) {
-    for (int i = 0; i < field.n(); ++i) {
+  for (int j = 0; j < field.grid().rows; ++j) {
+    for (int i = 0; i < field.grid().rows; ++i) {
       if (!(field.is_defined(i, j) && field.is_defined(i + 1, j) && field.is_defined(i + 1, j + 1) &&
             field.is_defined(i, j + 1))) {
         continue;

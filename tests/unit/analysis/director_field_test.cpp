@@ -36,7 +36,7 @@ TEST(DirectorField, EqualsItsDefinition) {
     const DirectorField field(positions, directors, box_side, 13, 0.9);
     for (int j = 0; j < 13; ++j) {
       for (int i = 0; i < 13; ++i) {
-        const Vec2 q = slow_q(positions, directors, box_side, 0.9, Vec2(i, j) * field.mesh());
+        const Vec2 q = slow_q(positions, directors, box_side, 0.9, field.node(i, j));
         EXPECT_NEAR(field.q_xx(i, j), q.x(), 1e-12);
         EXPECT_NEAR(field.q_xy(i, j), q.y(), 1e-12);
       }
@@ -70,7 +70,7 @@ TEST(DirectorField, IsPeriodicInRodsAndNodes) {
 TEST(DirectorField, IsLinearBetweenNodes) {
   Draw draw(44);
   const DirectorField field(random_places(draw, 40, 10), random_axes(draw, 40), 10, 8, 1.0);
-  const double h = field.mesh();
+  const double h = field.mesh().x();
   EXPECT_NEAR((field.q_at({3 * h, 9 * h}) - Vec2(field.q_xx(3, 1), field.q_xy(3, 1))).norm(), 0, 1e-14);
   EXPECT_NEAR(field.q_at({-0.25 * h, 2 * h}).x(), 0.25 * field.q_xx(7, 2) + 0.75 * field.q_xx(0, 2), 1e-14);
   EXPECT_NEAR(field.q_at({7.5 * h, 7.5 * h}).y(),
@@ -96,7 +96,7 @@ double slow_density(const std::vector<Vec3>& positions, const Region& region, in
   for (const Vec3& p : positions) rods += weight(p.head<2>());
   for (int j = 0; j < n; ++j) {
     for (int i = 0; i < n; ++i) {
-      const Vec2 node = Vec2(i, j) * region.box_side() / n;
+      const Vec2 node = Vec2(i, j) * region.box().x() / n;
       if (!region.contains(node)) continue;
       room += weight(node);
       nodes += 1;
@@ -121,7 +121,7 @@ TEST(DirectorField, IsUndefinedInTheVoidAndBeyondWalls) {
     int defined = 0, at_walls = 0;
     for (int j = 0; j < kNodes; ++j) {
       for (int i = 0; i < kNodes; ++i) {
-        const Vec2 node = Vec2(i, j) * field.mesh();
+        const Vec2 node = field.node(i, j);
         const double density = slow_density(positions, region, kNodes, kSmoothing, node);
         if (std::abs(density - 0.5) < 1e-6) continue;
         EXPECT_EQ(field.is_defined(i, j), region.contains(node) && density > 0.5) << node.transpose();
@@ -151,13 +151,13 @@ TEST(DirectorField, IsNotSmoothedThroughWalls) {
 }
 
 TEST(DirectorField, NodesFromMesh) {
-  EXPECT_EQ(grid_nodes(10, 0.1), 100);
-  EXPECT_EQ(grid_nodes(10, 0.3), 34);
-  EXPECT_EQ(grid_nodes(10, 100), 4);
-  EXPECT_THROW(grid_nodes(10, 0), std::logic_error);
-  EXPECT_THROW(grid_nodes(1e300, 1), std::logic_error);
-  EXPECT_THROW(grid_nodes(INFINITY, 1), std::logic_error);
-  EXPECT_THROW(grid_nodes(NAN, 1), std::logic_error);
+  EXPECT_EQ(Grid(10, 0.1).columns, 100);
+  EXPECT_EQ(Grid(10, 0.3).rows, 34);
+  EXPECT_EQ(Grid(10, 100).rows, 4);
+  EXPECT_THROW(Grid(10, 0), std::logic_error);
+  EXPECT_THROW(Grid(1e300, 1), std::logic_error);
+  EXPECT_THROW(Grid(INFINITY, 1), std::logic_error);
+  EXPECT_THROW(Grid(NAN, 1), std::logic_error);
 }
 
 }  // namespace

@@ -160,7 +160,7 @@ TEST(OrientationCorrelation, PairDistributionOfLattices) {
 std::vector<Vec3> gas(Draw& draw, const Region& region, std::size_t n) {
   std::vector<Vec3> places;
   while (places.size() < n) {
-    const Vec3 place{draw.uniform(0, region.box_side()), draw.uniform(0, region.box_side()), 0.5};
+    const Vec3 place{draw.uniform(0, region.box().x()), draw.uniform(0, region.box().x()), 0.5};
     if (region.contains(place.head<2>())) places.push_back(place);
   }
   return places;

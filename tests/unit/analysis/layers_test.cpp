@@ -66,6 +66,28 @@ TEST(LayerOrder, FindsAPlantedSinusoid) {
   }
 }
 
+// In a strip the wave vectors lie closer along the longer side, and wavelengths come in finer steps there.
+TEST(LayerOrder, InAStrip) {
+  const Box box(21, 126);
+  Draw draw(166);
+  LayerOrder layers(box, 2.25);
+  constexpr int kWaves = 11;  // along y: 11.45 mm each
+  for (int t = 0; t < 10; ++t) {
+    const std::vector<Vec3> places = random_places(draw, 1500, box);
+    std::vector<Vec3> axes;
+    for (const Vec3& place : places)
+      axes.push_back(axis(0.5 * std::asin(0.3 * std::sin(2 * kPi * kWaves * place.y() / 126))));
+    layers.accumulate(places, axes);
+  }
+  const std::optional<LayerPeak> peak = layers.peak();
+  ASSERT_TRUE(peak);
+  EXPECT_EQ(std::pair(peak->m, peak->n), std::pair(0, kWaves));
+  EXPECT_EQ(peak->side, 126);
+  EXPECT_NEAR(peak->wavelength, 126.0 / kWaves, 0.15);
+  EXPECT_NEAR(peak->order, 0.3, 0.015);
+  EXPECT_NEAR(layers.reduce().q[kWaves - 1], 2 * kPi * kWaves / 126, 1e-12);
+}
+
 // Stripes of equal width at +-theta_m: a square wave, whose first harmonic is 4 / pi.
 TEST(LayerOrder, OfStripes) {
   constexpr double kThetaM = kPi / 18;

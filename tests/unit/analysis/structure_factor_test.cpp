@@ -14,11 +14,12 @@ namespace {
 
 // Every wave vector of the box by the sum as it is written, for a director askew.
 TEST(StructureFactor, IsTheSumAsWritten) {
-  constexpr double kBox = 9, kDirector = 0.4;
+  const Box box(9, 6.5);
+  constexpr double kDirector = 0.4;
   constexpr int kWaves = 5;
   Draw draw(201);
-  const std::vector<Vec3> places = random_places(draw, 40, kBox);
-  StructureFactor structure(kBox, kWaves);
+  const std::vector<Vec3> places = random_places(draw, 40, box);
+  StructureFactor structure(box, kWaves);
   structure.accumulate(places, std::vector<Vec3>(40, axis(kDirector, 0.2)));
   const StructureCurve curve = structure.reduce();
   ASSERT_EQ(curve.q.size(), 5U);
@@ -26,13 +27,14 @@ TEST(StructureFactor, IsTheSumAsWritten) {
     double sum[3] = {0, 0, 0}, terms[3] = {0, 0, 0};
     for (int m = -kWaves; m <= kWaves; ++m) {
       for (int n = -kWaves; n <= kWaves; ++n) {
-        if (std::abs(std::hypot(m, n) - k) > 0.5) continue;
+        const Vec2 q(m, n * 9 / 6.5);
+        if (std::abs(n) > 5 * 6.5 / 9 || std::lround(q.norm()) != k) continue;
         std::complex<double> amplitude = 0;
         for (const Vec3& place : places) {
-          amplitude += std::polar(1.0, -2 * kPi / kBox * (m * place.x() + n * place.y()));
+          amplitude += std::polar(1.0, -2 * kPi / 9 * q.dot(place.head<2>()));
         }
         const double angle =
-            std::abs(std::remainder(std::atan2(n, m) - kDirector, kPi));  // of the axis to the director
+            std::abs(std::remainder(std::atan2(q.y(), q.x()) - kDirector, kPi));  // of the axis to the director
         const bool takes[3] = {true, angle <= kPi / 6, angle >= kPi / 3};
         for (int c = 0; c < 3; ++c) {
           sum[c] += takes[c] ? std::norm(amplitude) / 40 : 0;
@@ -41,7 +43,7 @@ TEST(StructureFactor, IsTheSumAsWritten) {
       }
     }
     const auto shell = static_cast<std::size_t>(k - 1);
-    EXPECT_NEAR(curve.q[shell], 2 * kPi * k / kBox, 1e-12);
+    EXPECT_NEAR(curve.q[shell], 2 * kPi * k / 9, 1e-12);
     EXPECT_NEAR(curve.all[shell], sum[0] / terms[0], 1e-9) << k;
     EXPECT_NEAR(curve.along[shell], sum[1] / terms[1], 1e-9) << k;
     EXPECT_NEAR(curve.across[shell], sum[2] / terms[2], 1e-9) << k;

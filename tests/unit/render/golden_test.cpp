@@ -42,7 +42,7 @@ RodPicture lattice(int columns, int rows, const std::function<double(double, dou
   Scatter scatter;
   for (int i = 0; i < columns; ++i) {
     for (int j = 0; j < rows; ++j) {
-      const double x = (i + 0.5 * (j % 2) + 0.1 * scatter.next()) * 4.7, y = (j + 0.5) * picture.cell.box_side / rows;
+      const double x = (i + 0.5 * (j % 2) + 0.1 * scatter.next()) * 4.7, y = (j + 0.5) * picture.cell.box.y() / rows;
       // one draw a line: compilers evaluate arguments in different orders
       const double tilt = 0.3 * (scatter.next() - 0.5);
       const double turn = 0.1 * (scatter.next() - 0.5);

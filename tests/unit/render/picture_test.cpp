@@ -24,7 +24,7 @@ TEST(RodPicture, AreaFractionOfThePapersSystem) {
 
 TEST(RodPicture, AreaFractionOfASphereIsADiscs) {
   RodPicture picture;
-  picture.cell.box_side = 2;
+  picture.cell.box = 2;
   picture.cell.species = {{{0}, {0.5}}};
   picture.frame.position.resize(1);
   EXPECT_NEAR(picture.area_fraction(), kPi * 0.25 / 4, 1e-12);
@@ -32,7 +32,7 @@ TEST(RodPicture, AreaFractionOfASphereIsADiscs) {
 
 TEST(RodPicture, AreaFractionIsOfAllKindsAndPerArena) {
   RodPicture picture;
-  picture.cell.box_side = 40;
+  picture.cell.box = 40;
   picture.cell.species = {{{0}, {0.5}}, {{0}, {1}}};
   picture.cell.species_of_rod = {1, 0, 1};
   picture.frame.position.resize(3);

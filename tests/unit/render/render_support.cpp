@@ -21,7 +21,7 @@ const bool kNoShaderCache = setenv("MESA_SHADER_CACHE_DISABLE", "true", 1) == 0;
 
 RodPicture empty_picture(double box_side) {
   RodPicture picture;
-  picture.cell.box_side = box_side;
+  picture.cell.box = box_side;
   picture.cell.gap = 1.2;
   BeadRow& beads = picture.cell.species.emplace_back();
   for (int i = -7; i <= 7; ++i) {
@@ -86,7 +86,7 @@ void plant_frames(const std::filesystem::path& directory, const std::vector<RodP
     Snapshot snapshot;
     snapshot.tick = std::llround(rods.frame.time / header.dt);
     snapshot.time = rods.frame.time;
-    snapshot.box_side = rods.cell.box_side;
+    snapshot.box = rods.cell.box;
     snapshot.position = rods.frame.position;
     snapshot.director = rods.frame.director;
     snapshot.image.resize(rods.n_rods());

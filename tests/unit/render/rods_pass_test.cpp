@@ -266,7 +266,7 @@ TEST(RodsPass, ARodAcrossTheBorderMayBeDrawnOnceAndWhole) {
 
 TEST(RodsPass, ARodMuchLongerThanTheBoxWrapsAsOftenAsNeeded) {
   RodPicture picture = red_picture();
-  picture.cell.box_side = 1.5;  // a third of the rod
+  picture.cell.box = 1.5;  // a third of the rod
   add_rod(picture, 0.7, 0.75, 0);
   const Image image = draw(picture, layers(), 300);
   for (int x = 0; x < 300; ++x) ASSERT_TRUE(is_rod(image.pixel(x, 150))) << x;

@@ -38,7 +38,7 @@ TEST(TrajectorySource, ReadsARunDirectoryOrItsFile) {
     const Result<RodPicture> picture = source->picture(4, plain());
     ASSERT_TRUE(picture) << picture.error().message;
     EXPECT_DOUBLE_EQ(picture->frame.time, 0.2);
-    EXPECT_DOUBLE_EQ(picture->cell.box_side, 10);
+    EXPECT_DOUBLE_EQ(picture->cell.box.x(), 10);
     EXPECT_DOUBLE_EQ(picture->rod_length(), 4.5);
     EXPECT_NEAR(picture->found.director_angle, 40 * kDegree, 1e-5);
     EXPECT_NEAR(picture->found.order, 1, 1e-6);
@@ -189,14 +189,14 @@ TEST(TrajectorySource, TakesTheDirectorFieldFromTheScene) {
   const RodPicture picture = TrajectorySource::open(folder.path())->picture(0, {}).value();
   RodPicture expected = picture;
   measure(expected, {.field = true, .smoothing = 1.5, .grid = 0.25});
-  EXPECT_DOUBLE_EQ(picture.found.field->mesh(), 0.25);
+  EXPECT_EQ(picture.found.field->mesh(), Vec2(0.25, 0.25));
   EXPECT_EQ(picture.found.field->q_at({5, 5}), expected.found.field->q_at({5, 5}));
 }
 
 // Such a box is as finite as any, but a rod would be drawn in it millions of times.
 TEST(TrajectorySource, ABoxThatNoSceneHasIsRefusedAtOnce) {
   const ScratchFolder folder;
-  const Cell cell{.box_side = 1e-6, .gap = 1.2, .species = {{{-2, 0, 2}, {0.2, 0.4, 0.2}}}};
+  const Cell cell{.box = 1e-6, .gap = 1.2, .species = {{{-2, 0, 2}, {0.2, 0.4, 0.2}}}};
   const auto log = run::FrameLog::create(run::RunDirectory{folder.path()}.frames(), {0, cell, 1e-5, "{}", {}});
   ASSERT_FALSE(log);
   EXPECT_NE(log.error().message.find("a box side of 1e-06 mm; a scene has 1 to 2000 mm"), std::string::npos)
@@ -207,13 +207,13 @@ TEST(TrajectorySource, ABoxThatNoSceneHasIsRefusedAtOnce) {
 // One rod goes 3 mm to the right and 1 mm down in 0.1 s, over two borders of a box of 10 mm.
 TEST(TrajectorySource, DisplacementsGoOnAcrossBorders) {
   const ScratchFolder folder;
-  const Cell cell{.box_side = 10, .gap = 1.2, .species = {{{-2, 0, 2}, {0.2, 0.4, 0.2}}}};
+  const Cell cell{.box = 10, .gap = 1.2, .species = {{{-2, 0, 2}, {0.2, 0.4, 0.2}}}};
   auto log = run::FrameLog::create(run::RunDirectory{folder.path()}.frames(), {1, cell, 1e-5, "{}", {}}).value();
   for (int k = 0; k < 3; ++k) {
     Snapshot now;
     now.tick = k;
     now.time = 0.1 * k;
-    now.box_side = 10;
+    now.box = 10;
     const double x = 5 + 3 * k, y = 1.5 - k;
     now.image = {{static_cast<std::int32_t>(std::floor(x / 10)), static_cast<std::int32_t>(std::floor(y / 10))}};
     now.position = {{x - 10 * now.image[0][0], y - 10 * now.image[0][1], 0.6}};
@@ -263,7 +263,7 @@ std::string record_two_jobs(const std::filesystem::path& log) {
     proto::Frame frame;
     frame.job_id = job;
     frame.sim_time_s = 2.5;
-    frame.box_side_mm = 20;
+    frame.box = 20;
     const double angle = job == "aaaa0001" ? 0.1 : -0.4;
     for (int i = 0; i < 9000; ++i) {
       frame.rods.push_back(proto::make_pose(0.002 * i, 10, {std::cos(angle), std::sin(angle), 0}));
@@ -288,7 +288,7 @@ TEST(LivePicture, PutsTheFrameOfTheJobTogetherFromItsChunks) {
 
 /// A rod, a rod with a head that points down the y axis, and a sphere, in a square arena.
 frame_static_t mixed_constants() {
-  const Cell cell{.box_side = 20,
+  const Cell cell{.box = 20,
                   .gap = 1.2,
                   .walls = SideWalls{.arena = Arena::kSquare, .size = 15},
                   .species = {{{-1, 0, 1}, {0.2, 0.4, 0.2}}, {{-0.5, 0.7}, {0.4, 0.3}}, {{0}, {0.5}}},
@@ -306,7 +306,7 @@ Result<RodPicture> live(const std::filesystem::path& log, const frame_static_t& 
     bus.value()->publish(proto::kFrameStaticChannel, constants);
     proto::Frame frame;
     frame.job_id = constants.job_id;
-    frame.box_side_mm = box_side;
+    frame.box = box_side;
     for (const double angle : {0.3, -kPi / 2, 2.0}) {
       frame.rods.push_back(proto::make_pose(10, 10, {std::cos(angle), std::sin(angle), 0}));
     }

@@ -55,7 +55,7 @@ class Redrawn {
   const Snapshot& at(Tick tick) {
     rods_.tick = tick;
     rods_.time = static_cast<double>(tick) * kDt;
-    rods_.box_side = kBox;
+    rods_.box = kBox;
     for (std::size_t i = 0; i < kRods; ++i) {
       if (draw_.uniform(0, 1) < share_) rod_(draw_, rods_, i);
     }
@@ -106,7 +106,7 @@ class Waves {
   const Snapshot& at(Tick tick) {
     rods_.tick = tick;
     rods_.time = static_cast<double>(tick) * kDt;
-    rods_.box_side = kBox;
+    rods_.box = kBox;
     const double fresh = std::sqrt(1 - keeps_ * keeps_);
     for (Wave& wave : waves_) {
       wave.cosine = keeps_ * wave.cosine + fresh * draw_.normal();

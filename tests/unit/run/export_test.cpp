@@ -23,7 +23,7 @@ using ::testing::HasSubstr;
 /// A rod of three beads and one of two, which has no middle.
 TrajectoryHeader two_species() {
   return {2,
-          {.box_side = 10,
+          {.box = 10,
            .gap = 1.5,
            .species = {{{-1, 0, 1}, {0.25, 0.5, 0.25}}, {{-0.5, 0.75}, {0.5, 0.25}}},
            .species_of_rod = {0, 1}},
@@ -242,7 +242,7 @@ std::vector<RecordedFrame> random_frames(std::size_t n_frames, int n_rods, doubl
 
 TrajectoryHeader many_rods(double side) {
   return {50,
-          {.box_side = side, .gap = 1.2, .species = {{{-1, 0, 1}, {0.2, 0.4, 0.2}}}},
+          {.box = side, .gap = 1.2, .species = {{{-1, 0, 1}, {0.2, 0.4, 0.2}}}},
           4e-6,
           R"({"plates": {"amplitude": 0.04}})",
           {}};

@@ -747,7 +747,7 @@ TEST(Run, StartingFromAStateThatIsNotThereFailsWithTheReason) {
 
   scene::RunPlan wider = plan_from(0.3);
   wider.system.box_side += 1;
-  EXPECT_THAT(run_in(folder.path() / "three", wider).message, HasSubstr("the side of the box"));
+  EXPECT_THAT(run_in(folder.path() / "three", wider).message, HasSubstr("the sides of the box"));
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ Snapshot random_snapshot(Tick tick) {
   Snapshot s;
   s.tick = tick;
   s.time = static_cast<double>(tick) * kDt;
-  s.box_side = 20;
+  s.box = 20;
   for (int i = 0; i < 100; ++i) {
     s.position.emplace_back(20 * unit(rng), 20 * unit(rng), 0.6);
     s.director.push_back(Vec3{normal(rng), normal(rng), 0.1 * normal(rng)}.normalized());
@@ -428,7 +428,7 @@ TEST(Measurements, DefectsAreThoseWithinTheSideWalls) {
   const std::vector<analysis::Defect>& defects = measurements.last_defects()->defects;
   const double length = p.system.rod.length;
   const analysis::DirectorField field(inside.position, inside.director, analysis::Region(20, p.system.walls),
-                                      analysis::grid_nodes(20, length / 8), length / 2);
+                                      analysis::Grid(20, length / 8), length / 2);
   EXPECT_EQ(defects.size(), analysis::find_defects(field).size());
   EXPECT_GT(defects.size(), 0U);
   for (const analysis::Defect& defect : defects) EXPECT_LE((defect.position - Vec2(10, 10)).norm(), 9);
@@ -600,7 +600,7 @@ struct Mixture {
     Measurements measurements(one);
     for (Tick t = measurements.next_due(0); t <= end; t = measurements.next_due(t + 1)) {
       const Snapshot all = random_snapshot(t);
-      Snapshot some{all.tick, all.time, all.box_side, {}, {}, {}, {}, {}};
+      Snapshot some{all.tick, all.time, all.box, {}, {}, {}, {}, {}};
       for (std::size_t i = 0; i < 100; ++i) {
         if (cell.species_of_rod[i] != species) continue;
         some.position.push_back(all.position[i]);

@@ -26,7 +26,7 @@ Snapshot two_rods() {
   Snapshot s;
   s.tick = 12;
   s.time = 0.5;
-  s.box_side = 20;
+  s.box = 20;
   s.position = {Vec3(1, 2, 0.5), Vec3(19, 0, 0.6)};
   s.director = {Vec3(0.6, 0, 0.8), Vec3(-0.6, 0, 0.8)};
   s.velocity = {Vec3(3, 0, 1), Vec3(0, 4, -1)};
@@ -39,7 +39,7 @@ TEST(Messages, FrameShowsEachRodWithItsHead) {
   const proto::Frame frame = make_frame(small_world(), two_rods());
   EXPECT_EQ(frame.tick, 12);
   EXPECT_EQ(frame.sim_time_s, 0.5);
-  EXPECT_EQ(frame.box_side_mm, 20);
+  EXPECT_EQ(frame.box, Box(20));
   EXPECT_NEAR(frame.order, 1, 1e-12);
   EXPECT_NEAR(frame.director_rad, 0, 1e-12);
   ASSERT_EQ(frame.rods.size(), 2U);

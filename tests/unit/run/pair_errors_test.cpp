@@ -32,7 +32,7 @@ Snapshot gas(Tick tick, std::mt19937_64& rng) {
   Snapshot s;
   s.tick = tick;
   s.time = static_cast<double>(tick) * kDt;
-  s.box_side = 20;
+  s.box = 20;
   for (int i = 0; i < 60; ++i) {
     const double theta = angle(rng);
     s.position.emplace_back(place(rng), place(rng), 0.6);

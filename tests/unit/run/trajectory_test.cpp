@@ -25,7 +25,7 @@ constexpr int kRods = 300;
 
 TrajectoryHeader header() {
   return {kRods,
-          {.box_side = kSide, .gap = kGap, .species = {{{-2.05, 0, 2.05}, {0.2, 0.4, 0.2}}}},
+          {.box = kSide, .gap = kGap, .species = {{{-2.05, 0, 2.05}, {0.2, 0.4, 0.2}}}},
           kDt,
           R"({"rods": {"count": 300}})",
           {"0123456789abcdef", 77}};
@@ -38,7 +38,7 @@ Snapshot snapshot(Tick tick) {
   Snapshot s;
   s.tick = tick;
   s.time = static_cast<double>(tick) * kDt;
-  s.box_side = kSide;
+  s.box = kSide;
   for (int i = 0; i < kRods; ++i) {
     s.position.emplace_back(kSide * unit(rng), kSide * unit(rng), kGap * unit(rng));
     s.director.push_back(Vec3{normal(rng), normal(rng), normal(rng)}.normalized());
@@ -192,7 +192,7 @@ TEST(Trajectory, LengthsThatAreNoneAreRefused) {
   for (const double bad :
        {0.0, -1.0, 1e30, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
     TrajectoryHeader of = header();
-    of.cell.box_side = bad;
+    of.cell.box = bad;
     EXPECT_FALSE(check(of)) << bad;
     of = header();
     of.cell.gap = bad;

@@ -76,6 +76,26 @@ TEST(Packing, AnyTwoOfFractionCountAndSideGiveTheThird) {
   EXPECT_EQ(plan_of(R"({"rods": {"count": 300}})").system.box_side, 83.73);
 }
 
+TEST(Packing, OfARectangle) {
+  const Species rod = make_species(plan_of("{}").system.rod);
+  const System strip = plan_of(R"({"rods": {"area_fraction": 0.5}, "box": {"side": 21, "aspect": 6}})").system;
+  EXPECT_EQ(strip.box(), Box(21, 126));
+  EXPECT_EQ(strip.n_rods, std::round(0.5 * 21 * 126 / rod.area));
+  const System by_both =
+      plan_of(R"({"rods": {"count": 300, "area_fraction": 0.6}, "box": {"aspect": 0.25}})").system;
+  EXPECT_NEAR(by_both.box().area(), 300 * rod.area / 0.6, 1e-9);
+  EXPECT_DOUBLE_EQ(by_both.box().y(), by_both.box().x() / 4);
+  EXPECT_EQ(problem_of(R"({"box": {"side": 21, "aspect": 0.4}})"),
+            "run.json:1:18: /box/side: a periodic box of 21 mm by 8.4 mm is too small for rods of 4.5 mm: at least "
+            "9.9 mm");
+  EXPECT_EQ(problem_of(R"({"box": {"side": 100, "aspect": 30}})"),
+            "run.json:1:33: /box/aspect: a box of 100 mm by 3000 mm: no side may be longer than 2000 mm");
+  EXPECT_EQ(problem_of(R"({"box": {"aspect": 2}, "walls": {}})"),
+            "run.json:1:20: /box/aspect: an arena lies in the middle of a square box: remove box.aspect or walls");
+  EXPECT_EQ(problem_of(R"({"box": {"aspect": 2}, "measure": {"frank": {}}})"),
+            "run.json:1:45: /measure/frank: measure.frank is of square boxes only; remove it or box.aspect");
+}
+
 TEST(Packing, AllThreeMustAgree) {
   const int count = plan_of(R"({"rods": {"area_fraction": 0.5}, "box": {"side": 40}})").system.n_rods;
   const std::string counted = "rods.count=" + std::to_string(count);

@@ -39,7 +39,7 @@ void expect_free(const World& world) {
     }
     for (std::size_t j = i + 1; j < world.rods.size(); ++j) {
       find_bead_contacts(species, rod.director, world.species_of(j), world.rods[j].director,
-                         nearest_image(rod.position, world.rods[j].position, system.box_side), contacts);
+                         nearest_image(rod.position, world.rods[j].position, system.box()), contacts);
     }
   }
   EXPECT_TRUE(contacts.empty()) << contacts.size() << " overlaps";

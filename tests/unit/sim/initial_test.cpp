@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "base/core/sincos.h"
 #include "sim/balance.h"
 #include "sim/contact/bead_contacts.h"
@@ -41,7 +43,7 @@ void expect_free(const System& system, const std::vector<Flight>& flights) {
     }
     for (std::size_t j = i + 1; j < flights.size(); ++j) {
       find_bead_contacts(species, flights[i].director, species, flights[j].director,
-                         nearest_image(flights[i].position, flights[j].position, system.box_side), contacts);
+                         nearest_image(flights[i].position, flights[j].position, system.box()), contacts);
     }
   }
   EXPECT_TRUE(contacts.empty()) << contacts.size() << " overlaps";
@@ -56,6 +58,27 @@ TEST(InitialFlights, AlignedReaches085ForAllLengths) {
       ASSERT_TRUE(static_cast<bool>(flights)) << flights.error().message;
       expect_free(system, *flights);
       for (const Flight& flight : *flights) EXPECT_EQ(flight.director.y(), 0.0);
+    }
+  }
+}
+
+// Wide and high ones: rows along x, at an angle, and at random.
+TEST(InitialFlights, FillRectangles) {
+  for (const double aspect : {0.3, 0.5, 2.0, 6.0}) {
+    for (const auto& [start, angle, fraction] :
+         {std::tuple(Start::kAligned, 0.0, 0.85), {Start::kAligned, 30.0, 0.7}, {Start::kRandom, 0.0, 0.3}}) {
+      System system = scene_at(4.5, fraction, 22 / std::min(1.0, aspect), start);
+      system.box_aspect = aspect;
+      system.start_angle = angle;
+      system.n_rods = static_cast<int>(std::round(system.n_rods * aspect));
+      SCOPED_TRACE(testing::Message() << "aspect " << aspect << ", angle " << angle << ", area fraction " << fraction);
+      const auto flights = flights_of(system);
+      ASSERT_TRUE(static_cast<bool>(flights)) << flights.error().message;
+      expect_free(system, *flights);
+      Vec2 reached = Vec2::Zero();
+      for (const Flight& flight : *flights) reached = reached.cwiseMax(flight.position.head<2>());
+      EXPECT_GT(reached.x(), 0.75 * system.box().x());
+      EXPECT_GT(reached.y(), 0.85 * system.box().y());
     }
   }
 }

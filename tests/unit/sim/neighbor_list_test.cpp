@@ -13,9 +13,9 @@ namespace shaken {
 namespace {
 
 /// A list for rods of one species; no test here has more of them than this.
-NeighborList list_of(const Species& rod, double side, double skin) {
+NeighborList list_of(const Species& rod, const Box& box, double skin) {
   static const std::vector<std::uint8_t> kinds(4096, 0);
-  return {std::span(&rod, 1), kinds, side, skin};
+  return {std::span(&rod, 1), kinds, box, skin};
 }
 
 bool holds(const NeighborList& list, int i, int j) {
@@ -24,13 +24,13 @@ bool holds(const NeighborList& list, int i, int j) {
 }
 
 /// Every pair of rods whose beads touch is listed. Returns how many there are.
-int expect_complete(const NeighborList& list, const Species& rod, const std::vector<Pose>& poses, double side) {
+int expect_complete(const NeighborList& list, const Species& rod, const std::vector<Pose>& poses, const Box& box) {
   int n_touching = 0;
   for (int i = 0; i < static_cast<int>(poses.size()); ++i) {
     for (int j = i + 1; j < static_cast<int>(poses.size()); ++j) {
       std::vector<BeadContact> contacts;
       find_bead_contacts(rod, poses[i].director, rod, poses[j].director,
-                         nearest_image(poses[i].position, poses[j].position, side), contacts);
+                         nearest_image(poses[i].position, poses[j].position, box), contacts);
       if (contacts.empty()) continue;
       ++n_touching;
       EXPECT_TRUE(holds(list, i, j)) << i << ' ' << j;
@@ -39,10 +39,16 @@ int expect_complete(const NeighborList& list, const Species& rod, const std::vec
   return n_touching;
 }
 
-std::vector<Pose> random_poses(test::Draw& draw, double side, bool upright) {
+/// Every other one a square.
+Box random_box(test::Draw& draw, double least, double most) {
+  const double side = draw.uniform(least, most);
+  return draw.integer(0, 1) == 0 ? Box(side) : Box(side, draw.uniform(least, most));
+}
+
+std::vector<Pose> random_poses(test::Draw& draw, const Box& box, bool upright) {
   std::vector<Pose> poses(draw.integer(2, 60));
   for (Pose& pose : poses) {
-    pose = {Vec3{draw.uniform(0, side), draw.uniform(0, side), draw.uniform(0.4, 0.8)},
+    pose = {Vec3{draw.uniform(0, box.x()), draw.uniform(0, box.y()), draw.uniform(0.4, 0.8)},
             draw.flat_direction(upright ? 1.0 : 0.3)};
   }
   return poses;
@@ -60,10 +66,10 @@ TEST(NeighborList, HoldsEveryTouchingPairUntilItIsDue) {
   test::Draw draw(11);
   int n_touching = 0, n_not_due = 0;
   for (int trial = 0; trial < 60; ++trial) {
-    const double side = draw.uniform(10, 40);
+    const Box box = random_box(draw, 10, 40);
     const Species rod = make_species({.length = draw.uniform(2.5, 4.5), .n_beads = 9});
-    NeighborList list = list_of(rod, side, 0.3);
-    std::vector<Pose> poses = random_poses(draw, side, trial % 3 == 0);
+    NeighborList list = list_of(rod, box, 0.3);
+    std::vector<Pose> poses = random_poses(draw, box, trial % 3 == 0);
     EXPECT_TRUE(list.is_due(poses));
     list.build(poses);
     EXPECT_FALSE(list.is_due(poses));
@@ -73,7 +79,7 @@ TEST(NeighborList, HoldsEveryTouchingPairUntilItIsDue) {
       stir(draw, poses);
       if (list.is_due(poses)) break;
       ++n_not_due;
-      n_touching += expect_complete(list, rod, poses, side);
+      n_touching += expect_complete(list, rod, poses, box);
     }
   }
   EXPECT_GT(n_touching, 500);
@@ -84,10 +90,10 @@ TEST(NeighborList, KeptUpRodByRodItStaysCompleteAndSaysWhatChanged) {
   test::Draw draw(13);
   int n_touching = 0, n_gained = 0, n_lost = 0;
   for (int trial = 0; trial < 40; ++trial) {
-    const double side = draw.uniform(10, 40);
+    const Box box = random_box(draw, 10, 40);
     const Species rod = make_species({.length = draw.uniform(2.5, 4.5), .n_beads = 9});
-    NeighborList list = list_of(rod, side, 0.3);
-    std::vector<Pose> poses = random_poses(draw, side, trial % 3 == 0);
+    NeighborList list = list_of(rod, box, 0.3);
+    std::vector<Pose> poses = random_poses(draw, box, trial % 3 == 0);
     list.build(poses);
     std::set<int> listed;
     for (int p = 0; p < static_cast<int>(list.pairs().size()); ++p) listed.insert(p);
@@ -113,7 +119,7 @@ TEST(NeighborList, KeptUpRodByRodItStaysCompleteAndSaysWhatChanged) {
         n_lost += static_cast<int>(lost.size());
       }
       EXPECT_FALSE(list.is_due(poses));
-      n_touching += expect_complete(list, rod, poses, side);
+      n_touching += expect_complete(list, rod, poses, box);
       for (int p = 0; p < static_cast<int>(list.pairs().size()); ++p) {
         const auto& [i, j] = list.pairs()[p];
         EXPECT_EQ(i >= 0, listed.contains(p));
@@ -127,12 +133,12 @@ TEST(NeighborList, KeptUpRodByRodItStaysCompleteAndSaysWhatChanged) {
 }
 
 /// The slow twin of who is near whom: of every image within three boxes, the distance of the two flattened segments.
-bool are_near(const Species& rod, const Pose& a, const Pose& b, double side, double skin) {
+bool are_near(const Species& rod, const Pose& a, const Pose& b, const Box& box, double skin) {
   const auto flat = [](const Vec3& n) { return Vec3(n.x(), n.y(), 0).normalized(); };
   const double reach = 2 * rod.max_radius + skin;
   for (int x = -3; x <= 3; ++x) {
     for (int y = -3; y <= 3; ++y) {
-      Vec3 D = b.position - a.position + side * Vec3(x, y, 0);
+      Vec3 D = b.position - a.position + Vec3(x * box.x(), y * box.y(), 0);
       D.z() = 0;
       if (segment_distance_squared(D, flat(a.director), rod.half_length, flat(b.director), rod.half_length) <=
           reach * reach)
@@ -155,15 +161,15 @@ TEST(NeighborList, HoldsPairsOfWhichAnyImagesAreNear) {
   for (const Species& rod : small_and_large()) {
     const double least = least_box_side(std::span(&rod, 1));
     for (int trial = 0; trial < 80; ++trial) {
-      const double side = trial == 0 ? least : draw.uniform(least, 2.5 * least);
-      NeighborList list = list_of(rod, side, 0.4);
-      std::vector<Pose> poses = random_poses(draw, side, trial % 3 == 0);
+      const Box box = trial == 0 ? Box(least) : random_box(draw, least, 2.5 * least);
+      NeighborList list = list_of(rod, box, 0.4);
+      std::vector<Pose> poses = random_poses(draw, box, trial % 3 == 0);
       list.build(poses);
       for (int i = 0; i < static_cast<int>(poses.size()); ++i) {
         for (int j = i + 1; j < static_cast<int>(poses.size()); ++j) {
-          const bool near = are_near(rod, poses[i], poses[j], side, 0.4);
+          const bool near = are_near(rod, poses[i], poses[j], box, 0.4);
           ++(near ? n_near : n_far);
-          ASSERT_EQ(holds(list, i, j), near) << "half-length " << rod.half_length << ", box " << side;
+          ASSERT_EQ(holds(list, i, j), near) << "half-length " << rod.half_length << ", box " << box.x() << ' ' << box.y();
         }
       }
     }
@@ -178,13 +184,13 @@ TEST(NeighborList, StaysCompleteInSmallBoxes) {
   for (const Species& rod : small_and_large()) {
     const double least = least_box_side(std::span(&rod, 1));
     for (int trial = 0; trial < 100; ++trial) {
-      const double side = trial == 0 ? least : draw.uniform(least, 1.4 * least);
-      NeighborList list = list_of(rod, side, 0.4);
+      const Box box = trial == 0 ? Box(least) : random_box(draw, least, 1.4 * least);
+      NeighborList list = list_of(rod, box, 0.4);
       // few, and straight on their way: pairs that come near in another image than that in which they leave
       std::vector<Pose> poses(3);
       std::vector<Vec3> steps(3);
       for (int i = 0; i < 3; ++i) {
-        poses[i] = {Vec3{draw.uniform(0, side), draw.uniform(0, side), 0.6}, draw.flat_direction(0.3)};
+        poses[i] = {Vec3{draw.uniform(0, box.x()), draw.uniform(0, box.y()), 0.6}, draw.flat_direction(0.3)};
         steps[i] = draw.vector(0.02);
         steps[i].z() = 0;
       }
@@ -198,7 +204,7 @@ TEST(NeighborList, StaysCompleteInSmallBoxes) {
           list.find_near(i, near);
           list.replace_pairs(i, near, gained, lost);
         }
-        n_touching += expect_complete(list, rod, poses, side);
+        n_touching += expect_complete(list, rod, poses, box);
       }
     }
   }
@@ -224,9 +230,9 @@ TEST(NearestImage, RoundsAsTheLibraryDoes) {
   for (int trial = 0; trial < 100000; ++trial) {
     const double side = draw.uniform(5, 200);
     const double x = draw.integer(0, 3) ? draw.uniform(-1e4, 1e4) : 0.5 * side * draw.integer(-9, 9);
-    const Vec3 d = nearest_image(Vec3(0, 0, 0), Vec3(x, -x, x), side);
+    const Vec3 d = nearest_image(Vec3(0, 0, 0), Vec3(x, -x, x), Box(side, 0.5 * side));
     EXPECT_EQ(d.x(), x - side * std::nearbyint(x / side));
-    EXPECT_EQ(d.y(), -x - side * std::nearbyint(-x / side));
+    EXPECT_EQ(d.y(), -x - 0.5 * side * std::nearbyint(-x / (0.5 * side)));
     EXPECT_EQ(d.z(), x);
   }
 }

@@ -25,7 +25,7 @@ frame_static_t constants() {
   frame_static_t message{};
   message.job_id = kRun;
   message.n_rods = 2;
-  message.box_side_mm = 20;
+  message.box_x_mm = message.box_y_mm = 20;
   message.gap_mm = 1.2;
   message.n_species = 1;
   message.species_beads = {1};
@@ -40,7 +40,7 @@ frame_t frame(std::int64_t sequence) {
   whole.job_id = kRun;
   whole.sequence = sequence;
   whole.utime = 1000 + sequence;
-  whole.box_side_mm = 20;
+  whole.box = 20;
   whole.rods.resize(2);
   return proto::encode_frame(whole).front();
 }

@@ -20,7 +20,7 @@ std::int16_t i16(const std::string& bytes, std::size_t at) { return static_cast<
 client::RodFrame some_frame(std::size_t n_rods) {
   client::RodFrame frame;
   frame.time = 1.5;
-  frame.cell.box_side = 20;
+  frame.cell.box = 20;
   frame.order = 0.75;
   frame.director = 0.25;
   frame.outlines = {{2, 0.4, 0.2}};

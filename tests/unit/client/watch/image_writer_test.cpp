@@ -25,7 +25,7 @@ RodImage rods_at_random(unsigned seed, PixelSize size) {
   std::mt19937 random(seed);
   const auto uniform = [&random](double high) { return high * static_cast<double>(random() % 4096) / 4096; };
   RodFrame frame;
-  frame.cell.box_side = 10;
+  frame.cell.box = 10;
   frame.outlines = {{.half_length = 1, .middle = 0.3, .end = 0.1}};
   for (int i = 0; i < 60; ++i) frame.rods.push_back({uniform(10), uniform(10), uniform(3), 0});
   return draw_rod_image(frame, {{3, 3, true}, {7, 7, false}}, {}, Colouring::kWheel, size, 12);

@@ -15,7 +15,7 @@ frame_static_t constants(int n_rods = 3) {
   frame_static_t message{};
   message.job_id = kJob;
   message.n_rods = n_rods;
-  message.box_side_mm = 20;
+  message.box_x_mm = message.box_y_mm = 20;
   message.gap_mm = 1.2;
   message.n_species = 1;
   message.species_beads = {3};
@@ -31,7 +31,7 @@ proto::Frame frame(std::int64_t sequence, int n_rods = 3) {
   frame.sequence = sequence;
   frame.utime = 1000 + sequence;
   frame.sim_time_s = 0.1 * static_cast<double>(sequence);
-  frame.box_side_mm = 20;
+  frame.box = 20;
   frame.order = 0.9;
   frame.director_rad = 0.2;
   for (int i = 0; i < n_rods; ++i) frame.rods.push_back({1.0 + i, 2, 0.1, 0});
@@ -81,10 +81,10 @@ TEST(LiveRods, TakesFramesOfManyChunks) {
   LiveRods rods;
   rods.select(kJob);
   frame_static_t large = constants(15000);
-  large.box_side_mm = 500;
+  large.box_x_mm = large.box_y_mm = 500;
   rods.note(large);
   proto::Frame whole = frame(0, 15000);
-  whole.box_side_mm = 500;
+  whole.box = 500;
   send(rods, whole);
   ASSERT_NE(rods.newest(), nullptr);
   EXPECT_EQ(rods.newest()->rods.size(), 15000u);
@@ -118,9 +118,9 @@ TEST(LiveRods, WhatNoSceneHasIsRefused) {
     return rods.newest() == nullptr;
   };
   ASSERT_FALSE(refused([](frame_static_t&) {}));
-  EXPECT_TRUE(refused([](frame_static_t& m) { m.box_side_mm = 0; }));
-  EXPECT_TRUE(refused([](frame_static_t& m) { m.box_side_mm = kNaN; }));
-  EXPECT_TRUE(refused([](frame_static_t& m) { m.box_side_mm = 1e9; }));
+  EXPECT_TRUE(refused([](frame_static_t& m) { m.box_x_mm = 0; }));
+  EXPECT_TRUE(refused([](frame_static_t& m) { m.box_x_mm = kNaN; }));
+  EXPECT_TRUE(refused([](frame_static_t& m) { m.box_x_mm = 1e9; }));
   EXPECT_TRUE(refused([](frame_static_t& m) { m.n_rods = -1; }));
   EXPECT_TRUE(refused([](frame_static_t& m) { m.n_rods = 500000; })) << "twenty layers of rods";
   EXPECT_TRUE(refused([](frame_static_t& m) { m.species_beads = {}; }));
@@ -152,7 +152,7 @@ TEST(LiveRods, FramesThatDoNotFitAreIgnored) {
   rods.note(constants());
   send(rods, frame(0, 4));
   proto::Frame other = frame(1);
-  other.box_side_mm = 30;
+  other.box = 30;
   send(rods, other);
   other = frame(2);
   other.director_rad = std::numeric_limits<double>::infinity();

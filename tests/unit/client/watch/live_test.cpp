@@ -104,13 +104,13 @@ TEST(LiveJobs, MessagesWinOverOlderFilesAndStrangersAreIgnored) {
 
 /// Frames of one rod at 0, 0.5, 1.0 ... in `directory`.
 void record_frames(const std::filesystem::path& directory, int n_frames) {
-  const Cell cell{.box_side = 10, .gap = 1.2, .species = {{{-2, 0, 2}, {0.2, 0.4, 0.2}}}};
+  const Cell cell{.box = 10, .gap = 1.2, .species = {{{-2, 0, 2}, {0.2, 0.4, 0.2}}}};
   auto log = run::FrameLog::create(run::RunDirectory{directory}.frames(), {1, cell, 1e-5, "{}", {}}).value();
   for (int k = 0; k < n_frames; ++k) {
     Snapshot now;
     now.tick = k;
     now.time = 0.5 * k;
-    now.box_side = 10;
+    now.box = 10;
     now.position = now.velocity = {{1, 2, 0.6}};
     now.director = {{1, 0, 0}};
     now.image = {{0, 0}};

@@ -17,7 +17,7 @@ constexpr RodStyle kBlocks{.colouring = Colouring::kLayers, .grain = Grain::kBlo
 /// A box of 10 mm with rods of 4.5 mm and radius 0.25 mm: 10 x 5 cells have 2 samples per mm.
 RodFrame frame_of(std::vector<proto::RodPose> rods) {
   RodFrame frame;
-  frame.cell.box_side = 10;
+  frame.cell.box = 10;
   frame.outlines = {{.half_length = 2, .middle = 0.25, .end = 0.25}};
   frame.rods = std::move(rods);
   return frame;

@@ -39,7 +39,7 @@ Json job_json(const std::string& id, const std::string& state, const std::string
 RodFrame one_rod() {
   RodFrame frame;
   frame.time = 1.25;
-  frame.cell.box_side = 10;
+  frame.cell.box = 10;
   frame.outlines = {{.half_length = 2, .middle = 0.4, .end = 0.2}};
   frame.rods = {{5, 5, 0, 0}};
   return frame;
@@ -269,9 +269,9 @@ TEST(JobToShow, FollowsWhatRuns) {
 /// 2,300 rods of the paper's box, somewhere.
 RodFrame many_rods() {
   RodFrame frame = one_rod();
-  frame.cell.box_side = 83.73;
+  frame.cell.box = 83.73;
   std::mt19937 random(3);
-  std::uniform_real_distribution<double> place(0, frame.cell.box_side), angle(-0.5, 0.5);
+  std::uniform_real_distribution<double> place(0, frame.cell.box.x()), angle(-0.5, 0.5);
   frame.rods.clear();
   for (int i = 0; i < 2300; ++i) frame.rods.push_back({place(random), place(random), angle(random), 0});
   return frame;
