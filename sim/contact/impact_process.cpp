@@ -192,7 +192,9 @@ void ImpactProcess::restore_work(double work) {
   });
 }
 
-Vec3 poisson_impulse(const Mat3& K, const Vec3& normal, const Vec3& u, const ContactParameters& contact) {
+// Flattened, as is energetic_impulse: or else legs go through memory between calls (6 % of the time).
+[[gnu::flatten]] Vec3 poisson_impulse(const Mat3& K, const Vec3& normal, const Vec3& u,
+                                      const ContactParameters& contact) {
   // without friction the two bodies bounce as by Newton's law
   if (!contact.has_friction()) return newton_coulomb_impulse(K, normal, u, contact);
   ImpactProcess impact(K, normal, u, contact.friction);
@@ -201,7 +203,8 @@ Vec3 poisson_impulse(const Mat3& K, const Vec3& normal, const Vec3& u, const Con
   return impact.impulse();
 }
 
-Vec3 energetic_impulse(const Mat3& K, const Vec3& normal, const Vec3& u, const ContactParameters& contact) {
+[[gnu::flatten]] Vec3 energetic_impulse(const Mat3& K, const Vec3& normal, const Vec3& u,
+                                        const ContactParameters& contact) {
   if (!contact.has_friction()) return newton_coulomb_impulse(K, normal, u, contact);
   ImpactProcess impact(K, normal, u, contact.friction);
   impact.compress();

@@ -16,7 +16,7 @@ namespace shaken {
 ScheduledStepper::ScheduledStepper(const World& world, int n_threads, int grain)
     : rules_(world),
       search_(rules_),
-      meets_in_lanes_(lanes_know(world.system, rules_)),
+      meets_in_lanes_(lanes_know(world.system)),
       neighbors_(world.species, world.species_of_rod, world.system.box(), NeighborList::kSkin),
       loops_(n_threads),
       grain_(static_cast<std::size_t>(grain)),
@@ -181,14 +181,21 @@ void ScheduledStepper::meet_surfaces_due(World& world, const PlateState& plates,
     if (!has_sound_motion(rods_[i], rules_)) share.met.failed.push_back(i);
   };
   const auto meet_in_lanes = [&](std::span<const int> rods) {
-    std::uint32_t left_over = meet_plates_in_lanes(rods, world.rods, rods_, plates, now, rules_, share.met.counters);
-    for (const int i : rods) {
-      const bool is_left_over = (left_over & 1U) != 0;
-      left_over >>= 1;
-      if (is_left_over) pose_rod(i, world, now);
+    const LeftByLanes left = meet_plates_in_lanes(rods, world.rods, rods_, plates, now, rules_, share.met.counters);
+    for (std::size_t lane = 0; lane < rods.size(); ++lane) {
+      const int i = rods[lane];
+      const bool is_left = (left.all >> lane & 1U) != 0;
+      if (is_left) {
+        pose_rod(i, world, now);
+      } else if (!flight_pose_.empty()) {
+        flight_pose_[i] = rods_[i].pose;
+      }
       begin_visit(i);
-      if (is_left_over) {
+      if (is_left) {
         meet_all(i);
+      } else if ((left.hits >> lane & 1U) != 0) {
+        note_trouble(
+            meet_surfaces_from(left.beads[lane], i, rods_[i], world.rods[i], plates, now, rules_, share.met.counters));
       } else if (rules_.walls) {
         note_trouble(meet_side_walls(i, rods_[i], world.rods[i], plates, now, rules_, share.met.counters));
       }

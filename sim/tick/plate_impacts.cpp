@@ -27,7 +27,9 @@ constexpr std::string_view kKnownEffects[] = {"gravity",
                                               "rod_lid_friction",
                                               "rod_lid_restitution",
                                               "side_walls",
-                                              "side_wall_friction"};
+                                              "side_wall_friction",
+                                              "rotational_noise",
+                                              "impacts_at_instant"};
 
 using lanes::Doubles;
 using lanes::kDoubleLanes;
@@ -61,8 +63,9 @@ struct PlateHits {
     alignas(64) double lost[kDoubleLanes];     ///< energy
     alignas(64) double overlap[kDoubleLanes];  ///< of the bead in the plate; 0: none
     alignas(64) double is_hit[kDoubleLanes];   ///< > 0: yes, where there is an overlap
+    alignas(64) double bead[kDoubleLanes];     ///< its number, where impulses are left to others
   };
-  TripleLanes position, director, velocity, angular_velocity;  ///< of the rods after the hits
+  TripleLanes position, director, velocity, angular_velocity;  ///< of the rods after the hits, if they are given here
   OfPlate of_plate[2];                                         ///< base, lid
   alignas(64) double is_other[kDoubleLanes];                   ///< >= 0: what happens is not known here
 
@@ -74,6 +77,9 @@ struct PlateHits {
   void count(int lane, const PlateState& plates, Counters& counters) const;
   /// The lane's rod after them; its motion only where a bead is in a plate.
   void get(int lane, RodAtTick& rod) const;
+  /// The lane's rod before them, and which beads they are going to hit, where impulses are left to others.
+  void get_before(int lane, RodAtTick& rod) const;
+  BeadsInPlates beads(int lane) const;
 };
 
 /// A symmetric matrix, as point_compliance (contact/impulse.h) makes it.
@@ -109,6 +115,8 @@ struct PlateMet {
   const ContactParameters& contact;
 };
 
+/// `kGivesImpulses`: or else hits are left to meet_surfaces_from.
+template <bool kGivesImpulses>
 struct PlateHitKernel {
   const SpeciesMechanics& species;
   const TickRules& rules;
@@ -152,6 +160,7 @@ struct PlateHitKernel {
       const D within_reach = plate.side * plate.height - plate.side * (position.z - plate.side * extent);
       D overlap{}, offset{}, n_overlapping{};
       D radius = lanes::all<W>(1.0);
+      [[maybe_unused]] D found{};
       for (const int bead : species.outer_beads) {
         const double r = species.bead_radius[bead];
         const D above = plate.side * (position.z + species.bead_offset[bead] * director.z - plate.height);
@@ -161,10 +170,15 @@ struct PlateHitKernel {
         offset = overlaps > 0.0 ? lanes::all<W>(species.bead_offset[bead]) : offset;
         radius = overlaps > 0.0 ? lanes::all<W>(r) : radius;
         overlap = overlaps > 0.0 ? deep : overlap;
+        if constexpr (!kGivesImpulses) found = overlaps > 0.0 ? lanes::all<W>(static_cast<double>(bead)) : found;
       }
       other = lanes::larger(n_overlapping - 1.5, other);
       other = lanes::larger(overlap - kMaxOverlapFraction * radius, other);
       lanes::store(hit.overlap + l, overlap);
+      if constexpr (!kGivesImpulses) {
+        lanes::store(hit.bead + l, found);
+        return;
+      }
       bool is_met = false;
       for (int lane = 0; lane < W; ++lane) is_met |= overlap[lane] > 0;
       if (!is_met) return;  // as a rule a vector of rods meets one plate, where they rest
@@ -246,35 +260,54 @@ void PlateHits::count(int lane, const PlateState& plates, Counters& counters) co
   }
 }
 
-void PlateHits::get(int lane, RodAtTick& rod) const {
-  rod.has_motion = rod.changed = rod.displaced = rod.hit_again = false;
+void PlateHits::get_before(int lane, RodAtTick& rod) const {
+  rod.changed = rod.displaced = rod.hit_again = false;
   position.get(lane, rod.pose.position);
   director.get(lane, rod.pose.director);
-  for (int plate = 0; plate < 2; ++plate) {
-    if (!meets(lane, plate)) continue;
-    rod.has_motion = true;
-    if (is_hit(lane, plate)) rod.note_hit();
-  }
+  rod.has_motion = meets(lane, 0) || meets(lane, 1);
   if (!rod.has_motion) return;
   velocity.get(lane, rod.motion.velocity);
   angular_velocity.get(lane, rod.motion.angular_velocity);
 }
 
+void PlateHits::get(int lane, RodAtTick& rod) const {
+  get_before(lane, rod);
+  for (int plate = 0; plate < 2; ++plate) {
+    if (is_hit(lane, plate)) rod.note_hit();
+  }
+}
+
+BeadsInPlates PlateHits::beads(int lane) const {
+  BeadsInPlates beads;
+  for (std::size_t plate = 0; plate < 2; ++plate) {
+    const OfPlate& hit = of_plate[plate];
+    beads.bead[plate] = hit.overlap[lane] > 0 ? static_cast<int>(hit.bead[lane]) : -1;
+    beads.overlap[plate] = hit.overlap[lane];
+  }
+  return beads;
+}
+
+/// Whether the lanes give impulses as these plates do.
+bool are_usual(const TickRules& rules) {
+  const bool has_friction =
+      (!rules.has_base || rules.rod_base.has_friction()) && (!rules.has_lid || rules.rod_lid.has_friction());
+  return has_friction && rules.impulse == &newton_coulomb_impulse && !rules.impacts_at_instant &&
+         !rules.has_rotational_noise && !rules.rest.matters();
+}
+
 }  // namespace
 
-bool lanes_know(const System& system, const TickRules& rules, std::span<const Effect> effects) {
+bool lanes_know(const System& system, std::span<const Effect> effects) {
   const auto is_known = [](const Effect& effect) { return std::ranges::count(kKnownEffects, effect.name) > 0; };
   for (const Effect& effect : effects) {
     if (effect.is_on(system) && !is_known(effect)) return false;
   }
-  const bool has_friction =
-      (!rules.has_base || rules.rod_base.has_friction()) && (!rules.has_lid || rules.rod_lid.has_friction());
-  return has_friction && rules.impulse == &newton_coulomb_impulse && !rules.rest.matters();
+  return true;
 }
 
-std::uint32_t meet_plates_in_lanes(std::span<const int> rods, const std::vector<Flight>& flights,
-                                   std::vector<RodAtTick>& at_tick, const PlateState& plates, Tick now,
-                                   const TickRules& rules, Counters& counters) {
+LeftByLanes meet_plates_in_lanes(std::span<const int> rods, const std::vector<Flight>& flights,
+                                 std::vector<RodAtTick>& at_tick, const PlateState& plates, Tick now,
+                                 const TickRules& rules, Counters& counters) {
   const int n = static_cast<int>(rods.size());
   thread_local FlightLanes in{};  // lanes beyond n hold rods of before, which count for nothing
   alignas(64) double since[kDoubleLanes]{};
@@ -285,17 +318,30 @@ std::uint32_t meet_plates_in_lanes(std::span<const int> rods, const std::vector<
   }
   PlateHits hits;
   for (PlateHits::OfPlate& of_plate : hits.of_plate) std::fill_n(of_plate.overlap, kDoubleLanes, 0.0);
-  lanes::with_widest_doubles(PlateHitKernel{rules.species_of(rods.front()), rules, plates, in, since, n, hits});
-  std::uint32_t left_over = 0;
+  const SpeciesMechanics& species = rules.species_of(rods.front());
+  const bool gives_impulses = are_usual(rules);
+  if (gives_impulses) {
+    lanes::with_widest_doubles(PlateHitKernel<true>{species, rules, plates, in, since, n, hits});
+  } else {
+    lanes::with_widest_doubles(PlateHitKernel<false>{species, rules, plates, in, since, n, hits});
+  }
+  LeftByLanes left;
+  left.all = left.hits = 0;
   for (int lane = 0; lane < n; ++lane) {
-    if (hits.is_known(lane)) {
-      hits.get(lane, at_tick[rods[lane]]);
+    RodAtTick& rod = at_tick[rods[lane]];
+    if (!hits.is_known(lane)) {
+      left.all |= 1U << lane;
+    } else if (gives_impulses) {
+      hits.get(lane, rod);
       hits.count(lane, plates, counters);
     } else {
-      left_over |= 1U << lane;
+      hits.get_before(lane, rod);
+      if (!rod.has_motion) continue;
+      left.hits |= 1U << lane;
+      left.beads[static_cast<std::size_t>(lane)] = hits.beads(lane);
     }
   }
-  return left_over;
+  return left;
 }
 
 }  // namespace shaken

@@ -125,20 +125,44 @@ NumericalTrouble too_deep(Tick now, int index, int bead, double overlap, const c
   return {now, {index}, "bead " + std::to_string(bead) + " is " + std::to_string(overlap) + " mm deep in the " + where};
 }
 
-std::optional<NumericalTrouble> meet_plates(int index, RodAtTick& rod, const Flight& flight, const PlateState& plates,
-                                            Tick now, const TickRules& rules, Counters& counters) {
+/// A rod's visit to the plates.
+struct PlateVisit {
+  int index;
+  RodAtTick& rod;
+  const Flight& flight;
+  const PlateState& plates;
+  Tick now;
+  const TickRules& rules;
+  Counters& counters;
   const SpeciesMechanics& species = rules.species_of(index);
   int n_hits = 0;
-  for (const double side : {1.0, -1.0}) {  // +1: base, pushes up; -1: lid, pushes down
-    if (!(side > 0 ? rules.has_base : rules.has_lid)) continue;
-    const double plate = side > 0 ? plates.base : plates.lid;
-    // one plate or both are out of reach of most rods
+
+  /// What a plate does to a bead that is in it. `side`: +1: base, pushes up; -1: lid, pushes down.
+  void meet(double side, int bead, double overlap) {
+    evaluate_motion(rod, flight, now, species, rules);
+    counters.max_overlap_rod_plate = std::max(counters.max_overlap_rod_plate, overlap);
+    double speed = 0;  // of the hit
+    if (rules.has_rotational_noise) {
+      const Vec3 arm = species.bead_offset[bead] * rod.pose.director - species.bead_radius[bead] * side * Vec3::UnitZ();
+      speed = std::abs(point_velocity(rod.motion, arm).z() - plates.velocity);
+    }
+    const ContactParameters& contact = side > 0 ? rules.rod_base : rules.rod_lid;
+    if (!collide_with(Vec3(0, 0, side), bead, overlap, contact, rod, species, plates, rules, counters)) return;
+    ++(side > 0 ? counters.impulses_rod_base : counters.impulses_rod_lid);
+    if (rules.has_rotational_noise) turn_at_random(index, n_hits, rod, species, speed, now, rules, counters);
+    ++n_hits;
+  }
+
+  /// One plate or both are out of reach of most rods.
+  bool is_out_of_reach(double side) const {
     const double extent =
         std::max(species.mid_radius, species.end_radius + species.half_length * std::abs(rod.pose.director.z()));
-    if (side > 0 ? rod.pose.position.z() - extent >= plate : rod.pose.position.z() + extent <= plate) continue;
-    const ContactParameters& contact = side > 0 ? rules.rod_base : rules.rod_lid;
-    const bool stays = !rules.impacts_at_instant && !rules.has_rotational_noise;  // whatever impulses it gets
-    std::bitset<kMostBeads> met;
+    return side > 0 ? rod.pose.position.z() - extent >= plates.base : rod.pose.position.z() + extent <= plates.lid;
+  }
+
+  /// The beads that a plate meets, the deepest first, but for those that it has `met`.
+  std::optional<NumericalTrouble> meet_all(double side, std::bitset<kMostBeads> met) {
+    const double plate = side > 0 ? plates.base : plates.lid;
     for (bool done = false; !done;) {  // one bead after the other, the deepest first, as the rod is by then
       Deepest deepest(rod.pose.director);
       for (const int bead : species.outer_beads) {
@@ -147,24 +171,47 @@ std::optional<NumericalTrouble> meet_plates(int index, RodAtTick& rod, const Fli
         if (!met[bead]) deepest.see(bead, offset, species.bead_radius[bead] - above);
       }
       if (!deepest.found()) break;
-      done = stays && deepest.is_only_one();
+      done = pose_stays(rules) && deepest.is_only_one();
       const int bead = deepest.item();
-      const double radius = species.bead_radius[bead];
       const double overlap = deepest.overlap();
       met.set(bead);
-      if (overlap > kMaxOverlapFraction * radius) return too_deep(now, index, bead, overlap, side > 0 ? "base" : "lid");
-      evaluate_motion(rod, flight, now, species, rules);
-      counters.max_overlap_rod_plate = std::max(counters.max_overlap_rod_plate, overlap);
-      double speed = 0;  // of the hit
-      if (rules.has_rotational_noise) {
-        const Vec3 arm = species.bead_offset[bead] * rod.pose.director - radius * side * Vec3::UnitZ();
-        speed = std::abs(point_velocity(rod.motion, arm).z() - plates.velocity);
-      }
-      if (!collide_with(Vec3(0, 0, side), bead, overlap, contact, rod, species, plates, rules, counters)) continue;
-      ++(side > 0 ? counters.impulses_rod_base : counters.impulses_rod_lid);
-      if (rules.has_rotational_noise) turn_at_random(index, n_hits, rod, species, speed, now, rules, counters);
-      ++n_hits;
+      if (overlap > kMaxOverlapFraction * species.bead_radius[bead])
+        return too_deep(now, index, bead, overlap, side > 0 ? "base" : "lid");
+      meet(side, bead, overlap);
     }
+    return {};
+  }
+
+  /// Whether a rod stays where it is, whatever impulses it gets: noise changes its motion only.
+  static bool pose_stays(const TickRules& rules) { return !rules.impacts_at_instant; }
+};
+
+std::optional<NumericalTrouble> meet_plates(PlateVisit visit) {
+  for (const double side : {1.0, -1.0}) {
+    if (!(side > 0 ? visit.rules.has_base : visit.rules.has_lid) || visit.is_out_of_reach(side)) continue;
+    if (auto trouble = visit.meet_all(side, {})) return trouble;
+  }
+  return {};
+}
+
+/// The same from the beads on that flight has brought into the plates.
+std::optional<NumericalTrouble> meet_plates(PlateVisit visit, const BeadsInPlates& found) {
+  bool has_moved = false;
+  for (const std::size_t plate : {0, 1}) {
+    const double side = plate == 0 ? 1.0 : -1.0;
+    if (!(side > 0 ? visit.rules.has_base : visit.rules.has_lid)) continue;
+    std::bitset<kMostBeads> met;
+    if (has_moved) {
+      if (visit.is_out_of_reach(side)) continue;
+    } else {
+      const int bead = found.bead[plate];
+      if (bead < 0) continue;
+      visit.meet(side, bead, found.overlap[plate]);
+      if (PlateVisit::pose_stays(visit.rules)) continue;
+      has_moved = true;
+      met.set(static_cast<std::size_t>(bead));
+    }
+    if (auto trouble = visit.meet_all(side, met)) return trouble;
   }
   return {};
 }
@@ -208,8 +255,16 @@ std::optional<NumericalTrouble> meet_side_walls(int index, RodAtTick& rod, const
 std::optional<NumericalTrouble> meet_surfaces(int index, RodAtTick& rod, const Flight& flight, const PlateState& plates,
                                               Tick now, const TickRules& rules, Counters& counters) {
   if (rules.has_base || rules.has_lid) {
-    if (auto trouble = meet_plates(index, rod, flight, plates, now, rules, counters)) return trouble;
+    if (auto trouble = meet_plates({index, rod, flight, plates, now, rules, counters})) return trouble;
   }
+  if (rules.walls) return meet_side_walls(index, rod, flight, plates, now, rules, counters);
+  return {};
+}
+
+std::optional<NumericalTrouble> meet_surfaces_from(const BeadsInPlates& found, int index, RodAtTick& rod,
+                                                   const Flight& flight, const PlateState& plates, Tick now,
+                                                   const TickRules& rules, Counters& counters) {
+  if (auto trouble = meet_plates({index, rod, flight, plates, now, rules, counters}, found)) return trouble;
   if (rules.walls) return meet_side_walls(index, rod, flight, plates, now, rules, counters);
   return {};
 }
