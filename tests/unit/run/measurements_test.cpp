@@ -68,7 +68,8 @@ Reduction reduced_spheres() {
   for (const char* name : {"order", "angles", "tilt", "defects", "frank", "rotation", "pairs", "layers", "polar"}) {
     EXPECT_FALSE(counts.contains(name)) << name;
   }
-  for (const char* name : {"g2", "msd", "velocity", "rods", "fluctuations", "lattice", "structure"}) {
+  for (const char* name : {"g2", "msd", "velocity", "rods", "fluctuations", "lattice", "structure", "temperatures",
+                           "scattering", "van_hove", "flow", "clusters"}) {
     EXPECT_TRUE(counts.contains(name)) << name;
   }
   for (Tick t = measurements.next_due(0); t <= 20000; t = measurements.next_due(t + 1)) {
@@ -82,7 +83,8 @@ TEST(Measurements, OfSpheresAreOfNoAxis) {
   const Reduction result = reduced_spheres();
   EXPECT_FALSE(result.order);
   EXPECT_FALSE(result.defects);
-  for (const char* there : {"/g2/g", "/g2/g_sem", "/msd/total_mm2", "/velocity/c_v", "/structure/factor"}) {
+  for (const char* there : {"/g2/g", "/g2/g_sem", "/msd/total_mm2", "/velocity/c_v", "/structure/factor",
+                            "/temperatures/rotation_pJ", "/scattering/f", "/van_hove/distance_per_mm", "/flow/c"}) {
     EXPECT_TRUE(result.arrays.contains(there)) << there;
   }
   for (const auto& [path, values] : result.arrays) {
