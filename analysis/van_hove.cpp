@@ -14,6 +14,7 @@ constexpr int kVanHoveLags = 4;
 
 std::vector<double> densities(const std::vector<std::int64_t>& counts, double of_one) {
   std::vector<double> values;
+  values.reserve(counts.size());
   for (const std::int64_t count : counts) values.push_back(static_cast<double>(count) * of_one);
   return values;
 }

@@ -162,6 +162,11 @@ class Run:
         sem = self.scalars[name]["sem"]
         return np.nan if sem is None else sem
 
+    def sem_if_steady(self, name):
+        """The error that a number has, or would have if what it averages over were steady: that of jackknife()."""
+        sem = self.scalars[name].get("sem_if_steady", self.scalars[name]["sem"])
+        return np.nan if sem is None else sem
+
 
 def fold(angle):
     """Of an axis, into [-pi/2, pi/2)."""
@@ -262,23 +267,11 @@ def drawn(n, sample):
     return np.array([first + int(uniform(first) * min(stride, n - first)) for first in range(0, n, stride)])
 
 
-def scalar(run, table, name, by, value, sem=None, allowed=None, remark=""):
+def scalar(run, table, name, by, value, sem=None, allowed=None, remark="", allowed_sem=1e-3):
     table.add(name, by, run.measured(name), value, allowed if allowed is not None else RELATIVE * abs(value) + 1e-12,
               remark)
     if sem is not None:
-        table.add("sem of " + name, by, run.sem(name), sem, 1e-3 * abs(sem) + 1e-9)
-
-
-def steady_sem(run, name):
-    """The error that a number has, or would have if what it averages over were steady: that of jackknife()."""
-    sem = run.scalars[name].get("sem_if_steady", run.sem(name))
-    return np.nan if sem is None else sem
-
-
-def scalar_of_parts(run, table, name, by, value, sem, allowed=None, allowed_sem=1e-3):
-    """A number that the jackknife over the parts of a run makes."""
-    scalar(run, table, name, by, value, allowed=allowed)
-    table.add("sem of " + name, by, steady_sem(run, name), sem, allowed_sem * abs(sem) + 1e-9)
+        table.add("sem of " + name, by, run.sem_if_steady(name), sem, allowed_sem * abs(sem) + 1e-9)
 
 
 # ---- reading ----
@@ -590,7 +583,7 @@ def check_polar(run, table):
     speed = RELATIVE * np.abs(v).max()
     allowed = (1e-6, 1e-4 * numbers[1], speed, speed, speed, RELATIVE)
     for name, value, sem, one in zip(names, numbers, sems, allowed):
-        scalar_of_parts(run, table, name, "complex numbers", value, sem, allowed=one)
+        scalar(run, table, name, "complex numbers", value, sem, allowed=one)
 
 
 def mass_of(run):
@@ -622,7 +615,7 @@ def check_temperatures(run, table):
     for name in (*found, "turning", "tipping", "spinning", "rotation"):
         series = run.arrays[f"/temperatures/{name}_pJ"]
         (value,), (sem,) = jackknife(parts, lambda some: [series[some].mean()])
-        scalar_of_parts(run, table, f"temperature_{name}_pJ", "numpy", value, sem)
+        scalar(run, table, f"temperature_{name}_pJ", "numpy", value, sem)
 
 
 def axes_apart(places, director, tail, head, box):
@@ -688,7 +681,7 @@ def check_clusters(run, table):
     values, sems = jackknife(steady_parts(run, frames), numbers)
     loose = 1e-9 + 2 * doubtful / len(frames)
     for k, name in enumerate(("largest_cluster", "cluster_size", "rods_alone", "clusters_per_rod")):
-        scalar_of_parts(run, table, name, by, values[k], sems[k], loose * values[k] + 1e-9, 0.1 if doubtful else 1e-3)
+        scalar(run, table, name, by, values[k], sems[k], loose * values[k] + 1e-9, allowed_sem=0.1 if doubtful else 1e-3)
     for path, some in (("rods", slice(4, 4 + octaves)), ("density", slice(4 + octaves, None))):
         table.add(f"/clusters/sizes/{path}", by, run.arrays[f"/clusters/sizes/{path}"], values[some],
                   1e-9 + loose * values[some].max())
@@ -1402,7 +1395,7 @@ def check_van_hove(run, table):
             many = (counts[kept].sum(0) > 1000) & np.isfinite(ours)
             table.add(f"/van_hove/{name}_sem_per_mm", "numpy.histogram", ours[many], sem[many], 0.1 * sem[many] + 1e-9)
         value, sem = jackknife(parts, lambda some: [np.mean(columns["distance"][0][some] >= end)])
-    scalar_of_parts(run, table, "van_hove_beyond", "numpy", value[0], sem[0], 1e-4, 0.05)
+    scalar(run, table, "van_hove_beyond", "numpy", value[0], sem[0], 1e-4, allowed_sem=0.05)
 
 
 def check_flow(run, table):
@@ -1452,8 +1445,8 @@ def check_flow(run, table):
         table.compared.add(f"/flow/{name}_sem")
         table.add(f"sem of /flow/{name}", "numpy O(N^2)", run.arrays[f"/flow/{name}_sem"][many], sems[here][many],
                   0.1 * sems[here][many] + 1e-9)
-    scalar_of_parts(run, table, "flow_of_neighbours", "numpy O(N^2)", values[-2], sems[-2], 2e-3, 0.05)
-    scalar_of_parts(run, table, "flow_length_mm", "numpy interp", values[-1], sems[-1], 2e-2 * abs(values[-1]), 0.1)
+    scalar(run, table, "flow_of_neighbours", "numpy O(N^2)", values[-2], sems[-2], 2e-3, allowed_sem=0.05)
+    scalar(run, table, "flow_length_mm", "numpy interp", values[-1], sems[-1], 2e-2 * abs(values[-1]), allowed_sem=0.1)
 
 
 def check_rods(run, table):
