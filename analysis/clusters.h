@@ -74,9 +74,9 @@ class ClusterSeries {
   /// Takes a sample at `time` [s], later than all before: sizes as of cluster_sizes().
   void accumulate(double time, const std::vector<std::size_t>& sizes);
 
-  const std::vector<double>& times() const { return series_.times(); }     ///< (n) [s]
+  const std::vector<double>& times() const { return series_.times(); }      ///< (n) [s]
   const std::vector<double>& largest() const { return series_.column(0); }  ///< (n) share of all rods
-  const std::vector<double>& sizes() const { return series_.column(1); }   ///< (n) mean over rods
+  const std::vector<double>& sizes() const { return series_.column(1); }    ///< (n) mean over rods
 
   void save(StateWriter& writer) const { series_.save(writer); }
   void restore(StateReader& reader) { series_.restore(reader); }

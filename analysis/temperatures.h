@@ -83,9 +83,7 @@ class TemperatureStatistics : public Summed<TemperatureStatistics> {
   }
 
   static constexpr std::string_view kName = "TemperatureStatistics";
-  static constexpr auto fields() {
-    return std::tuple(&TemperatureStatistics::samples_, &TemperatureStatistics::sums_);
-  }
+  static constexpr auto fields() { return std::tuple(&TemperatureStatistics::samples_, &TemperatureStatistics::sums_); }
 
  private:
   std::int64_t samples_ = 0;

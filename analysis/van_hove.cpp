@@ -44,8 +44,8 @@ void DisplacementHistogram::accumulate(std::span<const Vec2> displacements, doub
 DisplacementCurve DisplacementHistogram::reduce() const {
   const double width = range_ / static_cast<double>(along_.size());
   const double of_one = 1 / (width * static_cast<double>(rods_));
-  DisplacementCurve curve{{}, densities(along_, of_one / 2), densities(across_, of_one / 2),
-                          densities(distance_, of_one)};
+  DisplacementCurve curve{
+      {}, densities(along_, of_one / 2), densities(across_, of_one / 2), densities(distance_, of_one)};
   if (rods_ == 0) curve.along = curve.across = curve.distance = std::vector<double>(along_.size(), std::nan(""));
   std::int64_t within = 0;
   for (std::size_t bin = 0; bin < along_.size(); ++bin) {

@@ -150,6 +150,11 @@ struct MeasureClusters {
   double distance_for(double mid_diameter) const { return distance > 0 ? distance : 1.25 * mid_diameter; }
   friend bool operator==(const MeasureClusters&, const MeasureClusters&) = default;
 };
+/// How often rods are hit, and the energy that this moves.
+struct MeasureCollisions {
+  double every = 0.1;  ///< [s]
+  friend bool operator==(const MeasureCollisions&, const MeasureCollisions&) = default;
+};
 
 // clang-format off
 /// Every observable by its name and settings, in the order in which it stands in canonical scenes, samples and is
@@ -175,7 +180,8 @@ struct MeasureClusters {
   X(scattering, MeasureScattering) \
   X(van_hove, MeasureVanHove) \
   X(flow, MeasureFlow) \
-  X(clusters, MeasureClusters)
+  X(clusters, MeasureClusters) \
+  X(collisions, MeasureCollisions)
 // clang-format on
 
 /// Whose observables are measured.

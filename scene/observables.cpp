@@ -365,6 +365,15 @@ Observable clusters() {
     .remedy = "a longer `every`"};
 }
 
+Observable collisions() {
+  return {
+    .doc = "Rates of impacts, mean free time, and the energy that impacts move; of all rods, whatever their species.",
+    .every_doc = "Time between samples, over which rates are means.",
+    .memory = [](const Sizes& s) -> MeasureMemory {
+      return {"", s.series(8) + s.in_blocks(100), 0, s.series(8), s.spare_series(8)}; },
+    .remedy = "a longer `every`"};
+}
+
 // clang-format on
 
 }  // namespace rows

@@ -83,15 +83,15 @@ MeasurementKind clusters_kind() {
             .distance = settings.distance_for(system.rod.mid_diameter),
             .angle = system.rod.has_axis() ? settings.angle * kPi / 180 : kPi / 2,
         };
-        return std::make_unique<MeasuredClusters>(rule, analysis::Region(system.box_side, system.walls),
-                                                  system.n_rods);
+        return std::make_unique<MeasuredClusters>(rule, analysis::Region(system.box_side, system.walls), system.n_rods);
       },
       .arrays =
           {
               {"time_s", "times of the next two; of more than 65,536 samples, each point is a mean of several"},
               {"largest", "share of the rods that are in the largest cluster"},
               {"size", "number of rods in the cluster of a rod, mean over rods"},
-              {"sizes/size", "smallest of the sizes that are counted together: those below the next, which is twice it"},
+              {"sizes/size",
+               "smallest of the sizes that are counted together: those below the next, which is twice it"},
               {"sizes/rods", "share of the rods that are in clusters of these sizes", kWithError},
               {"sizes/density", "n(s): clusters of one size over rods, mean over these sizes", kWithError},
           },

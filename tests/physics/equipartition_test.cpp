@@ -44,7 +44,8 @@ TEST(Equipartition, OfElasticRodsBetweenPlatesAtRest) {
   for (std::size_t k = 0; k < analysis::kFreedoms; ++k) std::printf("%zu: %.2f -> %.2f pJ\n", k, start[k], found[k]);
   // Nothing spins rods without friction; the others share.
   const double temperature = (2 * of(found, Freedom::kHorizontal) + of(found, Freedom::kVertical) +
-                              of(found, Freedom::kTurning) + of(found, Freedom::kTipping)) / 5;
+                              of(found, Freedom::kTurning) + of(found, Freedom::kTipping)) /
+                             5;
   for (const Freedom freedom : {Freedom::kHorizontal, Freedom::kVertical, Freedom::kAlong, Freedom::kAcross,
                                 Freedom::kTurning, Freedom::kTipping}) {
     EXPECT_NEAR(of(found, freedom), temperature, 0.03 * temperature) << static_cast<std::size_t>(freedom);

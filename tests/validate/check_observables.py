@@ -618,6 +618,27 @@ def check_temperatures(run, table):
         scalar(run, table, f"temperature_{name}_pJ", "numpy", value, sem)
 
 
+def check_collisions(run, table):
+    frames = run.frames("collisions")
+    step = run.time[frames[1]] - run.time[frames[0]]
+    energy, collisions = run.summary["energy_pJ"], run.summary["collisions"]
+    table.add("/collisions/time_s", "trajectory", run.arrays["/collisions/time_s"], run.time[frames[1:]])
+    totals = {"impacts_rods_Hz": 2 * collisions["rod_rod"], "impacts_base_Hz": collisions["rod_base"],
+              "impacts_lid_Hz": collisions["rod_lid"], "impacts_walls_Hz": 0,
+              "power_given_pJ_s": energy["given_by_plates"] + energy["given_by_noise"],
+              "power_lost_rods_pJ_s": energy["lost_rod_rod"], "power_lost_surfaces_pJ_s": energy["lost_surfaces"]}
+    parts = steady_parts(run, frames[:-1])
+    for name, total in totals.items():
+        rates = run.arrays["/collisions/" + name]
+        table.add("/collisions/" + name, "totals of summary.json", rates.sum() * step * run.n, total,
+                  1e-9 * abs(total) + 1e-9)
+        (value,), (sem,) = jackknife(parts, lambda some: [rates[some].mean()])
+        scalar(run, table, name, "numpy", value, sem, allowed=1e-9 * abs(value) + 1e-12)
+    rates = run.arrays["/collisions/impacts_rods_Hz"]
+    (value,), (sem,) = jackknife(parts, lambda some: [1 / rates[some].mean()])
+    scalar(run, table, "mean_free_time_s", "numpy", value, sem)
+
+
 def axes_apart(places, director, tail, head, box):
     """Distances of the axes of all pairs (n, n): of crossing lines where that lies on both, or from an end."""
     n = len(places)
@@ -1583,7 +1604,7 @@ def check_frank(run, table):
     table.add("/frank/fit_mm2", "scipy Nelder-Mead", run.arrays["/frank/fit_mm2"], squares[met, 3], 1e-3 * squares[met, 3])
     for k, name in enumerate(("frank_splay", "frank_bend", "frank_ratio")):
         table.add(name, "scipy Nelder-Mead", run.measured(name), values[k], 1e-3 * values[k])
-        table.add("sem of " + name, "scipy Nelder-Mead", run.sem(name), sems[k], 0.01 * sems[k])
+        table.add("sem of " + name, "scipy Nelder-Mead", run.sem_if_steady(name), sems[k], 0.01 * sems[k])
     scalar(run, table, "frank_floor_mm2", by, values[3])
     pulls = ((squares[:, 2] - squares[:, 3]) / square_sems[:, 2])[squares[:, 4] == 1]
     pulls = pulls[np.isfinite(pulls)]
@@ -1852,7 +1873,7 @@ CHECKS = {"order": check_order, "angles": check_angles, "tilt": check_tilt, "def
           "polar": check_polar, "fluctuations": check_fluctuations,
           "frank": check_frank, "msd": check_msd, "rotation": check_rotation, "velocity": check_velocity, "rods": check_rods,
           "temperatures": check_temperatures, "scattering": check_scattering, "van_hove": check_van_hove,
-          "flow": check_flow, "clusters": check_clusters}
+          "flow": check_flow, "clusters": check_clusters, "collisions": check_collisions}
 
 
 def main():

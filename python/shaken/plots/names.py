@@ -47,6 +47,8 @@ TABLE: dict[str, tuple[str, str, str]] = {
     "flow_length_mm": ("velocity correlation length", r"$ξ_v$", "mm"),
     "largest_cluster": ("share of the largest cluster", "", ""),
     "cluster_size": ("mean cluster size", r"$\langle s^2\rangle/\langle s\rangle$", ""),
+    "mean_free_time_s": ("mean free time", r"$τ_\mathrm{f}$", "s"),
+    "power_given_pJ_s": ("power given to a rod", "$P$", "pJ/s"),
     "cpu_seconds": ("CPU time", "", "s"),
     # axes and curves of observables
     "/order/time_s": ("time", "$t$", "s"),
@@ -90,6 +92,8 @@ TABLE: dict[str, tuple[str, str, str]] = {
     "/clusters/largest": ("share of the largest cluster", "", ""),
     "/clusters/sizes/size": ("cluster size", "$s$", ""),
     "/clusters/sizes/density": ("clusters per rod", "$n(s)$", ""),
+    "/collisions/time_s": ("time", "$t$", "s"),
+    "/collisions/power_given_pJ_s": ("power given to a rod", "$P$", "pJ/s"),
     "/msd/lag_s": ("lag", "$t$", "s"),
     "/msd/total_mm2": ("mean square displacement", "MSD", "mm²"),
     "/msd/along_mm2": ("MSD along the director", "", "mm²"),

@@ -164,8 +164,8 @@ TEST(FlowSums, CountsOnlyPairsInSight) {
   FlowSums sums(4, 8, 1);
   sums.accumulate(places, std::vector<Vec2>{{1, 0}, {-1, 0}, {1, 0}}, 0, ring);
   const FlowCurve curve = sums.reduce();
-  EXPECT_NEAR(curve.c[1], 1, 1e-14);         // of the first and the third
-  EXPECT_TRUE(std::isnan(curve.c[3]));       // the first two do not see each other
+  EXPECT_NEAR(curve.c[1], 1, 1e-14);    // of the first and the third
+  EXPECT_TRUE(std::isnan(curve.c[3]));  // the first two do not see each other
   EXPECT_TRUE(std::isnan(curve.near));
 }
 

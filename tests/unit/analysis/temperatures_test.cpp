@@ -13,9 +13,7 @@ namespace {
 
 constexpr RodInertia kBrass{.mass = 12, .across = 18, .along = 0.7};
 
-double of(const Temperatures& temperatures, Freedom freedom) {
-  return temperatures[static_cast<std::size_t>(freedom)];
-}
+double of(const Temperatures& temperatures, Freedom freedom) { return temperatures[static_cast<std::size_t>(freedom)]; }
 
 /// A vector with independent normal components of given spreads along three unit vectors.
 Vec3 normal_vector(Draw& draw, const std::array<Vec3, 3>& axes, const std::array<double, 3>& spreads) {
@@ -26,9 +24,7 @@ Vec3 normal_vector(Draw& draw, const std::array<Vec3, 3>& axes, const std::array
 
 struct Rods {
   std::vector<Vec3> directors, velocities, angular_velocities;
-  Temperatures temperatures() const {
-    return granular_temperatures(directors, velocities, angular_velocities, kBrass);
-  }
+  Temperatures temperatures() const { return granular_temperatures(directors, velocities, angular_velocities, kBrass); }
 };
 
 // Maxwellian velocities of six given temperatures in the frame of each rod, on top of a drift that must not count.
@@ -46,9 +42,9 @@ TEST(Temperatures, OfMaxwellianVelocitiesAreTheirs) {
         Vec3(40, -30, 20) +
         normal_vector(draw, {u, e, Vec3(0, 0, 1)},
                       {speed(kAlong, kBrass.mass), speed(kAcross, kBrass.mass), speed(kVertical, kBrass.mass)}));
-    rods.angular_velocities.push_back(
-        normal_vector(draw, {k, e, n},
-                      {speed(kTurning, kBrass.across), speed(kTipping, kBrass.across), speed(kSpinning, kBrass.along)}));
+    rods.angular_velocities.push_back(normal_vector(
+        draw, {k, e, n},
+        {speed(kTurning, kBrass.across), speed(kTipping, kBrass.across), speed(kSpinning, kBrass.along)}));
   }
   const Temperatures found = rods.temperatures();
   const auto expect = [&](Freedom freedom, double temperature) {
