@@ -31,33 +31,42 @@ void FlowSums::accumulate(std::span<const Vec2> places, std::span<const Vec2> ve
   SHAKEN_CHECK(places.size() == velocities.size(), "one velocity for each place");
   const std::size_t n = places.size();
   const double c = std::cos(director), s = std::sin(director);
-  std::vector<Vec2> turned;  // components along and across the director
-  turned.reserve(n);
-  for (const Vec2& v : velocities) {
-    turned.emplace_back(c * v.x() + s * v.y(), c * v.y() - s * v.x());
-    along_squares_ += turned.back().x() * turned.back().x();
-    across_squares_ += turned.back().y() * turned.back().y();
+  std::vector<double> xs(n), ys(n), along(n), across(n), squares(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    xs[i] = places[i].x();
+    ys[i] = places[i].y();
+    along[i] = c * velocities[i].x() + s * velocities[i].y();
+    across[i] = c * velocities[i].y() - s * velocities[i].x();
+    along_squares_ += along[i] * along[i];
+    across_squares_ += across[i] * across[i];
   }
   rods_ += static_cast<std::int64_t>(n);
   const double bins_per_mm = static_cast<double>(pairs_.size()) / r_max_;
+  const double farthest = std::max(r_max_, near_distance_);
+  // Within walls no image is nearer.
+  const double period = region.is_periodic() ? region.box_side() : std::numeric_limits<double>::infinity();
   const std::size_t stride = std::max<std::size_t>(1, (n + kMaxReferencesOfFlow - 1) / kMaxReferencesOfFlow);
   for (std::size_t i = static_cast<std::size_t>(calls_) % stride; i < n; i += stride) {
+    // A pass by itself, without branches: it becomes vector instructions.
+    const double xi = xs[i], yi = ys[i];
     for (std::size_t j = 0; j < n; ++j) {
-      if (j == i) continue;
-      const double distance = region.shortest(places[j] - places[i]).norm();
-      const double place = distance * bins_per_mm;
-      const bool is_near = distance < near_distance_, is_within = place < static_cast<double>(pairs_.size());
-      if ((!is_near && !is_within) || (region.hidden_radius() > 0 && !region.in_sight(places[i], places[j]))) continue;
-      const double along = turned[i].x() * turned[j].x(), across = turned[i].y() * turned[j].y();
-      if (is_near) {
+      const double dx = std::abs(xi - xs[j]), dy = std::abs(yi - ys[j]);
+      const double x = std::min(dx, period - dx), y = std::min(dy, period - dy);
+      squares[j] = x * x + y * y;
+    }
+    for (std::size_t j = 0; j < n; ++j) {
+      if (squares[j] >= farthest * farthest || j == i) continue;
+      if (region.hidden_radius() > 0 && !region.in_sight(places[i], places[j])) continue;
+      const double distance = std::sqrt(squares[j]), product = along[i] * along[j], other = across[i] * across[j];
+      if (distance < near_distance_) {
         ++near_pairs_;
-        near_ += along + across;
+        near_ += product + other;
       }
-      if (!is_within) continue;
-      const auto bin = static_cast<std::size_t>(place);
+      const auto bin = static_cast<std::size_t>(distance * bins_per_mm);
+      if (bin >= pairs_.size()) continue;
       ++pairs_[bin];
-      along_[bin] += along;
-      across_[bin] += across;
+      along_[bin] += product;
+      across_[bin] += other;
     }
   }
   ++calls_;

@@ -34,7 +34,7 @@ class FlowSums : public Summed<FlowSums> {
   /// `bins` equal bins over [0, r_max) [mm].
   FlowSums(int bins, double r_max, double near_distance);
 
-  /// Centres (n_rods) [mm] and velocities in the plane [mm/s], and the angle of the nematic director [rad].
+  /// Centres in the box (n_rods) [mm] and velocities in the plane [mm/s], and the angle of the nematic director [rad].
   void accumulate(std::span<const Vec2> places, std::span<const Vec2> velocities, double director,
                   const Region& region);
   /// Samples that others have taken before: whose turn it is as the first of a pair depends on it.
