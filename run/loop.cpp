@@ -11,6 +11,7 @@
 #include <exception>
 #include <memory>
 
+#include "analysis/collision_rates.h"
 #include "analysis/order.h"
 #include "base/clock.h"
 #include "base/files.h"
@@ -28,6 +29,16 @@
 
 namespace shaken::run {
 namespace {
+
+/// What measurements of collisions take differences of.
+analysis::CollisionTotals totals_of(const World& world) {
+  const Counters& counters = world.counters;
+  const Ledger& ledger = counters.ledger;
+  return {{static_cast<double>(counters.impulses_rod_rod), static_cast<double>(counters.impulses_rod_base),
+           static_cast<double>(counters.impulses_rod_lid), static_cast<double>(counters.impulses_rod_wall),
+           ledger.given.value() + ledger.noise.value(), ledger.lost_rod_rod.value(), ledger.lost_surfaces.value()},
+          static_cast<double>(world.rods.size())};
+}
 
 /// Length of the pieces that the run is stepped in, at most: short enough to answer a signal, long enough not to
 /// matter.
@@ -166,7 +177,7 @@ class Loop {
     const bool show = publisher_ && frame_pacer_.take(WallClock::now());
     if (!record && !measure && !show) return {};
     const Snapshot snapshot = run_.simulation.snapshot();
-    if (measure) run_.measurements.sample(snapshot);
+    if (measure) run_.measurements.sample(snapshot, totals_of(run_.simulation.world()));
     if (record) {
       if (auto done = run_.frames->append(shaken::run::record(snapshot)); !done) return done.error();
     }

@@ -66,7 +66,7 @@ Tick Measurements::next_due(Tick from) const {
   return next;
 }
 
-void Measurements::sample(const Snapshot& snapshot) {
+void Measurements::sample(const Snapshot& snapshot, const analysis::CollisionTotals& totals) {
   for (OfSpecies& rods : species_) {
     const auto is_due = [&](const Timed& timed) { return timed.cadence.due(snapshot.tick); };
     if (std::ranges::none_of(rods.timed, is_due)) continue;
@@ -82,7 +82,7 @@ void Measurements::sample(const Snapshot& snapshot) {
                   theirs(snapshot.velocity),
                   theirs(snapshot.angular_velocity)};
     }
-    const Sample sample(measured ? *measured : snapshot);
+    const Sample sample(measured ? *measured : snapshot, totals);
     for (Timed& timed : rods.timed) {
       if (!is_due(timed)) continue;
       timed.measurement->sample(sample);

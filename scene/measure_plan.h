@@ -115,6 +115,47 @@ struct MeasurePolar {
   SamplePhases phases = SamplePhases::kSpread;
   friend bool operator==(const MeasurePolar&, const MeasurePolar&) = default;
 };
+/// Granular temperatures by degree of freedom.
+struct MeasureTemperatures {
+  double every = 0.01;  ///< [s]
+  SamplePhases phases = SamplePhases::kSpread;
+  friend bool operator==(const MeasureTemperatures&, const MeasureTemperatures&) = default;
+};
+/// Self-intermediate scattering function and non-Gaussian parameter against lag.
+struct MeasureScattering {
+  double every = 0.01;      ///< [s]
+  double wavelength = 0.0;  ///< the longest [mm]; 0: what wavelength_for() says
+  double wavelength_for(double rod_length) const { return wavelength > 0 ? wavelength : rod_length; }
+  friend bool operator==(const MeasureScattering&, const MeasureScattering&) = default;
+};
+/// Distribution of displacements at some lags.
+struct MeasureVanHove {
+  double every = 0.01;  ///< [s]
+  double lag = 1.0;     ///< the longest [s]
+  int bins = 40;        ///< over [0, range)
+  double range = 0.0;   ///< of displacements at the longest lag [mm]; 0: what range_for() says
+  double range_for(double rod_length) const { return range > 0 ? range : rod_length; }
+  friend bool operator==(const MeasureVanHove&, const MeasureVanHove&) = default;
+};
+/// Correlation of the velocities of two rods against their distance.
+struct MeasureFlow {
+  double every = 0.4;  ///< the time over which displacements are velocities, too [s]
+  int bins = 40;       ///< over [0, L/2)
+  friend bool operator==(const MeasureFlow&, const MeasureFlow&) = default;
+};
+/// Clusters of rods whose axes are near each other.
+struct MeasureClusters {
+  double every = 0.1;     ///< [s]
+  double distance = 0.0;  ///< below which axes make one cluster [mm]; 0: what distance_for() says
+  double angle = 90.0;    ///< up to which they do [degrees]
+  double distance_for(double mid_diameter) const { return distance > 0 ? distance : 1.25 * mid_diameter; }
+  friend bool operator==(const MeasureClusters&, const MeasureClusters&) = default;
+};
+/// How often rods are hit, and the energy that this moves.
+struct MeasureCollisions {
+  double every = 0.1;  ///< [s]
+  friend bool operator==(const MeasureCollisions&, const MeasureCollisions&) = default;
+};
 
 // clang-format off
 /// Every observable by its name and settings, in the order in which it stands in canonical scenes, samples and is
@@ -135,7 +176,13 @@ struct MeasurePolar {
   X(layers, MeasureLayers) \
   X(lattice, MeasureLattice) \
   X(structure, MeasureStructure) \
-  X(polar, MeasurePolar)
+  X(polar, MeasurePolar) \
+  X(temperatures, MeasureTemperatures) \
+  X(scattering, MeasureScattering) \
+  X(van_hove, MeasureVanHove) \
+  X(flow, MeasureFlow) \
+  X(clusters, MeasureClusters) \
+  X(collisions, MeasureCollisions)
 // clang-format on
 
 /// Whose observables are measured.

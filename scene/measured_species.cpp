@@ -14,6 +14,7 @@ std::vector<MeasuredRods> measured_species(const RunPlan& plan) {
       MeasuredRods rods{found.size(), fmt::format("rods_{}", k + 2), found.front().plan};
       rods.plan.system.rod = added->rod;
       rods.plan.system.n_rods = added->count;
+      rods.plan.collisions.reset();  // of all rods, whatever their species
       found.push_back(std::move(rods));
     }
   }

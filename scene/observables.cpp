@@ -83,6 +83,12 @@ MeasureMemory of_pairs(const Sizes& sizes) {
   return {"", sizes.in_blocks(2 * kNumberBytes * (bins * bins + 2 * cut)), 0};
 }
 
+MeasureMemory of_flow(const Sizes& sizes) {
+  const double bins = sizes.plan.flow->bins;
+  return {"", sizes.in_blocks(4 * kNumberBytes * bins + 100) + sizes.rods * 7 * kNumberBytes,
+          sizes.rods * 12 * kNumberBytes};
+}
+
 MeasureMemory of_layers(const Sizes& sizes) {
   const Box box = sizes.plan.system.box();
   const double waves = std::min(40.0, std::floor(2 * box.longer() / sizes.plan.system.rod.length));
@@ -290,6 +296,88 @@ Observable polar() {
     // t, P, and P times cosine and sine of the direction, which the file holds as one angle
     .memory = [](const Sizes& s) -> MeasureMemory {
       return {"", s.series(4) + s.in_blocks(100), 0, s.series(3), s.spare_series(4)}; },
+    .remedy = "a longer `every`"};
+}
+
+Observable temperatures() {
+  return {
+    .doc = "Granular temperatures: of translation along and across the plates and the rods, and of rotation.",
+    .axis = AxisUse::kPartly,
+    .every_doc = "Mean time between samples.",
+    .keys = {
+      choice<SamplePhases>("phases", at<&Plan::temperatures, &MeasureTemperatures::phases>,
+                           {{"spread", SamplePhases::kSpread}, {"locked", SamplePhases::kLocked}},
+                           "Whether each sample is taken at a random instant of its interval, and so all of them at "
+                           "all phases of the vibration alike, or at whole multiples of `every`.")},
+    .memory = [](const Sizes& s) -> MeasureMemory {
+      return {"", s.series(9) + s.in_blocks(150), 0, s.series(9), s.spare_series(9)}; },
+    .remedy = "a longer `every`"};
+}
+
+Observable scattering() {
+  return {
+    .doc = "Self-intermediate scattering function F_s(q, t) and non-Gaussian parameter against lag.",
+    .axis = AxisUse::kPartly,
+    .every_doc = "Time between samples, which is the shortest lag.",
+    .keys = {
+      derived(quantity("wavelength", at<&Plan::scattering, &MeasureScattering::wavelength>, kLength, 0.001, 1000,
+                       "Longest of four wavelengths 2 pi / q, each of which is half of that before."),
+              "a rod length")},
+    .memory = [](const Sizes& s) -> MeasureMemory { return {"", s.for_lags(2, 13), 0}; },
+    .remedy = "fewer rods"};
+}
+
+Observable van_hove() {
+  return {
+    .doc = "Distribution of displacements (self part of the van Hove function) at four lags.",
+    .axis = AxisUse::kPartly,
+    .every_doc = "Time between samples, of which the lags are multiples.",
+    .keys = {
+      quantity("lag", at<&Plan::van_hove, &MeasureVanHove::lag>, kTime, 1e-7, 1e5,
+               "Longest of four lags; the others are 1/4, 1/16 and 1/64 of it, rounded to multiples of `every`."),
+      whole("bins", at<&Plan::van_hove, &MeasureVanHove::bins>, 2, 10000,
+            "Number of bins of the displacement's magnitude at each lag."),
+      derived(quantity("range", at<&Plan::van_hove, &MeasureVanHove::range>, kLength, 1e-6, 1e5,
+                       "Largest displacement at the longest lag; at the others it is 1/2, 1/4 and 1/8 of it."),
+              "a rod length")},
+    .memory = [](const Sizes& s) -> MeasureMemory {
+      return {"", 4 * (s.in_blocks(2 * kNumberBytes * s.plan.van_hove->bins + 100) + 2 * kNumberBytes * s.rods), 0}; },
+    .remedy = "fewer `bins`"};
+}
+
+Observable flow() {
+  return {
+    .doc = "Correlation C(r) of the velocities of two rods against their distance (only within the walls, if any).",
+    .axis = AxisUse::kPartly,
+    .every_doc = "Time between samples; velocities are the displacements from one to the next.",
+    .keys = {
+      whole("bins", at<&Plan::flow, &MeasureFlow::bins>, 2, 10000,
+            "Number of bins over distances from 0 to half the box, by its shorter side.")},
+    .memory = of_flow,
+    .remedy = "fewer `bins`"};
+}
+
+Observable clusters() {
+  return {
+    .doc = "Clusters of rods whose axes are near each other, and their sizes.",
+    .keys = {
+      derived(quantity("distance", at<&Plan::clusters, &MeasureClusters::distance>, kLength, 0.01, 100,
+                       "Rods are of one cluster if their axes, from one end bead's centre to the other's, are nearer "
+                       "than this."),
+              "1.25 middle diameters"),
+      quantity("angle", at<&Plan::clusters, &MeasureClusters::angle>, kPlain, 0, 90,
+               "Largest angle in degrees between the axes of two neighbours of one cluster. 90: any.")},
+    .memory = [](const Sizes& s) -> MeasureMemory {
+      return {"", s.series(3) + s.in_blocks(700), 150 * s.rods, s.series(3), s.spare_series(3)}; },
+    .remedy = "a longer `every`"};
+}
+
+Observable collisions() {
+  return {
+    .doc = "Rates of impacts, mean free time, and the energy that impacts move; of all rods, whatever their species.",
+    .every_doc = "Time between samples, over which rates are means.",
+    .memory = [](const Sizes& s) -> MeasureMemory {
+      return {"", s.series(8) + s.in_blocks(100), 0, s.series(8), s.spare_series(8)}; },
     .remedy = "a longer `every`"};
 }
 

@@ -70,6 +70,7 @@ std::vector<std::string> remarks(const RunPlan& plan) {
   };
   remark_few_phases("tilt", plan.tilt);
   remark_few_phases("polar", plan.polar);
+  remark_few_phases("temperatures", plan.temperatures);
   if (plan.trajectory) remark_one_frame("trajectory.every", plan.trajectory->every);
   if (plan.movie) remark_one_frame("movie.every", plan.movie->every);
   for (const Field& field : fields()) {

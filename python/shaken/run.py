@@ -23,9 +23,19 @@ _AXES = {
     "/defects/tracks/lasting": "/defects/tracks/span_s", "/g2": "/g2/r_mm", "/msd": "/msd/lag_s",
     "/rotation": "/rotation/lag_s", "/velocity": "/velocity/lag_s", "/fluctuations": "/fluctuations/mean_n",
     "/pairs/cut": "/pairs/cut/r_mm", "/layers": "/layers/q_per_mm", "/structure": "/structure/q_per_mm",
-    "/polar": "/polar/time_s",
+    "/polar": "/polar/time_s", "/temperatures": "/temperatures/time_s", "/scattering": "/scattering/lag_s",
+    "/flow": "/flow/r_mm", "/clusters": "/clusters/time_s", "/clusters/sizes": "/clusters/sizes/size",
+    "/collisions": "/collisions/time_s",
 }
-_MAPS = ("/pairs/g", "/pairs/g2")
+_SCATTERING = ("/scattering/q_per_mm", "/scattering/lag_s")
+_VAN_HOVE = ("/van_hove/lag_s", "/van_hove/displacement_mm")
+#: The axes of the rows and of the columns of what files hold row by row.
+_MAPS = {
+    **dict.fromkeys(("/pairs/g", "/pairs/g2"), ("/pairs/across_mm", "/pairs/along_mm")),
+    **{f"/scattering/{name}{sem}": _SCATTERING for name in ("f", "f_along", "f_across") for sem in ("", "_sem")},
+    **{f"/van_hove/{name}{sem}_per_mm": _VAN_HOVE for name in ("along", "across", "distance") for sem in ("", "_sem")},
+}
+_TABLE = "/van_hove/displacement_mm"  # a row for each lag
 
 
 class Array(np.ndarray):
@@ -33,8 +43,9 @@ class Array(np.ndarray):
 
     name:   its path in observables.h5, "/msd/total_mm2"
     unit:   "mm2"; "1" for a plain number
-    axis:   the Array that it is measured at (lags, distances, times); None where it has none, a pair (across, along)
-            for the maps of `pairs`, whose shape is (bins, bins): map[across, along]
+    axis:   the Array that it is measured at (lags, distances, times); None where it has none; a pair (of the rows, of
+            the columns) for what has two dimensions: (across, along) of the maps of `pairs`, (q, lag) of F_s(q, t),
+            (lag, displacement) of the van Hove function, whose displacements are a row for each lag too
     error:  the Array of its standard errors, or None
     """
 
@@ -86,9 +97,12 @@ class Arrays(Mapping[str, Array]):
         species, own = split_species(path)
         species = f"/{species}" if species else ""
         if own in _MAPS:
-            across, along = self._fetch(species + "/pairs/across_mm"), self._fetch(species + "/pairs/along_mm")
-            array = Array(np.asarray(array).reshape(len(across), len(along)), path, unit)
-            array.axis = (across, along)
+            rows, columns = (self._fetch(species + axis) for axis in _MAPS[own])
+            array = Array(np.asarray(array).reshape(len(rows), columns.shape[-1]), path, unit)
+            array.axis = (rows, columns)
+        elif own == _TABLE:
+            rows = self._fetch(species + _MAPS["/van_hove/along_per_mm"][0])
+            array = Array(np.asarray(array).reshape(len(rows), -1), path, unit)
         else:
             group = own.rpartition("/")[0]
             axis = species + _AXES.get(group, "/rods/trace/time_s" if group.startswith("/rods/trace/") else "")

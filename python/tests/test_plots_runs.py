@@ -49,6 +49,21 @@ def test_only_what_was_measured_is_drawn() -> None:
     assert list(found["order_time"][0].drawn[0].x) == [0, 1]  # the time whose order is not on the disk yet is left out
 
 
+def test_a_row_of_what_has_several_is_drawn() -> None:
+    scattering = {"/scattering/q_per_mm": [1, 2], "/scattering/lag_s": [0.1, 0.2, 0.4],
+                  "/scattering/f": [0.9, 0.8, 0.7, 0.6, 0.5, 0.4], "/scattering/f_sem": [1, 2, 3, 4, 5, 6],
+                  "/scattering/alpha_2": [0.1, 0.2, 0.3]}
+    van_hove = {"/van_hove/lag_s": [1, 4], "/van_hove/displacement_mm": [1, 3, 2, 6],
+                "/van_hove/along_per_mm": [0.4, 0.1, 0.2, 0.05], "/van_hove/along_sem_per_mm": [1, 2, 3, 4]}
+    found = figures(run({**scattering, **van_hove}), run({f"/rods_2{name}": of for name, of in scattering.items()}))
+    for name in ("scattering", "rods_2_scattering"):  # the first row
+        curve = found[name][0].drawn[0]
+        assert (list(curve.x), list(curve.y), list(curve.error)) == ([0.1, 0.2, 0.4], [0.9, 0.8, 0.7], [1, 2, 3])
+    assert list(found["non_gaussian"][0].drawn[0].y) == [0.1, 0.2, 0.3]
+    curve = found["van_hove"][0].drawn[0]  # the last row, of x too
+    assert (list(curve.x), list(curve.y), list(curve.error)) == ([2, 6], [0.2, 0.05], [3, 4])
+
+
 def test_replicas_are_a_mean_with_its_error() -> None:
     one = {**TILT, "/tilt/v_along_sem_mm_s": [9, 9], "/order/time_s": [0, 1], "/order/order": [1, 0.5]}
     two = {**one, "/tilt/v_along_mm_s": [3, NAN], "/order/order": [1, 0.7]}

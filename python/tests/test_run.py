@@ -71,6 +71,23 @@ def test_arrays_of_another_species_have_their_own_axis(run_at):
     assert run["/rods_2/polar/order"].axis.name == "/rods_2/polar/time_s"
 
 
+def test_arrays_of_two_dimensions_have_two_axes(run_at):
+    measured = {"scattering/q_per_mm": ([1, 2], "mm-1"), "scattering/lag_s": ([1, 2, 4], "s"),
+                "scattering/f": ([6, 5, 4, 3, 2, 1], "1"), "scattering/f_sem": ([1, 2, 3, 4, 5, 6], "1"),
+                "scattering/alpha_2": ([1, 2, 3], "1"),
+                "van_hove/lag_s": ([1, 4], "s"), "van_hove/displacement_mm": ([1, 3, 2, 6], "mm"),
+                "van_hove/along_per_mm": ([4, 3, 2, 1], "mm-1"), "van_hove/along_sem_per_mm": ([1, 1, 2, 2], "mm-1")}
+    run = run_at("a", arrays={**measured, **{"rods_2/" + name: of for name, of in measured.items()}})
+    for species in ("", "/rods_2"):
+        f_s = run[species + "/scattering/f"]
+        assert f_s.tolist() == [[6, 5, 4], [3, 2, 1]] and f_s.error.tolist() == [[1, 2, 3], [4, 5, 6]]
+        assert f_s.axis[0].name == species + "/scattering/q_per_mm" and f_s.axis[1].tolist() == [1, 2, 4]
+        assert list(run[species + "/scattering/alpha_2"].axis) == [1, 2, 4]
+        g_s = run[species + "/van_hove/along_per_mm"]
+        assert g_s.tolist() == [[4, 3], [2, 1]] and g_s.error.tolist() == [[1, 1], [2, 2]]
+        assert g_s.axis[0].tolist() == [1, 4] and g_s.axis[1].tolist() == [[1, 3], [2, 6]]
+
+
 def test_keys_are_those_asked_for(tmp_path):
     run = shaken.DirectoryRun(made_up_run(tmp_path / "a"), {"rods.area_fraction": 0.75})
     assert run.key("rods.area_fraction") == 0.75 and run.key("rods.length") == 4.5 and run.key("rods_2.length") is None

@@ -9,7 +9,7 @@
 namespace shaken::run {
 namespace {
 
-constexpr std::array<std::string_view, 5> kSymbols{"mm", "s", "rad", "deg", "Hz"};
+constexpr std::array<std::string_view, 6> kSymbols{"mm", "s", "rad", "deg", "Hz", "pJ"};
 
 /// A symbol and its power: "mm2".
 struct Factor {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "analysis/collision_rates.h"
 #include "analysis/order.h"
 #include "sim/snapshot.h"
 
@@ -13,10 +14,12 @@ namespace shaken::run {
 class Sample {
  public:
   /// `rods` must outlive the moment.
-  explicit Sample(const Snapshot& rods) : rods_(rods) {}
+  explicit Sample(const Snapshot& rods, const analysis::CollisionTotals& totals = {}) : rods_(rods), totals_(totals) {}
 
   const Snapshot* operator->() const { return &rods_; }
 
+  /// Of the whole run up to this tick, whatever the species.
+  const analysis::CollisionTotals& totals() const { return totals_; }
   /// Nematic order and director of all rods.
   const analysis::NematicOrder& order() const {
     if (!order_) order_ = analysis::nematic_order(rods_.director);
@@ -35,6 +38,7 @@ class Sample {
 
  private:
   const Snapshot& rods_;
+  analysis::CollisionTotals totals_;
   mutable std::optional<analysis::NematicOrder> order_;
   mutable std::vector<Vec3> unwrapped_;
 };

@@ -34,6 +34,26 @@ void pairs(Resolution& scene, MeasurePairs& settings) {
                   length_text(settings.range), length_text(half_box)));
 }
 
+void scattering(const Resolution& scene, MeasureScattering& settings) {
+  if (!scene.ok({"rods.length", "measure.scattering.wavelength"})) return;
+  settings.wavelength = settings.wavelength_for(scene.plan.system.rod.length);
+}
+
+void van_hove(Resolution& scene, MeasureVanHove& settings) {
+  if (scene.ok({"rods.length", "measure.van_hove.range"})) {
+    settings.range = settings.range_for(scene.plan.system.rod.length);
+  }
+  if (!scene.ok({"measure.van_hove.every", "measure.van_hove.lag"}) || settings.lag >= settings.every) return;
+  scene.report({"measure.van_hove.lag", "measure.van_hove.every"},
+               fmt::format("measure.van_hove.lag {} is shorter than measure.van_hove.every {}", time_text(settings.lag),
+                           time_text(settings.every)));
+}
+
+void clusters(const Resolution& scene, MeasureClusters& settings) {
+  if (!scene.ok({"rods.mid_diameter", "measure.clusters.distance"})) return;
+  settings.distance = settings.distance_for(scene.plan.system.rod.mid_diameter);
+}
+
 }  // namespace
 
 void resolve_measurements(Resolution& scene) {
@@ -41,6 +61,9 @@ void resolve_measurements(Resolution& scene) {
   if (plan.velocity) velocity(scene, *plan.velocity);
   if (plan.defects) defects(scene, *plan.defects);
   if (plan.pairs) pairs(scene, *plan.pairs);
+  if (plan.scattering) scattering(scene, *plan.scattering);
+  if (plan.van_hove) van_hove(scene, *plan.van_hove);
+  if (plan.clusters) clusters(scene, *plan.clusters);
 }
 
 void check_walls(Resolution& scene) {

@@ -21,9 +21,9 @@ constexpr std::uint64_t kFingerprint<job_t> = 0x1de0a0e67079db2f;
 template <>
 constexpr std::uint64_t kFingerprint<observables_t> = 0x59b43e22b4b3c113;
 template <>
-constexpr std::uint64_t kFingerprint<frame_static_t> = 0x81ca505f52ee1d2f;
+constexpr std::uint64_t kFingerprint<frame_static_t> = 0x64ae93f12db25394;
 template <>
-constexpr std::uint64_t kFingerprint<frame_t> = 0x1efd27b8e565207f;
+constexpr std::uint64_t kFingerprint<frame_t> = 0x0d06d91756eff7d0;
 template <>
 constexpr std::uint64_t kFingerprint<defects_t> = 0xeddba365494e32b5;
 

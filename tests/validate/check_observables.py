@@ -25,8 +25,10 @@ from dataclasses import dataclass, field
 
 import h5py
 import numpy as np
+import scipy.integrate
 import scipy.ndimage
 import scipy.optimize
+import scipy.sparse.csgraph
 import scipy.spatial
 
 warnings.filterwarnings("ignore")
@@ -129,6 +131,7 @@ class Run:
         self.unwrapped = (self.position + self.box * self.image)[..., :2]
         self.place = self.position[..., :2] % self.box
         self.n = self.position.shape[1]
+        self.beads = offset, radius
         self.length = np.max(offset + radius) - np.min(offset - radius)
         self.width = 2 * np.max(radius)
         self.n_z_max = min(max((self.gap / 2 - radius[-1]) / np.max(offset), 0), 1)
@@ -157,6 +160,11 @@ class Run:
 
     def sem(self, name):
         sem = self.scalars[name]["sem"]
+        return np.nan if sem is None else sem
+
+    def sem_if_steady(self, name):
+        """The error that a number has, or would have if what it averages over were steady: that of jackknife()."""
+        sem = self.scalars[name].get("sem_if_steady", self.scalars[name]["sem"])
         return np.nan if sem is None else sem
 
 
@@ -259,11 +267,11 @@ def drawn(n, sample):
     return np.array([first + int(uniform(first) * min(stride, n - first)) for first in range(0, n, stride)])
 
 
-def scalar(run, table, name, by, value, sem=None, allowed=None, remark=""):
+def scalar(run, table, name, by, value, sem=None, allowed=None, remark="", allowed_sem=1e-3):
     table.add(name, by, run.measured(name), value, allowed if allowed is not None else RELATIVE * abs(value) + 1e-12,
               remark)
     if sem is not None:
-        table.add("sem of " + name, by, run.sem(name), sem, 1e-3 * abs(sem) + 1e-9)
+        table.add("sem of " + name, by, run.sem_if_steady(name), sem, allowed_sem * abs(sem) + 1e-9)
 
 
 # ---- reading ----
@@ -575,9 +583,132 @@ def check_polar(run, table):
     speed = RELATIVE * np.abs(v).max()
     allowed = (1e-6, 1e-4 * numbers[1], speed, speed, speed, RELATIVE)
     for name, value, sem, one in zip(names, numbers, sems, allowed):
-        scalar(run, table, name, "complex numbers", value, allowed=one)
-        ours = run.scalars[name].get("sem_if_steady", run.sem(name))
-        table.add("sem of " + name, "complex numbers", ours, sem, 1e-3 * abs(sem) + 1e-9)
+        scalar(run, table, name, "complex numbers", value, sem, allowed=one)
+
+
+def mass_of(run):
+    """Of a rod [mg]: the profile of the union of its beads, turned about the axis, by Simpson's rule."""
+    offset, radius = run.beads
+    x = np.linspace(np.min(offset - radius), np.max(offset + radius), 2_000_001)
+    squares = np.max([r ** 2 - (x - s) ** 2 for s, r in zip(offset, radius)], axis=0)
+    return run.scene["rods"]["density"] * np.pi * scipy.integrate.simpson(squares, x)
+
+
+def check_temperatures(run, table):
+    frames = run.frames("temperatures")
+    parts = steady_parts(run, frames)
+    v = run.velocity[frames] - run.velocity[frames].mean(1, keepdims=True)
+    in_plane = (v[..., 0] + 1j * v[..., 1]) * np.exp(-1j * run.theta[frames])
+    one = mass_of(run) * run.n / (run.n - 1)
+    found = {"horizontal": np.mean(v[..., 0] ** 2 + v[..., 1] ** 2, 1) / 2, "vertical": np.mean(v[..., 2] ** 2, 1),
+             "along": np.mean(in_plane.real ** 2, 1), "across": np.mean(in_plane.imag ** 2, 1)}
+    table.add("/temperatures/time_s", "trajectory", run.arrays["/temperatures/time_s"], run.time[frames])
+    for name, squares in found.items():
+        path = f"/temperatures/{name}_pJ"
+        table.add(path, "numpy.var", run.arrays[path], one * squares, 5 * RELATIVE * np.max(one * squares))
+    # Trajectories have no angular velocities: what is known of these is how they go together.
+    parts_of = [run.arrays[f"/temperatures/{name}_pJ"] for name in ("turning", "tipping", "spinning")]
+    table.add("/temperatures/rotation_pJ", "the three others", run.arrays["/temperatures/rotation_pJ"],
+              np.mean(parts_of, axis=0), remark="by definition")
+    for name, values in zip(("turning", "tipping", "spinning"), parts_of):
+        table.add(f"/temperatures/{name}_pJ", "sign", np.sign(values.min()) >= 0, True, remark="only that")
+    for name in (*found, "turning", "tipping", "spinning", "rotation"):
+        series = run.arrays[f"/temperatures/{name}_pJ"]
+        (value,), (sem,) = jackknife(parts, lambda some: [series[some].mean()])
+        scalar(run, table, f"temperature_{name}_pJ", "numpy", value, sem)
+
+
+def check_collisions(run, table):
+    frames = run.frames("collisions")
+    step = run.time[frames[1]] - run.time[frames[0]]
+    energy, collisions = run.summary["energy_pJ"], run.summary["collisions"]
+    table.add("/collisions/time_s", "trajectory", run.arrays["/collisions/time_s"], run.time[frames[1:]])
+    totals = {"impacts_rods_Hz": 2 * collisions["rod_rod"], "impacts_base_Hz": collisions["rod_base"],
+              "impacts_lid_Hz": collisions["rod_lid"], "impacts_walls_Hz": 0,
+              "power_given_pJ_s": energy["given_by_plates"] + energy["given_by_noise"],
+              "power_lost_rods_pJ_s": energy["lost_rod_rod"], "power_lost_surfaces_pJ_s": energy["lost_surfaces"]}
+    parts = steady_parts(run, frames[:-1])
+    for name, total in totals.items():
+        rates = run.arrays["/collisions/" + name]
+        table.add("/collisions/" + name, "totals of summary.json", rates.sum() * step * run.n, total,
+                  1e-9 * abs(total) + 1e-9)
+        (value,), (sem,) = jackknife(parts, lambda some: [rates[some].mean()])
+        scalar(run, table, name, "numpy", value, sem, allowed=1e-9 * abs(value) + 1e-12)
+    rates = run.arrays["/collisions/impacts_rods_Hz"]
+    (value,), (sem,) = jackknife(parts, lambda some: [1 / rates[some].mean()])
+    scalar(run, table, "mean_free_time_s", "numpy", value, sem)
+
+
+def axes_apart(places, director, tail, head, box):
+    """Distances of the axes of all pairs (n, n): of crossing lines where that lies on both, or from an end."""
+    n = len(places)
+    way = places[None] - places[:, None]
+    way[..., :2] = nearest(way[..., :2], box)
+    length = tail + head
+    u, w = director[:, None], director[None]
+    start = way - tail * w + tail * u  # from the tail of the first to that of the second
+    dot = np.clip(np.einsum("ika,kja->ij", np.broadcast_to(u, (n, 1, 3)), np.broadcast_to(w, (1, n, 3))), -1, 1)
+    along_u, along_w = np.sum(start * u, -1), np.sum(start * w, -1)
+
+    def apart(s, t):
+        return np.linalg.norm(start + t[..., None] * w - s[..., None] * u, axis=-1)
+
+    least = np.full((n, n), np.inf)
+    for end in (np.zeros((n, n)), np.full((n, n), length)):
+        least = np.minimum(least, apart(end, np.clip(end * dot - along_w, 0, length)))
+        least = np.minimum(least, apart(np.clip(end * dot + along_u, 0, length), end))
+    with np.errstate(all="ignore"):
+        s = (along_u - along_w * dot) / (1 - dot ** 2)
+        t = (along_u * dot - along_w) / (1 - dot ** 2)
+        inside = (s >= 0) & (s <= length) & (t >= 0) & (t <= length) & (np.abs(dot) < 1 - 1e-9)
+    return np.where(inside, np.minimum(least, apart(np.where(inside, s, 0), np.where(inside, t, 0))), least), np.abs(dot)
+
+
+def check_clusters(run, table):
+    frames = run.frames("clusters")
+    plan = run.scene["measure"]["clusters"]
+    offset, _ = run.beads
+    octaves = len(run.arrays["/clusters/sizes/size"])
+    largest, mean_size, counted = [], [], []
+    doubtful = 0
+    for frame in frames:
+        apart, cosine = axes_apart(run.position[frame], run.director[frame], -offset[0], offset[-1], run.box)
+        joined = (apart < plan["distance"]) & (cosine >= np.cos(np.radians(plan["angle"])) * (plan["angle"] < 90))
+        near = (np.abs(apart - plan["distance"]) < EDGE) | (np.abs(cosine - np.cos(np.radians(plan["angle"]))) < 1e-6)
+        doubtful += bool((near & (apart < plan["distance"] + EDGE)).any())
+        _, label = scipy.sparse.csgraph.connected_components(joined, directed=False)
+        sizes = np.bincount(label)
+        largest.append(sizes.max() / run.n)
+        mean_size.append(np.sum(sizes ** 2) / run.n)
+        octave = np.floor(np.log2(sizes) + 1e-9).astype(int)
+        counted.append(np.concatenate([[np.sum(sizes == 1), len(sizes)], np.bincount(octave, minlength=octaves),
+                                       np.bincount(octave, sizes, minlength=octaves)]))
+    largest, mean_size, counted = np.array(largest), np.array(mean_size), np.array(counted, float)
+    by = "scipy connected_components"
+    remark = f"{doubtful} samples with a pair at the edge" if doubtful else ""
+    table.add("/clusters/time_s", "trajectory", run.arrays["/clusters/time_s"], run.time[frames])
+    # A pair at the edge may split a cluster in two.
+    for path, values in (("largest", largest), ("size", mean_size)):
+        ours = run.arrays["/clusters/" + path]
+        table.add("/clusters/" + path, by, np.sort(np.abs(ours - values))[:len(ours) - doubtful], 0 * values[doubtful:],
+                  1e-9 * values.max(), remark)
+    table.add("/clusters/sizes/size", "definition", run.arrays["/clusters/sizes/size"], 2.0 ** np.arange(octaves))
+
+    def numbers(some):
+        sums = counted[some].sum(0) / (run.n * len(some))
+        return np.concatenate([[largest[some].mean(), mean_size[some].mean(), sums[0], sums[1]],
+                               sums[2 + octaves:], sums[2:2 + octaves] / 2.0 ** np.arange(octaves)])
+
+    values, sems = jackknife(steady_parts(run, frames), numbers)
+    loose = 1e-9 + 2 * doubtful / len(frames)
+    for k, name in enumerate(("largest_cluster", "cluster_size", "rods_alone", "clusters_per_rod")):
+        scalar(run, table, name, by, values[k], sems[k], loose * values[k] + 1e-9, allowed_sem=0.1 if doubtful else 1e-3)
+    for path, some in (("rods", slice(4, 4 + octaves)), ("density", slice(4 + octaves, None))):
+        table.add(f"/clusters/sizes/{path}", by, run.arrays[f"/clusters/sizes/{path}"], values[some],
+                  1e-9 + loose * values[some].max())
+        known = np.isfinite(run.arrays[f"/clusters/sizes/{path}_sem"])
+        table.add(f"/clusters/sizes/{path}_sem", by, run.arrays[f"/clusters/sizes/{path}_sem"][known], sems[some][known],
+                  1e-9 + (0.1 if doubtful else 1e-3) * sems[some][known])
 
 
 # ---- pairs ----
@@ -1196,6 +1327,149 @@ def check_velocity(run, table):
     scalar(run, table, "velocity_decay_s", "numpy interp", *decay_time(lags.lags[1:], c_v[1:], c_v_sem[1:]))
 
 
+def check_scattering(run, table):
+    frames = lag_frames(run, "scattering")
+    r, axis = run.unwrapped[frames], run.axis[frames]
+    waves = 2 * np.pi / run.scene["measure"]["scattering"]["wavelength"] * 2.0 ** np.arange(4)
+
+    def kernel(origins, ends):
+        d = r[ends] - r[origins]
+        c, s = np.cos(axis[origins])[:, None], np.sin(axis[origins])[:, None]
+        a, b = d[..., 0] * c + d[..., 1] * s, d[..., 1] * c - d[..., 0] * s
+        return np.full(len(origins), float(run.n)), np.stack(
+            [np.real(np.exp(1j * q * x)).sum(1) for x in (a, b) for q in waves]
+            + [np.sum(x, 1) for x in (a ** 2, b ** 2, a ** 4, b ** 4, a ** 2 * b ** 2)], axis=1)
+
+    lags = Lags(run, run.time[frames], len(frames), kernel)
+    table.add("/scattering/q_per_mm", "definition", run.arrays["/scattering/q_per_mm"], waves)
+    table.add("/scattering/lag_s", "definition", run.arrays["/scattering/lag_s"], lags.lags)
+    n_lags = len(lags.lags)
+    for name, of_waves in (("f", (0.5, 0.5)), ("f_along", (1, 0)), ("f_across", (0, 1))):
+        for wave in range(4):
+            weights = np.zeros(13)
+            weights[wave], weights[4 + wave] = of_waves
+            value, sem = lags.curve(weights)
+            row = slice(wave * n_lags, (wave + 1) * n_lags)
+            table.add(f"/scattering/{name}", "numpy O(T^2)", run.arrays[f"/scattering/{name}"][row], value, 1e-5)
+            ours = run.arrays[f"/scattering/{name}_sem"][row]
+            table.add(f"/scattering/{name}_sem", "numpy O(T^2)", ours, sem, 2e-3 * np.nanmax(sem, initial=0) + 1e-8)
+            if name == "f":
+                scalar(run, table, f"relaxation_q{wave + 1}_s", "numpy interp", *decay_time(lags.lags, value, sem),
+                       allowed=1e-4)
+    for name, second, fourth, c in (("alpha_2", (1, 1, 0, 0, 0), (0, 0, 1, 1, 2), 2),
+                                    ("alpha_2_along", (1, 0, 0, 0, 0), (0, 0, 1, 0, 0), 3),
+                                    ("alpha_2_across", (0, 1, 0, 0, 0), (0, 0, 0, 1, 0), 3)):
+        moments = lags.mean[:, 8:]
+
+        def alpha(mean):
+            return mean @ np.array(fourth) / (c * (mean @ np.array(second)) ** 2) - 1
+
+        value = alpha(moments)
+        slopes = np.stack([(alpha(moments * (1 + 1e-6 * unit)) - alpha(moments * (1 - 1e-6 * unit)))
+                           / (2e-6 * moments[:, k]) for k, unit in enumerate(np.eye(5))], axis=1)
+        sem = np.array([lags.sem([(lag, 8 + k, slopes[lag, k]) for k in range(5)]) for lag in range(n_lags)])
+        table.add(f"/scattering/{name}", "numpy O(T^2)", run.arrays[f"/scattering/{name}"], value, 1e-3)
+        table.add(f"/scattering/{name}_sem", "numpy O(T^2)", run.arrays[f"/scattering/{name}_sem"], sem,
+                  5e-3 * np.nanmax(sem, initial=0))
+        if name == "alpha_2":
+            peak = np.nanargmax(np.where(np.isfinite(sem), value, np.nan))
+            scalar(run, table, "alpha_2_peak", "numpy", value[peak], sem[peak], allowed=1e-3)
+            scalar(run, table, "alpha_2_peak_lag_s", "numpy", lags.lags[peak])
+
+
+def check_van_hove(run, table):
+    frames = lag_frames(run, "van_hove")
+    plan = run.scene["measure"]["van_hove"]
+    r, axis = run.unwrapped[frames], run.axis[frames]
+    interval = run.time[frames[1]] - run.time[frames[0]]
+    lags, ranges = [], []
+    for k in range(3, -1, -1):
+        steps = max(1, int(np.floor(plan["lag"] / interval / 4 ** k + 0.5)))
+        if steps not in lags:
+            lags.append(steps)
+            ranges.append(plan["range"] / 2 ** k)
+    bins = plan["bins"]
+    table.add("/van_hove/lag_s", "definition", run.arrays["/van_hove/lag_s"], np.array(lags) * interval)
+    for row, (steps, end) in enumerate(zip(lags, ranges)):
+        here = slice(row * bins, (row + 1) * bins)
+        width = end / bins
+        table.add("/van_hove/displacement_mm", "definition", run.arrays["/van_hove/displacement_mm"][here],
+                  (np.arange(bins) + 0.5) * width)
+        origins = np.arange(0, len(frames) - steps, steps)
+        d = r[origins + steps] - r[origins]
+        turned = (d[..., 0] + 1j * d[..., 1]) * np.exp(-1j * axis[origins])[:, None]
+        parts = steady_parts(run, frames[origins])
+        kept = np.concatenate(parts)
+        columns = {"along": (np.abs(turned.real), 2), "across": (np.abs(turned.imag), 2), "distance": (np.abs(turned), 1)}
+        for name, (size, sides) in columns.items():
+            counts = np.array([np.histogram(x, bins, (0, end))[0] for x in size])
+            _, doubt = histogram(size[kept].ravel() / width, bins, EDGE / width)
+
+            def density(some):
+                return counts[some].sum(0) / (len(some) * run.n * width * sides)
+
+            value, sem = jackknife(parts, density)
+            path = f"/van_hove/{name}_per_mm"
+            table.add(path, "numpy.histogram", run.arrays[path][here], value,
+                      doubt / (len(kept) * run.n * width * sides) + 1e-9)
+            ours = run.arrays[f"/van_hove/{name}_sem_per_mm"][here]
+            many = (counts[kept].sum(0) > 1000) & np.isfinite(ours)
+            table.add(f"/van_hove/{name}_sem_per_mm", "numpy.histogram", ours[many], sem[many], 0.1 * sem[many] + 1e-9)
+        value, sem = jackknife(parts, lambda some: [np.mean(columns["distance"][0][some] >= end)])
+    scalar(run, table, "van_hove_beyond", "numpy", value[0], sem[0], 1e-4, allowed_sem=0.05)
+
+
+def check_flow(run, table):
+    frames = lag_frames(run, "flow")
+    bins = run.scene["measure"]["flow"]["bins"]
+    width = run.box / 2 / bins
+    step = run.time[frames[1]] - run.time[frames[0]]
+    origins = np.arange(len(frames) - 1)
+    parts = steady_parts(run, frames[:-1])
+    sums = []
+    for sample in origins:
+        frame = frames[sample]
+        v = (run.unwrapped[frames[sample + 1]] - run.unwrapped[frame]) / step
+        turned = (v[:, 0] + 1j * v[:, 1]) * np.exp(-1j * run.axis[frame])
+        first = references(run.n, sample)
+        apart = np.linalg.norm(nearest(run.place[frame][None] - run.place[frame][first][:, None], run.box), axis=-1)
+        apart[np.arange(len(first)), first] = np.inf
+        products = [np.outer(x[first], x) for x in (turned.real, turned.imag)]
+        place = np.minimum(apart / width, bins).astype(int).ravel()
+        near = apart < 2 * run.width
+        sums.append(np.concatenate(
+            [np.bincount(place, minlength=bins + 1)[:bins]]
+            + [np.bincount(place, x.ravel(), minlength=bins + 1)[:bins] for x in products]
+            + [[near.sum(), products[0][near].sum() + products[1][near].sum(), run.n, np.sum(turned.real ** 2),
+                np.sum(turned.imag ** 2)]]))
+    sums = np.array(sums)
+
+    def curves(some):
+        total = sums[some].sum(0)
+        pairs, along, across = total[:3 * bins].reshape(3, bins)
+        near, product, rods, square_along, square_across = total[3 * bins:]
+        square = square_along + square_across
+        with np.errstate(all="ignore"):
+            c = (along + across) / pairs * rods / square
+            met = np.isfinite(c)
+            length = decay_time((np.flatnonzero(met) + 0.5) * width, c[met], np.zeros(met.sum()))[0]
+            return np.concatenate([c, along / pairs * rods / square_along, across / pairs * rods / square_across,
+                                   [product / near * rods / square, length]])
+
+    values, sems = jackknife(parts, curves)
+    table.add("/flow/r_mm", "definition", run.arrays["/flow/r_mm"], (np.arange(bins) + 0.5) * width)
+    pairs = sums[np.concatenate(parts)].sum(0)[:bins]
+    many = pairs > 1000  # of few pairs, one on the edge of a bin matters
+    for k, name in enumerate(("c", "c_along", "c_across")):
+        here = slice(k * bins, (k + 1) * bins)
+        table.add(f"/flow/{name}", "numpy O(N^2)", run.arrays[f"/flow/{name}"][many], values[here][many], 2e-3)
+        table.compared.add(f"/flow/{name}_sem")
+        table.add(f"sem of /flow/{name}", "numpy O(N^2)", run.arrays[f"/flow/{name}_sem"][many], sems[here][many],
+                  0.1 * sems[here][many] + 1e-9)
+    scalar(run, table, "flow_of_neighbours", "numpy O(N^2)", values[-2], sems[-2], 2e-3, allowed_sem=0.05)
+    scalar(run, table, "flow_length_mm", "numpy interp", values[-1], sems[-1], 2e-2 * abs(values[-1]), allowed_sem=0.1)
+
+
 def check_rods(run, table):
     frames = run.frames("rods")
     start = run.steady_given or 0
@@ -1330,7 +1604,7 @@ def check_frank(run, table):
     table.add("/frank/fit_mm2", "scipy Nelder-Mead", run.arrays["/frank/fit_mm2"], squares[met, 3], 1e-3 * squares[met, 3])
     for k, name in enumerate(("frank_splay", "frank_bend", "frank_ratio")):
         table.add(name, "scipy Nelder-Mead", run.measured(name), values[k], 1e-3 * values[k])
-        table.add("sem of " + name, "scipy Nelder-Mead", run.sem(name), sems[k], 0.01 * sems[k])
+        table.add("sem of " + name, "scipy Nelder-Mead", run.sem_if_steady(name), sems[k], 0.01 * sems[k])
     scalar(run, table, "frank_floor_mm2", by, values[3])
     pulls = ((squares[:, 2] - squares[:, 3]) / square_sems[:, 2])[squares[:, 4] == 1]
     pulls = pulls[np.isfinite(pulls)]
@@ -1597,7 +1871,9 @@ def check_tracks(run, table, frames, plan):
 CHECKS = {"order": check_order, "angles": check_angles, "tilt": check_tilt, "defects": check_defects, "g2": check_g2,
           "pairs": check_pairs, "layers": check_layers, "lattice": check_lattice, "structure": check_structure,
           "polar": check_polar, "fluctuations": check_fluctuations,
-          "frank": check_frank, "msd": check_msd, "rotation": check_rotation, "velocity": check_velocity, "rods": check_rods}
+          "frank": check_frank, "msd": check_msd, "rotation": check_rotation, "velocity": check_velocity, "rods": check_rods,
+          "temperatures": check_temperatures, "scattering": check_scattering, "van_hove": check_van_hove,
+          "flow": check_flow, "clusters": check_clusters, "collisions": check_collisions}
 
 
 def main():

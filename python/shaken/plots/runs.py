@@ -26,6 +26,7 @@ class Observable:
     y:         several arrays are added up
     factors:   that x and y are multiplied with
     is_trace:  recorded over time, and no average: it says nothing about steadiness
+    rows:      what y (and x, perhaps) has a row for each value of, one behind the other: that of `row` is drawn
     log, zero, x_range, y_range: of the axes
     """
 
@@ -36,6 +37,8 @@ class Observable:
     y_title: str = ""
     factors: tuple[float, float] = (1.0, 1.0)
     is_trace: bool = False
+    rows: str = ""
+    row: int = 0
     log: tuple[bool, bool] = (False, False)
     zero: bool = False
     x_range: tuple[float | None, float | None] = (None, None)
@@ -62,6 +65,19 @@ OBSERVABLES = (
     Observable("layers", "/layers/q_per_mm", ("/layers/spectrum_across",), x_range=_FROM_ZERO, y_range=_FROM_ZERO),
     Observable("structure", "/structure/q_per_mm", ("/structure/factor",), x_range=_FROM_ZERO, y_range=_FROM_ZERO),
     Observable("polar_time", "/polar/time_s", ("/polar/order",), is_trace=True, x_range=_FROM_ZERO, y_range=(0, 1)),
+    Observable("temperature_time", "/temperatures/time_s", ("/temperatures/horizontal_pJ",), is_trace=True,
+               x_range=_FROM_ZERO, y_range=_FROM_ZERO),
+    Observable("scattering", "/scattering/lag_s", ("/scattering/f",), rows="/scattering/q_per_mm",
+               y_title=names.axis_title("/scattering/f") + ", smallest $q$", log=(True, False), zero=True),
+    Observable("non_gaussian", "/scattering/lag_s", ("/scattering/alpha_2",), log=(True, False), zero=True),
+    Observable("van_hove", "/van_hove/displacement_mm", ("/van_hove/along_per_mm",), rows="/van_hove/lag_s", row=-1,
+               y_title="van Hove function $G_s(x, t)$, longest $t$ (1/mm)", log=(False, True), x_range=_FROM_ZERO),
+    Observable("flow", "/flow/r_mm", ("/flow/c",), zero=True, x_range=_FROM_ZERO),
+    Observable("clusters_time", "/clusters/time_s", ("/clusters/largest",), is_trace=True, x_range=_FROM_ZERO,
+               y_range=(0, 1)),
+    Observable("cluster_sizes", "/clusters/sizes/size", ("/clusters/sizes/density",), log=(True, True)),
+    Observable("power_time", "/collisions/time_s", ("/collisions/power_given_pJ_s",), is_trace=True,
+               x_range=_FROM_ZERO, y_range=_FROM_ZERO),
     Observable("msd", "/msd/lag_s", ("/msd/total_mm2",), log=(True, True)),
     Observable("orientation_memory", "/rotation/lag_s", ("/rotation/c2",), log=(True, False), zero=True),
     Observable("velocity_memory", "/velocity/lag_s", ("/velocity/c_v",), log=(True, False), zero=True),
@@ -73,6 +89,7 @@ def _of_species(species: str, of: Observable) -> Observable:
     """The figure of the same observable of another species."""
     x_title, y_title = of.titles
     return replace(of, name=f"{species}_{of.name}", x=f"/{species}{of.x}", y=tuple(f"/{species}{y}" for y in of.y),
+                   rows=of.rows and f"/{species}{of.rows}",
                    x_title=x_title, y_title=f"{species}: {y_title}")
 
 
@@ -115,7 +132,7 @@ def read_run(directory: str | Path, parameters: Mapping[str, Any], state: str = 
     if not isinstance(summary, dict):
         summary = {}
     import h5py
-    wanted = {name for one in OF_EVERY_SPECIES for name in (one.x, *one.y, error_name(one.y[0]))}
+    wanted = {name for one in OF_EVERY_SPECIES for name in (one.x, *one.y, error_name(one.y[0]), one.rows) if name}
     arrays = {}
     try:
         with h5py.File(path, "r") as file:
@@ -155,16 +172,28 @@ class _Curve:
     steady: bool | None
 
 
+def _row(run: PlottedRun, of: Observable, name: str) -> np.ndarray | None:
+    """An array, or that of its rows that is drawn."""
+    values = run.arrays.get(name)
+    n_rows = len(run.arrays.get(of.rows, ()))
+    if values is None or not n_rows or (name == of.x and len(values) < len(run.arrays.get(of.y[0], ()))):
+        return values
+    length = len(values) // n_rows
+    first = of.row % n_rows * length
+    return values[first:first + length]
+
+
 def _curve_of(run: PlottedRun, of: Observable) -> _Curve | None:
-    parts = [run.arrays[name] for name in of.y if name in run.arrays]
-    if of.x not in run.arrays or not parts:
+    parts = [part for name in of.y if (part := _row(run, of, name)) is not None]
+    x = _row(run, of, of.x)
+    if x is None or not parts:
         return None
     # A file that is still being written may have one array longer than the other.
-    n = min(len(part) for part in (run.arrays[of.x], *parts))
+    n = min(len(part) for part in (x, *parts))
     if n == 0:
         return None
-    x, y = run.arrays[of.x][:n] * of.factors[0], sum(part[:n] for part in parts) * of.factors[1]
-    error = run.arrays.get(error_name(of.y[0])) if len(of.y) == 1 else None
+    x, y = x[:n] * of.factors[0], sum(part[:n] for part in parts) * of.factors[1]
+    error = _row(run, of, error_name(of.y[0])) if len(of.y) == 1 else None
     if error is not None:
         error = np.concatenate([error[:n], np.full(max(0, n - len(error)), np.nan)]) * of.factors[1]
     for value, log in ((x, of.log[0]), (y, of.log[1])):

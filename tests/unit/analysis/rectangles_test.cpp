@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "analysis/clusters.h"
 #include "analysis/defects.h"
+#include "analysis/flow_correlation.h"
 #include "analysis/g2.h"
 #include "analysis/lattice.h"
 #include "analysis/number_fluctuations.h"
@@ -64,6 +68,46 @@ TEST(Rectangles, PairsAreThoseOfTheSquare) {
     }
     EXPECT_FALSE(std::isnan(g2[40]));
     EXPECT_TRUE(std::isnan(g2[0]));
+  }
+}
+
+TEST(Rectangles, FlowIsThatOfTheSquare) {
+  for (const bool wide : {true, false}) {
+    const Tiled rods = three_boxes(wide, 200, 306);
+    const auto in_plane = [](const std::vector<Vec3>& all) {
+      std::vector<Vec2> flat;
+      for (const Vec3& one : all) flat.emplace_back(one.head<2>());
+      return flat;
+    };
+    FlowSums of_box(8, 4, 1), of_square(8, 4, 1);
+    of_box.accumulate(in_plane(rods.places), in_plane(rods.axes), 0.3, rods.box);
+    of_square.accumulate(in_plane(rods.all_places), in_plane(rods.all_axes), 0.3, rods.side);
+    expect_equal(of_box.reduce().c, of_square.reduce().c);
+    expect_equal(of_box.reduce().along, of_square.reduce().along);
+  }
+}
+
+// Balls in a strip of many squares of the mesh, against all pairs.
+TEST(Rectangles, ClustersAreThoseOfAllPairs) {
+  Draw draw(307);
+  for (const Box& box : {Box(40, 9), Box(9, 40), Box(3, 40)}) {
+    const std::vector<Vec3> places = random_places(draw, 150, box), axes = random_axes(draw, 150);
+    std::vector<std::size_t> cluster(150);
+    for (std::size_t i = 0; i < 150; ++i) cluster[i] = i;
+    for (std::size_t i = 0; i < 150; ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        if (Region(box).shortest((places[i] - places[j]).head<2>()).norm() >= 1.2) continue;
+        const std::size_t from = cluster[i], to = cluster[j];
+        for (std::size_t& one : cluster) one = one == from ? to : one;
+      }
+    }
+    std::vector<std::size_t> sizes;
+    for (std::size_t k = 0; k < 150; ++k) {
+      if (const auto n = static_cast<std::size_t>(std::count(cluster.begin(), cluster.end(), k)); n > 0) sizes.push_back(n);
+    }
+    std::sort(sizes.rbegin(), sizes.rend());
+    EXPECT_GT(sizes.front(), 3U);
+    EXPECT_EQ(cluster_sizes(places, axes, box, {0, 0, 1.2, kPi / 2}), sizes);
   }
 }
 

@@ -230,6 +230,10 @@ ErrorCase of_layers(const char* name, double share, int samples) {
   p.lattice = scene::MeasureLattice{kEvery};
   p.structure = scene::MeasureStructure{kEvery, 6};
   p.polar = scene::MeasurePolar{kEvery, scene::SamplePhases::kLocked};
+  p.temperatures = scene::MeasureTemperatures{kEvery, scene::SamplePhases::kLocked};
+  p.clusters = scene::MeasureClusters{kEvery, 0.8};
+  p.flow = scene::MeasureFlow{kEvery, 8};
+  p.van_hove = scene::MeasureVanHove{kEvery, kEvery, 8, 16};
   return {name,
           p,
           made_of<Redrawn>(share, Redrawn::Rod(layered)),
@@ -258,7 +262,24 @@ ErrorCase of_layers(const char* name, double share, int samples) {
            "v_forward_mm_s",
            "v_along_rms_mm_s",
            "v_across_rms_mm_s",
-           "velocity_polarity"}};
+           "velocity_polarity",
+           "temperature_horizontal_pJ",
+           "temperature_along_pJ",
+           "temperature_across_pJ",
+           "largest_cluster",
+           "cluster_size",
+           "rods_alone",
+           "clusters_per_rod",
+           "/clusters/sizes/rods_sem",
+           "/clusters/sizes/density_sem",
+           "/flow/c_sem",
+           "/flow/c_along_sem",
+           "/flow/c_across_sem",
+           "flow_of_neighbours",
+           "/van_hove/along_sem_per_mm",
+           "/van_hove/across_sem_per_mm",
+           "/van_hove/distance_sem_per_mm",
+           "van_hove_beyond"}};
 }
 
 TEST(ErrorBars, OfIndependentSamples) { expect_honest_errors(of_layers("independent", 1.0, 130), 200); }

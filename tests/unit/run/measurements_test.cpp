@@ -58,6 +58,12 @@ Snapshot random_snapshot(Tick tick) {
   return s;
 }
 
+/// Of a hundred rods, which meet a thousand times a second.
+analysis::CollisionTotals totals_at(Tick tick) {
+  const double time = static_cast<double>(tick) * kDt;
+  return {{1000 * time, 300 * time, 200 * time, 0, 5000 * time, 4000 * time, 1000 * time}, 100};
+}
+
 /// What is measured of spheres, of all that can be asked for.
 Reduction reduced_spheres() {
   scene::RunPlan spheres = plan();
@@ -68,7 +74,8 @@ Reduction reduced_spheres() {
   for (const char* name : {"order", "angles", "tilt", "defects", "frank", "rotation", "pairs", "layers", "polar"}) {
     EXPECT_FALSE(counts.contains(name)) << name;
   }
-  for (const char* name : {"g2", "msd", "velocity", "rods", "fluctuations", "lattice", "structure"}) {
+  for (const char* name : {"g2", "msd", "velocity", "rods", "fluctuations", "lattice", "structure", "temperatures",
+                           "scattering", "van_hove", "flow", "clusters"}) {
     EXPECT_TRUE(counts.contains(name)) << name;
   }
   for (Tick t = measurements.next_due(0); t <= 20000; t = measurements.next_due(t + 1)) {
@@ -82,7 +89,8 @@ TEST(Measurements, OfSpheresAreOfNoAxis) {
   const Reduction result = reduced_spheres();
   EXPECT_FALSE(result.order);
   EXPECT_FALSE(result.defects);
-  for (const char* there : {"/g2/g", "/g2/g_sem", "/msd/total_mm2", "/velocity/c_v", "/structure/factor"}) {
+  for (const char* there : {"/g2/g", "/g2/g_sem", "/msd/total_mm2", "/velocity/c_v", "/structure/factor",
+                            "/temperatures/rotation_pJ", "/scattering/f", "/van_hove/distance_per_mm", "/flow/c"}) {
     EXPECT_TRUE(result.arrays.contains(there)) << there;
   }
   for (const auto& [path, values] : result.arrays) {
@@ -100,7 +108,7 @@ TEST(Measurements, OfSpheresAreOfNoAxis) {
 /// Takes all samples in ticks [from, to].
 void measure(Measurements& measurements, Tick from, Tick to) {
   for (Tick t = measurements.next_due(from); t <= to; t = measurements.next_due(t + 1)) {
-    measurements.sample(random_snapshot(t));
+    measurements.sample(random_snapshot(t), totals_at(t));
   }
 }
 
@@ -596,6 +604,7 @@ struct Mixture {
     if (species == 1) {
       one.system.rod = plan.system.added[1]->rod;
       one.system.n_rods = 40;
+      one.collisions.reset();  // those of all rods are with the first species
     }
     Measurements measurements(one);
     for (Tick t = measurements.next_due(0); t <= end; t = measurements.next_due(t + 1)) {
@@ -609,7 +618,7 @@ struct Mixture {
         some.velocity.push_back(all.velocity[i]);
         some.angular_velocity.push_back(all.angular_velocity[i]);
       }
-      measurements.sample(some);
+      measurements.sample(some, totals_at(t));
     }
     return measurements.reduce(0.2);
   }
@@ -650,6 +659,18 @@ TEST(Measurements, OfEachSpeciesAreThoseOfItsRodsAlone) {
   }
   EXPECT_EQ(both.arrays.size(), n_arrays) << "nothing else is there";
   EXPECT_EQ(both.scalars.size(), n_scalars + 1) << "but S of the other species";
+}
+
+TEST(Measurements, CollisionsAreThoseOfAllRods) {
+  const Mixture mixture;
+  Measurements measurements(mixture.plan, mixture.cell);
+  measure(measurements, 0, 20000);
+  const auto numbers = measurements.reduce(0.2).scalars;
+  EXPECT_NEAR(numbers.at("impacts_rods_Hz").value, 20, 1e-9);  // each is one of two rods
+  EXPECT_NEAR(numbers.at("mean_free_time_s").value, 0.05, 1e-12);
+  EXPECT_NEAR(numbers.at("impacts_base_Hz").value, 3, 1e-9);
+  EXPECT_NEAR(numbers.at("power_lost_rods_pJ_s").value, 40, 1e-9);
+  EXPECT_FALSE(numbers.contains("rods_3.impacts_rods_Hz"));
 }
 
 TEST(Measurements, OfEachSpeciesGoOnBitwiseAfterASave) {

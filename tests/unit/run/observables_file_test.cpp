@@ -45,6 +45,7 @@ TEST(ObservablesFile, EveryArrayHasItsUnitAndTheFileItsRun) {
 
 TEST(UnitOfName, IsWhatTheNameEndsIn) {
   EXPECT_EQ(unit_of_name("/order/time_s"), "s");
+  EXPECT_EQ(unit_of_name("/temperatures/along_pJ"), "pJ");
   EXPECT_EQ(unit_of_name("/tilt/v_along_sem_mm_s"), "mm s-1");
   EXPECT_EQ(unit_of_name("/msd/d_total_mm2_s"), "mm2 s-1");
   EXPECT_EQ(unit_of_name("/layers/q_per_mm"), "mm-1");

@@ -123,6 +123,15 @@ TEST(LoadScene, PairMapFollowsTheRodsLengthAndTheBox) {
   EXPECT_EQ(plan_of(R"({"box": {"side": 20}, "measure": {"pairs": {}}})").pairs, (MeasurePairs{0.5, 81, 10}));
 }
 
+TEST(LoadScene, LengthsOfObservablesFollowTheRods) {
+  const RunPlan plan = plan_of(R"({"rods": {"length": 3, "mid_diameter": 0.6},
+                                   "measure": {"scattering": {}, "van_hove": {}, "clusters": {}}})");
+  EXPECT_EQ(plan.scattering, (MeasureScattering{0.01, 3}));
+  EXPECT_EQ(plan.van_hove, (MeasureVanHove{0.01, 1, 40, 3}));
+  EXPECT_EQ(plan.clusters, (MeasureClusters{0.1, 0.75, 90}));
+  EXPECT_EQ(plan_of(R"({"measure": {"scattering": {"wavelength": 1.5}}})").scattering->wavelength, 1.5);
+}
+
 TEST(LoadScene, NullIsAsIfTheKeyWereNotThere) {
   EXPECT_EQ(plan_of(R"({"rods": {"length": null, "beads": null}, "box": null})"), plan_of("{}"));
 }

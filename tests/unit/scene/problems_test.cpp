@@ -200,6 +200,9 @@ TEST(Problems, TimesThatDoNotFitTogether) {
   EXPECT_EQ(problem_of(R"({"measure": {"velocity": {"window": "50 ms"}}})"),
             "run.json:1:37: /measure/velocity/window: measure.velocity.window 50 ms is shorter than "
             "measure.velocity.every 100 ms");
+  EXPECT_EQ(problem_of(R"({"measure": {"van_hove": {"lag": "5 ms"}}})"),
+            "run.json:1:34: /measure/van_hove/lag: measure.van_hove.lag 5 ms is shorter than measure.van_hove.every "
+            "10 ms");
   EXPECT_EQ(problem_of(R"({"measure": {"tilt": {"every": "3 us"}}})"),
             "run.json:1:32: /measure/tilt/every: measure.tilt.every 3 us is shorter than time.step 4 us");
   EXPECT_EQ(

@@ -48,6 +48,8 @@ TEST(Remarks, NamePolarOrderOfRodsWithoutHeads) {
               ElementsAre(HasSubstr("this is not measured: measure.polar")));
   EXPECT_THAT(remarks(plan_of("{" + polar + R"(, "measure": {"polar": {"phases": "locked", "every": "1 s"}}})")),
               ElementsAre(HasSubstr("measure.polar.phases \"spread\"")));
+  EXPECT_THAT(remarks(plan_of(R"({"measure": {"temperatures": {"phases": "locked", "every": "1 s"}}})")),
+              ElementsAre(HasSubstr("measure.temperatures.phases \"spread\"")));
 }
 
 // A body without an axis has neither order nor defects.

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "analysis/collision_rates.h"
+#include "analysis/steady.h"
+#include "run/measure/estimates.h"
+#include "run/measure/measurement_kinds.h"
+
+namespace shaken::run {
+namespace {
+
+using analysis::CollisionCount;
+
+constexpr std::array<std::pair<CollisionCount, const char*>, analysis::kCollisionCounts> kCollisionNames{{
+    {CollisionCount::kRodRod, "impacts_rods_Hz"},
+    {CollisionCount::kBase, "impacts_base_Hz"},
+    {CollisionCount::kLid, "impacts_lid_Hz"},
+    {CollisionCount::kWalls, "impacts_walls_Hz"},
+    {CollisionCount::kGiven, "power_given_pJ_s"},
+    {CollisionCount::kLostRodRod, "power_lost_rods_pJ_s"},
+    {CollisionCount::kLostSurfaces, "power_lost_surfaces_pJ_s"},
+}};
+
+class MeasuredCollisions : public Measurement {
+ public:
+  explicit MeasuredCollisions(std::optional<double> steady) : steady_(steady) {}
+
+  void sample(const Sample& sample) override { series_.accumulate(sample->time, sample.totals()); }
+  void reduce(Reduction& result) const override {
+    const auto numbers =
+        block_estimates(series_.sums(), steady_.value_or(result.t_steady), [](const analysis::CollisionSums& part) {
+          const analysis::CollisionRates rates = part.reduce();
+          std::vector<double> all(rates.begin(), rates.end());
+          const double of_rods = rates[static_cast<std::size_t>(CollisionCount::kRodRod)];
+          all.push_back(of_rods > 0 ? 1 / of_rods : analysis::kNaN);
+          return all;
+        });
+    result.arrays["/collisions/time_s"] = series_.times();
+    for (const auto& [count, name] : kCollisionNames) {
+      result.arrays[std::string("/collisions/") + name] = series_.of(count);
+      result.scalars[name] = numbers[static_cast<std::size_t>(count)];
+    }
+    result.scalars["mean_free_time_s"] = numbers.back();
+  }
+  void save(StateWriter& writer) const override { series_.save(writer); }
+  void restore(StateReader& reader) override { series_.restore(reader); }
+
+ private:
+  std::optional<double> steady_;  ///< [s]
+  analysis::CollisionSeries series_;
+};
+
+}  // namespace
+
+MeasurementKind collisions_kind() {
+  return {
+      .name = "collisions",
+      .sources = "collision_rates",
+      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
+        return std::make_unique<MeasuredCollisions>(context.plan.steady);
+      },
+      .arrays =
+          {
+              {"time_s", "ends of the times from one sample to the next, over which the following are means"},
+              {"impacts_rods_Hz", "impacts of one rod with others in a second"},
+              {"impacts_base_Hz", "with the base"},
+              {"impacts_lid_Hz", "with the lid"},
+              {"impacts_walls_Hz", "with side walls"},
+              {"power_given_pJ_s", "energy that plates, walls and noise give to one rod in a second"},
+              {"power_lost_rods_pJ_s", "energy that one rod loses in impacts with others in a second"},
+              {"power_lost_surfaces_pJ_s", "energy that it loses in impacts with plates and walls"},
+          },
+      .numbers =
+          {
+              {"impacts_rods_Hz", "impacts of one rod with others in a second"},
+              {"impacts_base_Hz", "with the base"},
+              {"impacts_lid_Hz", "with the lid"},
+              {"impacts_walls_Hz", "with side walls"},
+              {"power_given_pJ_s", "energy that plates, walls and noise give to one rod in a second"},
+              {"power_lost_rods_pJ_s", "energy that one rod loses in impacts with others in a second"},
+              {"power_lost_surfaces_pJ_s", "energy that it loses in impacts with plates and walls"},
+              {"mean_free_time_s", "mean time of a rod between impacts with others: 1 / `impacts_rods_Hz`", false,
+               "no impacts of rods with each other"},
+          },
+  };
+}
+
+}  // namespace shaken::run

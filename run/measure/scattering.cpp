@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include <optional>
+#include <string>
+
+#include "analysis/self_scattering.h"
+#include "analysis/steady.h"
+#include "run/measure/estimates.h"
+#include "run/measure/measurement_kinds.h"
+
+namespace shaken::run {
+namespace {
+
+/// Curves of all waves one behind the other.
+analysis::EstimateCurve row_by_row(const std::array<analysis::EstimateCurve, analysis::kScatteringWaves>& waves) {
+  analysis::EstimateCurve rows;
+  for (const analysis::EstimateCurve& wave : waves) {
+    rows.value.insert(rows.value.end(), wave.value.begin(), wave.value.end());
+    rows.sem.insert(rows.sem.end(), wave.sem.begin(), wave.sem.end());
+  }
+  return rows;
+}
+
+class MeasuredScattering : public Measurement {
+ public:
+  MeasuredScattering(double interval, double wavelength, std::optional<double> steady)
+      : steady_(steady), scattering_(interval, wavelength) {}
+
+  void sample(const Sample& sample) override {
+    if (!analysis::is_steady(sample->time, steady_.value_or(0.0))) return;
+    scattering_.accumulate(sample->time, sample.unwrapped(), sample.order().director);
+  }
+  void reduce(Reduction& result) const override {
+    const analysis::ScatteringCurve curve = scattering_.reduce(steady_.value_or(result.t_steady));
+    result.arrays["/scattering/q_per_mm"] = scattering_.wave_numbers();
+    result.arrays["/scattering/lag_s"] = curve.lag;
+    put(result, "/scattering/f", "", row_by_row(curve.mean));
+    put(result, "/scattering/f_along", "", row_by_row(curve.along));
+    put(result, "/scattering/f_across", "", row_by_row(curve.across));
+    put(result, "/scattering/alpha_2", "", curve.alpha_2);
+    put(result, "/scattering/alpha_2_along", "", curve.alpha_2_along);
+    put(result, "/scattering/alpha_2_across", "", curve.alpha_2_across);
+    const analysis::ScatteringSummary summary = analysis::SelfScattering::summarize(curve);
+    for (std::size_t wave = 0; wave < analysis::kScatteringWaves; ++wave) {
+      result.scalars["relaxation_q" + std::to_string(wave + 1) + "_s"] = scalar(summary.relaxation[wave]);
+    }
+    result.scalars["alpha_2_peak"] = scalar(summary.alpha_2_peak);
+    result.scalars["alpha_2_peak_lag_s"] = {{summary.alpha_2_peak_lag}};
+  }
+  void save(StateWriter& writer) const override { scattering_.save(writer); }
+  void restore(StateReader& reader) override { scattering_.restore(reader); }
+
+ private:
+  std::optional<double> steady_;  ///< [s]; given, it leaves out what is before, or else the reduction does
+  analysis::SelfScattering scattering_;
+};
+
+constexpr const char* kNotRelaxed = "F_s does not fall to 1/e within the lags measured";
+
+}  // namespace
+
+MeasurementKind scattering_kind() {
+  return {
+      .name = "scattering",
+      .sources = "self_scattering, lag_average",
+      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
+        const double wavelength = context.plan.scattering->wavelength_for(context.plan.system.rod.length);
+        return std::make_unique<MeasuredScattering>(context.interval, wavelength, context.plan.steady);
+      },
+      .arrays =
+          {
+              {"q_per_mm", "(4) wave numbers q"},
+              {"lag_s", "(lags) lags"},
+              {"f", "(4 · lags) F_s(q, t), row by row: the mean of both of the following", kWithError},
+              {"f_along", "(4 · lags) of q along the director", kWithError},
+              {"f_across", "(4 · lags) of q across it", kWithError},
+              {"alpha_2", "(lags) non-Gaussian parameter of displacements in the plane", kWithError},
+              {"alpha_2_along", "(lags) of those along the director", kWithError},
+              {"alpha_2_across", "(lags) of those across it", kWithError},
+          },
+      .numbers =
+          {
+              {"relaxation_q1_s", "lag at which F_s falls to 1/e, of the first (smallest) wave number", false,
+               kNotRelaxed},
+              {"relaxation_q2_s", "of the second", false, kNotRelaxed},
+              {"relaxation_q3_s", "of the third", false, kNotRelaxed},
+              {"relaxation_q4_s", "of the fourth", false, kNotRelaxed},
+              {"alpha_2_peak", "largest α₂ of displacements in the plane"},
+              {"alpha_2_peak_lag_s", "lag at which it is largest"},
+          },
+      .of_axis = {"f_along", "f_across", "alpha_2_along", "alpha_2_across"},
+  };
+}
+
+}  // namespace shaken::run

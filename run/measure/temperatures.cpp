@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "analysis/temperatures.h"
+
+#include <array>
+#include <string>
+#include <utility>
+
+#include "analysis/blocked.h"
+#include "run/measure/estimates.h"
+#include "run/measure/measurement_kinds.h"
+
+namespace shaken::run {
+namespace {
+
+using analysis::Freedom;
+
+constexpr std::array<std::pair<Freedom, const char*>, analysis::kFreedoms> kFreedomNames{{
+    {Freedom::kHorizontal, "horizontal"},
+    {Freedom::kVertical, "vertical"},
+    {Freedom::kAlong, "along"},
+    {Freedom::kAcross, "across"},
+    {Freedom::kTurning, "turning"},
+    {Freedom::kTipping, "tipping"},
+    {Freedom::kSpinning, "spinning"},
+    {Freedom::kRotation, "rotation"},
+}};
+
+class MeasuredTemperatures : public Measurement {
+ public:
+  explicit MeasuredTemperatures(const analysis::RodInertia& inertia) : inertia_(inertia) {}
+
+  void sample(const Sample& sample) override {
+    const analysis::Temperatures found =
+        analysis::granular_temperatures(sample->director, sample->velocity, sample->angular_velocity, inertia_);
+    series_.accumulate(sample->time, found);
+    statistics_.accumulate(sample->time, found);
+  }
+  void reduce(Reduction& result) const override {
+    const auto means = block_estimates(statistics_, result.t_steady, [](const analysis::TemperatureStatistics& part) {
+      const analysis::Temperatures found = part.reduce();
+      return std::vector<double>(found.begin(), found.end());
+    });
+    result.arrays["/temperatures/time_s"] = series_.times();
+    for (const auto& [freedom, name] : kFreedomNames) {
+      result.arrays[std::string("/temperatures/") + name + "_pJ"] = series_.of(freedom);
+      result.scalars[std::string("temperature_") + name + "_pJ"] = means[static_cast<std::size_t>(freedom)];
+    }
+  }
+  void save(StateWriter& writer) const override {
+    series_.save(writer);
+    statistics_.save(writer);
+  }
+  void restore(StateReader& reader) override {
+    series_.restore(reader);
+    statistics_.restore(reader);
+  }
+
+ private:
+  analysis::RodInertia inertia_;
+  analysis::TemperatureSeries series_;
+  analysis::Blocked<analysis::TemperatureStatistics> statistics_{analysis::TemperatureStatistics()};
+};
+
+}  // namespace
+
+MeasurementKind temperatures_kind() {
+  return {
+      .name = "temperatures",
+      .sources = "temperatures",
+      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
+        const Species& rods = context.species;
+        return std::make_unique<MeasuredTemperatures>(
+            analysis::RodInertia{rods.mass, rods.inertia_perp, rods.inertia_par});
+      },
+      .arrays =
+          {
+              {"time_s", "times of T(t); of more than 65,536 samples, each point is a mean of several"},
+              {"horizontal_pJ", "T(t) of translation in the plane"},
+              {"vertical_pJ", "of vertical translation"},
+              {"along_pJ", "of translation along the rod, in the plane"},
+              {"across_pJ", "of that across it"},
+              {"turning_pJ", "of rotation in the plane"},
+              {"tipping_pJ", "of rotation out of the plane"},
+              {"spinning_pJ", "of rotation about the rod's own axis"},
+              {"rotation_pJ", "of rotation, mean over three axes"},
+          },
+      .numbers =
+          {
+              {"temperature_horizontal_pJ", "granular temperature of translation in the plane, m⟨δv²⟩/2"},
+              {"temperature_vertical_pJ", "of vertical translation"},
+              {"temperature_along_pJ", "of translation along the rod, in the plane"},
+              {"temperature_across_pJ", "of that across it"},
+              {"temperature_turning_pJ", "of rotation in the plane"},
+              {"temperature_tipping_pJ", "of rotation out of the plane"},
+              {"temperature_spinning_pJ", "of rotation about the rod's own axis"},
+              {"temperature_rotation_pJ", "of rotation, mean over three axes"},
+          },
+      .of_axis = {"along_pJ", "across_pJ", "turning_pJ", "tipping_pJ", "spinning_pJ", "temperature_along_pJ",
+                  "temperature_across_pJ", "temperature_turning_pJ", "temperature_tipping_pJ",
+                  "temperature_spinning_pJ"},
+      .is_spread = [](const scene::RunPlan& plan) { return plan.temperatures->phases == scene::SamplePhases::kSpread; },
+  };
+}
+
+}  // namespace shaken::run

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#include "analysis/clusters.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "analysis/segment_distance.h"
+#include "tests/unit/analysis/analysis_samples.h"
+#include "tests/unit/analysis/state_checks.h"
+
+namespace shaken::analysis {
+namespace {
+
+constexpr double kBox = 20;
+constexpr ClusterRule kRule{.tail = 2, .head = 2, .distance = 1};
+using Sizes = std::vector<std::size_t>;
+
+TEST(ClusterSizes, OfRodsPlacedByHand) {
+  const auto sizes = [](std::vector<Vec3> places, std::vector<Vec3> directors, ClusterRule rule = kRule) {
+    return cluster_sizes(places, directors, kBox, rule);
+  };
+  EXPECT_EQ(sizes({}, {}), Sizes{});
+  EXPECT_EQ(sizes({{5, 5, 0}}, {axis(0)}), Sizes{1});
+  // side by side, and one too far
+  EXPECT_EQ(sizes({{5, 5, 0}, {5, 5.9, 0}, {5, 7, 0}}, {axis(0), axis(kPi), axis(0)}), (Sizes{2, 1}));
+  // a row of three of which the ends do not touch
+  EXPECT_EQ(sizes({{5, 5, 0}, {5, 5.9, 0}, {5, 6.8, 0}}, {axis(0), axis(0), axis(0)}), Sizes{3});
+  // tip to tip: centres are 4.9 apart
+  EXPECT_EQ(sizes({{5, 5, 0}, {9.9, 5, 0}}, {axis(0), axis(0)}), Sizes{2});
+  EXPECT_EQ(sizes({{5, 5, 0}, {10.1, 5, 0}}, {axis(0), axis(0)}), (Sizes{1, 1}));
+  // crossed, one above the other
+  EXPECT_EQ(sizes({{5, 5, 0}, {5, 5, 0.9}}, {axis(0), axis(1)}), Sizes{2});
+  EXPECT_EQ(sizes({{5, 5, 0}, {5, 5, 1.1}}, {axis(0), axis(1)}), (Sizes{1, 1}));
+  // across the border and the corner of the box
+  EXPECT_EQ(sizes({{19.8, 19.8, 0}, {0.3, 0.3, 0}}, {axis(0), axis(0)}), Sizes{2});
+  EXPECT_EQ(sizes({{19, 5, 0}, {3, 5, 0}, {11, 5, 0}}, {axis(0), axis(0), axis(0)}), (Sizes{2, 1}));
+}
+
+TEST(ClusterSizes, KnowWallsHeadsAndAngles) {
+  // Walls: no images.
+  const Region square(kBox, SideWalls{Arena::kSquare, 19.9});
+  const std::vector<Vec3> corners{{19.8, 19.8, 0}, {0.3, 0.3, 0}}, along{axis(0), axis(0)};
+  EXPECT_EQ(cluster_sizes(corners, along, square, kRule), (Sizes{1, 1}));
+  // The head is farther from the centre of mass than the tail: heads touch, tails do not.
+  const ClusterRule polar{.tail = 1, .head = 3, .distance = 1};
+  const std::vector<Vec3> apart{{5, 5, 0}, {11.5, 5, 0}};
+  EXPECT_EQ(cluster_sizes(apart, std::vector<Vec3>{axis(0), axis(kPi)}, kBox, polar), Sizes{2});
+  EXPECT_EQ(cluster_sizes(apart, std::vector<Vec3>{axis(kPi), axis(0)}, kBox, polar), (Sizes{1, 1}));
+  // Axes may differ by 0.3 and no more, whichever way they point.
+  ClusterRule aligned = kRule;
+  aligned.angle = 0.3;
+  const std::vector<Vec3> near{{5, 5, 0}, {5, 5.5, 0}};
+  EXPECT_EQ(cluster_sizes(near, std::vector<Vec3>{axis(0), axis(kPi + 0.29)}, kBox, aligned), Sizes{2});
+  EXPECT_EQ(cluster_sizes(near, std::vector<Vec3>{axis(0), axis(0.31)}, kBox, aligned), (Sizes{1, 1}));
+  EXPECT_EQ(cluster_sizes(near, std::vector<Vec3>{axis(0), axis(kPi / 2)}, kBox, kRule), Sizes{2});
+}
+
+// Spheres are axes without length: those of a square lattice of spacing 1 make one cluster or none.
+TEST(ClusterSizes, OfSpheresOnALattice) {
+  std::vector<Vec3> places;
+  for (int i = 0; i < 400; ++i) places.push_back(Vec3(i % 20 + 0.5, i / 20 + 0.5, 0.5));
+  const std::vector<Vec3> directors(400, Vec3(0, 0, 1));
+  EXPECT_EQ(cluster_sizes(places, directors, kBox, {.distance = 1.01}), Sizes{400});
+  EXPECT_EQ(cluster_sizes(places, directors, kBox, {.distance = 0.99}), Sizes(400, 1));
+}
+
+// The slow twin looks at all pairs and all images of each, and walks from rod to rod.
+Sizes slow_sizes(const std::vector<Vec3>& places, const std::vector<Vec3>& directors, const ClusterRule& rule) {
+  const std::size_t n = places.size();
+  const auto are_neighbours = [&](std::size_t i, std::size_t j) {
+    if (std::acos(std::min(1.0, std::abs(directors[i].dot(directors[j])))) > rule.angle) return false;
+    for (int a = -1; a <= 1; ++a) {
+      for (int b = -1; b <= 1; ++b) {
+        const Vec3 from = places[i] - rule.tail * directors[i];
+        const Vec3 to = places[j] - rule.tail * directors[j] + kBox * Vec3(a, b, 0);
+        const double length = rule.tail + rule.head;
+        if (segment_distance(from, length * directors[i], to, length * directors[j]) < rule.distance) return true;
+      }
+    }
+    return false;
+  };
+  std::vector<bool> seen(n);
+  Sizes sizes;
+  for (std::size_t first = 0; first < n; ++first) {
+    if (seen[first]) continue;
+    std::vector<std::size_t> cluster{first};
+    seen[first] = true;
+    for (std::size_t k = 0; k < cluster.size(); ++k) {
+      for (std::size_t j = 0; j < n; ++j) {
+        if (seen[j] || !are_neighbours(cluster[k], j)) continue;
+        seen[j] = true;
+        cluster.push_back(j);
+      }
+    }
+    sizes.push_back(cluster.size());
+  }
+  std::ranges::sort(sizes, std::greater());
+  return sizes;
+}
+
+TEST(ClusterSizes, EqualThoseOfTheWalk) {
+  Draw draw(351);
+  for (const std::size_t n : {3u, 20u, 40u, 80u}) {
+    for (const double distance : {0.2, 0.5, 0.9}) {
+      for (const double angle : {kPi / 2, 0.5}) {
+        const ClusterRule rule{.tail = 0.7, .head = 1.1, .distance = distance, .angle = angle};
+        const std::vector<Vec3> places = random_places(draw, n, kBox), directors = random_axes(draw, n);
+        EXPECT_EQ(cluster_sizes(places, directors, kBox, rule), slow_sizes(places, directors, rule)) << n;
+      }
+    }
+  }
+}
+
+TEST(ClusterStatistics, OfSizesByHand) {
+  ClusterStatistics statistics;
+  statistics.accumulate({5, 2, 1, 1, 1});  // ten rods
+  statistics.accumulate({7, 3});
+  statistics.accumulate({});
+  const ClusterNumbers found = statistics.reduce();
+  EXPECT_NEAR(found.largest, (0.5 + 0.7) / 2, 1e-15);
+  EXPECT_NEAR(found.size, (25 + 4 + 3 + 49 + 9) / 20.0, 1e-14);
+  EXPECT_NEAR(found.alone, 3 / 20.0, 1e-15);
+  EXPECT_NEAR(found.per_rod, 7 / 20.0, 1e-15);
+  EXPECT_NEAR(found.rods[0], 3 / 20.0, 1e-15);
+  EXPECT_NEAR(found.rods[1], 5 / 20.0, 1e-15);   // of 2 and 3
+  EXPECT_NEAR(found.rods[2], 12 / 20.0, 1e-15);  // of 4 to 7
+  EXPECT_EQ(found.rods[3], 0);
+  EXPECT_NEAR(found.density[0], 3 / 20.0, 1e-15);
+  EXPECT_NEAR(found.density[1], 2 / 20.0 / 2, 1e-15);
+  EXPECT_NEAR(found.density[2], 2 / 20.0 / 4, 1e-15);
+  EXPECT_TRUE(std::isnan(ClusterStatistics().reduce().largest));
+  EXPECT_TRUE(std::isnan(ClusterStatistics().reduce().rods[0]));
+}
+
+TEST(ClusterStatistics, MergeSaveAndReset) {
+  ClusterStatistics first, second, both;
+  first.accumulate({4, 1});
+  second.accumulate({2, 2, 1});
+  both.accumulate({4, 1});
+  both.accumulate({2, 2, 1});
+  first.merge(second);
+  EXPECT_EQ(first.reduce().size, both.reduce().size);
+  EXPECT_EQ(first.reduce().rods, both.reduce().rods);
+  stop_and_go_on(first, ClusterStatistics());
+  EXPECT_EQ(state(first), state(both));
+  expect_every_truncation_found(first);
+}
+
+TEST(ClusterSeries, KeepsLargestAndMean) {
+  ClusterSeries series;
+  series.accumulate(1, {3, 1});
+  series.accumulate(2, {2, 2});
+  EXPECT_EQ(series.times(), (std::vector<double>{1, 2}));
+  EXPECT_EQ(series.largest(), (std::vector<double>{0.75, 0.5}));
+  EXPECT_EQ(series.sizes(), (std::vector<double>{2.5, 2}));
+  stop_and_go_on(series, ClusterSeries());
+  EXPECT_EQ(series.sizes(), (std::vector<double>{2.5, 2}));
+}
+
+}  // namespace
+}  // namespace shaken::analysis

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include "analysis/temperatures.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/unit/analysis/analysis_samples.h"
+#include "tests/unit/analysis/state_checks.h"
+
+namespace shaken::analysis {
+namespace {
+
+constexpr RodInertia kBrass{.mass = 12, .across = 18, .along = 0.7};
+
+double of(const Temperatures& temperatures, Freedom freedom) { return temperatures[static_cast<std::size_t>(freedom)]; }
+
+/// A vector with independent normal components of given spreads along three unit vectors.
+Vec3 normal_vector(Draw& draw, const std::array<Vec3, 3>& axes, const std::array<double, 3>& spreads) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t k = 0; k < 3; ++k) sum += spreads[k] * draw.normal() * axes[k];
+  return sum;
+}
+
+struct Rods {
+  std::vector<Vec3> directors, velocities, angular_velocities;
+  Temperatures temperatures() const { return granular_temperatures(directors, velocities, angular_velocities, kBrass); }
+};
+
+// Maxwellian velocities of six given temperatures in the frame of each rod, on top of a drift that must not count.
+TEST(Temperatures, OfMaxwellianVelocitiesAreTheirs) {
+  constexpr std::size_t kRods = 200000;
+  constexpr double kAlong = 3, kAcross = 5, kVertical = 7, kTurning = 2, kTipping = 11, kSpinning = 0.5;
+  Draw draw(301);
+  Rods rods;
+  for (std::size_t i = 0; i < kRods; ++i) {
+    const double theta = draw.uniform(-kPi, kPi), n_z = draw.uniform(-0.6, 0.6);
+    const Vec3 n = axis(theta, n_z), u = axis(theta), e(-u.y(), u.x(), 0), k = n.cross(e);
+    const auto speed = [](double temperature, double inertia) { return std::sqrt(temperature / inertia); };
+    rods.directors.push_back(n);
+    rods.velocities.push_back(
+        Vec3(40, -30, 20) +
+        normal_vector(draw, {u, e, Vec3(0, 0, 1)},
+                      {speed(kAlong, kBrass.mass), speed(kAcross, kBrass.mass), speed(kVertical, kBrass.mass)}));
+    rods.angular_velocities.push_back(normal_vector(
+        draw, {k, e, n},
+        {speed(kTurning, kBrass.across), speed(kTipping, kBrass.across), speed(kSpinning, kBrass.along)}));
+  }
+  const Temperatures found = rods.temperatures();
+  const auto expect = [&](Freedom freedom, double temperature) {
+    EXPECT_NEAR(of(found, freedom), temperature, 4.5 * temperature * std::sqrt(2.0 / kRods));
+  };
+  expect(Freedom::kHorizontal, (kAlong + kAcross) / 2);
+  expect(Freedom::kVertical, kVertical);
+  expect(Freedom::kAlong, kAlong);
+  expect(Freedom::kAcross, kAcross);
+  expect(Freedom::kTurning, kTurning);
+  expect(Freedom::kTipping, kTipping);
+  expect(Freedom::kSpinning, kSpinning);
+  expect(Freedom::kRotation, (kTurning + kTipping + kSpinning) / 3);
+}
+
+// By hand: two rods along x and y, and one upright.
+TEST(Temperatures, OfAFewRodsByHand) {
+  Rods rods{{Vec3(1, 0, 0), Vec3(0, 1, 0)}, {Vec3(1, 2, 3), Vec3(-1, 4, 9)}, {Vec3(1, 2, 3), Vec3(4, 5, 6)}};
+  Temperatures found = rods.temperatures();  // velocities less their mean: +-(1, -1, -3)
+  EXPECT_NEAR(of(found, Freedom::kHorizontal), 12 * (2 + 2) / 2.0, 1e-12);
+  EXPECT_NEAR(of(found, Freedom::kVertical), 12 * (9 + 9), 1e-12);
+  EXPECT_NEAR(of(found, Freedom::kAlong), 12 * (1 + 1), 1e-12);
+  EXPECT_NEAR(of(found, Freedom::kAcross), 12 * (1 + 1), 1e-12);
+  EXPECT_NEAR(of(found, Freedom::kTurning), 18 * (9 + 36) / 2.0, 1e-12);
+  EXPECT_NEAR(of(found, Freedom::kTipping), 18 * (4 + 16) / 2.0, 1e-12);
+  EXPECT_NEAR(of(found, Freedom::kSpinning), 0.7 * (1 + 25) / 2.0, 1e-12);
+  EXPECT_NEAR(of(found, Freedom::kRotation), (18 * (13 + 52) + 0.7 * 26) / 2 / 3, 1e-12);
+  // An upright rod with the mean velocity: it counts where no direction in the plane is needed.
+  rods.directors.push_back(Vec3(0, 0, -1));
+  rods.velocities.push_back(Vec3(0, 3, 6));
+  rods.angular_velocities.push_back(Vec3(1, 1, 2));
+  found = rods.temperatures();
+  EXPECT_NEAR(of(found, Freedom::kVertical), 12 * 18 / 2.0, 1e-12);
+  EXPECT_NEAR(of(found, Freedom::kAlong), 12 * 1.5 * (1 + 1) / 2.0, 1e-12);
+  EXPECT_NEAR(of(found, Freedom::kTurning), 18 * (9 + 36) / 2.0, 1e-12);
+  EXPECT_NEAR(of(found, Freedom::kSpinning), 0.7 * (1 + 25 + 4) / 3.0, 1e-12);
+  EXPECT_NEAR(of(found, Freedom::kRotation), (18 * (13 + 52 + 2) + 0.7 * 30) / 3 / 3, 1e-12);
+}
+
+// Slow twin: the energy of all motion relative to the mean is half the sum of the temperatures of its freedoms.
+TEST(Temperatures, AddUpToTheEnergy) {
+  constexpr std::size_t kRods = 30;
+  Draw draw(302);
+  Rods rods{random_axes(draw, kRods), {}, {}};
+  for (std::size_t i = 0; i < kRods; ++i) {
+    rods.velocities.push_back(Vec3(draw.normal(), draw.normal(), draw.normal()));
+    rods.angular_velocities.push_back(Vec3(draw.normal(), draw.normal(), draw.normal()));
+  }
+  Vec3 mean = Vec3::Zero();
+  for (const Vec3& v : rods.velocities) mean += v / kRods;
+  double translation = 0, rotation = 0;
+  for (std::size_t i = 0; i < kRods; ++i) {
+    translation += kBrass.mass * (rods.velocities[i] - mean).squaredNorm() / 2;
+    const Vec3& n = rods.directors[i];
+    const Mat3 inertia = kBrass.across * (Mat3::Identity() - n * n.transpose()) + kBrass.along * n * n.transpose();
+    rotation += rods.angular_velocities[i].dot(inertia * rods.angular_velocities[i]) / 2;
+  }
+  const Temperatures found = rods.temperatures();
+  EXPECT_NEAR((2 * of(found, Freedom::kHorizontal) + of(found, Freedom::kVertical)) / 2, translation / (kRods - 1),
+              1e-12 * translation);
+  EXPECT_NEAR(of(found, Freedom::kAlong) + of(found, Freedom::kAcross), 2 * of(found, Freedom::kHorizontal), 1e-11);
+  EXPECT_NEAR(of(found, Freedom::kTurning) + of(found, Freedom::kTipping) + of(found, Freedom::kSpinning),
+              2 * rotation / kRods, 1e-12 * rotation);
+  EXPECT_NEAR(3 * of(found, Freedom::kRotation), 2 * rotation / kRods, 1e-12 * rotation);
+}
+
+// What the mean takes of the fluctuations of few rods is made up for.
+TEST(Temperatures, OfFewRodsAreUnbiased) {
+  constexpr int kRepeats = 40000;
+  Draw draw(303);
+  TemperatureStatistics statistics;
+  for (int i = 0; i < kRepeats; ++i) {
+    Rods rods{{axis(0.3), axis(2), axis(-1, 0.5)}, {}, std::vector<Vec3>(3, Vec3::Zero())};
+    for (int k = 0; k < 3; ++k) rods.velocities.push_back(Vec3(draw.normal(), draw.normal(), draw.normal()));
+    statistics.accumulate(rods.temperatures());
+  }
+  const Temperatures found = statistics.reduce();
+  for (const Freedom freedom : {Freedom::kHorizontal, Freedom::kVertical, Freedom::kAlong, Freedom::kAcross}) {
+    EXPECT_NEAR(of(found, freedom), kBrass.mass, 4.5 * kBrass.mass / std::sqrt(kRepeats));
+  }
+}
+
+TEST(Temperatures, OfASingleRodAreOfRotation) {
+  const Rods rods{{axis(1)}, {Vec3(1, 2, 3)}, {Vec3(0, 0, 2)}};
+  const Temperatures found = rods.temperatures();
+  EXPECT_TRUE(std::isnan(of(found, Freedom::kHorizontal)));
+  EXPECT_TRUE(std::isnan(of(found, Freedom::kAlong)));
+  EXPECT_NEAR(of(found, Freedom::kTurning), 18 * 4, 1e-12);
+  EXPECT_THROW(granular_temperatures(rods.directors, {}, rods.angular_velocities, kBrass), std::logic_error);
+}
+
+TEST(TemperatureSeries, KeepsEachByItself) {
+  TemperatureSeries series;
+  series.accumulate(1, {0, 1, 2, 3, 4, 5, 6, 7});
+  series.accumulate(2, {10, 11, 12, 13, 14, 15, 16, 17});
+  EXPECT_EQ(series.times(), (std::vector<double>{1, 2}));
+  EXPECT_EQ(series.of(Freedom::kTurning), (std::vector<double>{4, 14}));
+  stop_and_go_on(series, TemperatureSeries());
+  EXPECT_EQ(series.of(Freedom::kRotation), (std::vector<double>{7, 17}));
+  expect_every_truncation_found(series);
+}
+
+TEST(TemperatureStatistics, MergeSaveAndReset) {
+  TemperatureStatistics first, second;
+  first.accumulate({1, 2, 3, 4, 5, 6, 7, 8});
+  second.accumulate({3, 4, 5, 6, 7, 8, 9, 10});
+  first.merge(second);
+  EXPECT_EQ(first.reduce(), (Temperatures{2, 3, 4, 5, 6, 7, 8, 9}));
+  stop_and_go_on(first, TemperatureStatistics());
+  EXPECT_EQ(first.reduce(), (Temperatures{2, 3, 4, 5, 6, 7, 8, 9}));
+  expect_every_truncation_found(first);
+  EXPECT_TRUE(std::isnan(TemperatureStatistics().reduce()[0]));
+}
+
+}  // namespace
+}  // namespace shaken::analysis
