@@ -75,7 +75,7 @@ Json json_of(const TrajectoryHeader& header) {
   const Cell& cell = header.cell;
   Json json{{"n_rods", header.n_rods},
             {"box_side_mm", cell.box.x()},
-            {"box_aspect", cell.box.y() / cell.box.x()},
+            {"box_side_y_mm", cell.box.y()},
             {"gap_mm", cell.gap},
             {"dt_s", header.dt},
             {"species_of_rod", cell.species_of_rod},
@@ -94,10 +94,15 @@ Json json_of(const TrajectoryHeader& header) {
   return json;
 }
 
+Box box_of(const Json& json) {
+  const double x = json.at("box_side_mm");
+  return {x, json.value("box_side_y_mm", x)};
+}
+
 /// Throws what the JSON library throws if something is missing.
 TrajectoryHeader header_of(const Json& json) {
   TrajectoryHeader header{.n_rods = json.at("n_rods"),
-                          .cell = {.box = Box::of_aspect(json.at("box_side_mm"), json.value("box_aspect", 1.0)),
+                          .cell = {.box = box_of(json),
                                    .gap = json.at("gap_mm"),
                                    .species_of_rod = json.at("species_of_rod").get<std::vector<std::uint8_t>>()},
                           .dt = json.at("dt_s"),

@@ -35,12 +35,13 @@ TrajectoryHeader read_header(hid_t file) {
   TrajectoryHeader header;
   Cell& cell = header.cell;
   hdf5::read_attribute(parameters, "n_rods", H5T_NATIVE_INT, &header.n_rods);
-  double side = 0, aspect = 1;
-  hdf5::read_attribute(parameters, "box_side_mm", H5T_NATIVE_DOUBLE, &side);
-  if (hdf5::has_attribute(parameters, "box_aspect")) {
-    hdf5::read_attribute(parameters, "box_aspect", H5T_NATIVE_DOUBLE, &aspect);
+  double x = 0;
+  hdf5::read_attribute(parameters, "box_side_mm", H5T_NATIVE_DOUBLE, &x);
+  double y = x;
+  if (hdf5::has_attribute(parameters, "box_side_y_mm")) {
+    hdf5::read_attribute(parameters, "box_side_y_mm", H5T_NATIVE_DOUBLE, &y);
   }
-  cell.box = Box::of_aspect(side, aspect);
+  cell.box = Box(x, y);
   hdf5::read_attribute(parameters, "gap_mm", H5T_NATIVE_DOUBLE, &cell.gap);
   hdf5::read_attribute(parameters, "dt_s", H5T_NATIVE_DOUBLE, &header.dt);
   header.scene_json = hdf5::read_string(parameters, "scene_json");

@@ -50,9 +50,9 @@ void write_walls(hid_t file, const SideWalls& walls) {
 void write_parameters(hid_t file, const TrajectoryHeader& header) {
   const hdf5::Id parameters = hdf5::create_group(file, "parameters");
   hdf5::write_attribute(parameters, "n_rods", H5T_NATIVE_INT, {}, &header.n_rods);
-  const double side = header.cell.box.x(), aspect = header.cell.box.y() / side;
-  hdf5::write_attribute(parameters, "box_side_mm", H5T_NATIVE_DOUBLE, {}, &side);
-  if (aspect != 1) hdf5::write_attribute(parameters, "box_aspect", H5T_NATIVE_DOUBLE, {}, &aspect);
+  const double x = header.cell.box.x(), y = header.cell.box.y();
+  hdf5::write_attribute(parameters, "box_side_mm", H5T_NATIVE_DOUBLE, {}, &x);
+  if (y != x) hdf5::write_attribute(parameters, "box_side_y_mm", H5T_NATIVE_DOUBLE, {}, &y);
   hdf5::write_attribute(parameters, "gap_mm", H5T_NATIVE_DOUBLE, {}, &header.cell.gap);
   hdf5::write_attribute(parameters, "dt_s", H5T_NATIVE_DOUBLE, {}, &header.dt);
   write_beads(parameters, header.cell.species.at(0));

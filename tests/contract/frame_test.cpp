@@ -15,7 +15,7 @@ namespace shaken::proto {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kSide = 83.73;
+constexpr double kSide = 83.73, kHigh = 21.4;
 
 Frame random_frame(int n_rods, std::int64_t sequence) {
   std::mt19937_64 rng(static_cast<std::uint64_t>(1000 * sequence + n_rods));
@@ -25,17 +25,17 @@ Frame random_frame(int n_rods, std::int64_t sequence) {
               "0123456789abcdef",
               0.1 * static_cast<double>(sequence),
               25000 * sequence,
-              kSide,
+              {kSide, kHigh},
               0.5,
               0.25,
               {}};
   for (int i = 0; i < n_rods; ++i) {
-    frame.rods.push_back({kSide * unit(rng), kSide * unit(rng), 2 * kPi * (unit(rng) - 0.5), 2 * unit(rng) - 1});
+    frame.rods.push_back({kSide * unit(rng), kHigh * unit(rng), 2 * kPi * (unit(rng) - 0.5), 2 * unit(rng) - 1});
   }
   return frame;
 }
 
-double periodic_distance(double a, double b) { return std::abs(std::remainder(a - b, kSide)); }
+double periodic_distance(double a, double b, double side) { return std::abs(std::remainder(a - b, side)); }
 
 /// Angle between two axes with heads.
 double axis_angle(const std::array<double, 3>& a, const std::array<double, 3>& b) {
@@ -59,8 +59,8 @@ TEST(FrameCodec, ErrorsStayWithinHalfAStep) {
   ASSERT_EQ(rods.size(), frame.rods.size());
   constexpr double kSlack = 1 + 1e-9;
   for (std::size_t i = 0; i < rods.size(); ++i) {
-    EXPECT_LE(periodic_distance(rods[i].x, frame.rods[i].x), kSlack * kSide / 131072);
-    EXPECT_LE(periodic_distance(rods[i].y, frame.rods[i].y), kSlack * kSide / 131072);
+    EXPECT_LE(periodic_distance(rods[i].x, frame.rods[i].x, kSide), kSlack * kSide / 131072);
+    EXPECT_LE(periodic_distance(rods[i].y, frame.rods[i].y, kHigh), kSlack * kHigh / 131072);
     EXPECT_LE(std::abs(std::remainder(rods[i].theta - frame.rods[i].theta, 2 * kPi)), kSlack * kPi / 65536);
     EXPECT_LE(std::abs(rods[i].n_z - frame.rods[i].n_z), kSlack / 65534);
     EXPECT_GE(rods[i].theta, -kPi);

@@ -8,6 +8,7 @@
 
 #include "render/colourings.h"
 #include "render/style.h"
+#include "render/view.h"
 #include "tests/unit/render/render_support.h"
 
 namespace shaken::render {
@@ -20,6 +21,40 @@ TEST(RodPicture, AreaFractionOfThePapersSystem) {
   RodPicture picture = empty_picture(83.73);
   picture.frame.position.resize(2109);
   EXPECT_NEAR(picture.area_fraction(), 0.75, 0.75 / 2109);
+}
+
+TEST(RodPicture, AreaFractionOfARectangle) {
+  RodPicture picture = empty_picture(83.73);
+  picture.cell.box = {21, 126};
+  picture.frame.position.resize(100);
+  const double square = empty_picture(10).cell.species[0].area() * 100 / (21 * 126);
+  EXPECT_NEAR(picture.area_fraction(), square, 1e-12);
+}
+
+TEST(View, OfARectangleIsASquareOfItsImages) {
+  RodPicture picture = empty_picture(10);
+  picture.cell.box = {10, 40};
+  PictureStyle style;
+  const View view = view_of(picture, style);
+  EXPECT_EQ(view.side, 40);
+  EXPECT_EQ(view.corner, Vec2(-15, 0));
+  EXPECT_EQ(view.period, Vec2(10, 40));
+  EXPECT_EQ(framed_in(picture, style).corner, Vec2(15, 0));
+  EXPECT_EQ(framed_in(picture, style).sides, Vec2(10, 40));
+  std::vector<double> seen;
+  for_images(view, Vec2(6, 20), 0, [&](const Vec2& at) {
+    seen.push_back(at.x());
+    EXPECT_EQ(at.y(), 20);
+  });
+  EXPECT_EQ(seen, (std::vector<double>{1, 11, 21, 31}));
+  style.zoom = 4;
+  EXPECT_EQ(view_of(picture, style).side, 10);
+  EXPECT_EQ(view_of(picture, style).corner, Vec2(0, 15));
+  style.zoom = 1;
+  style.whole = true;  // the box alone
+  EXPECT_EQ(view_of(picture, style).period, Vec2(0, 0));
+  EXPECT_EQ(framed_in(picture, style).sides, Vec2(10, 40));
+  EXPECT_LT((view_of(picture, style).corner + framed_in(picture, style).corner).norm(), 1e-12);
 }
 
 TEST(RodPicture, AreaFractionOfASphereIsADiscs) {

@@ -23,7 +23,7 @@ using ::testing::HasSubstr;
 /// A rod of three beads and one of two, which has no middle.
 TrajectoryHeader two_species() {
   return {2,
-          {.box = 10,
+          {.box = {10, 5},
            .gap = 1.5,
            .species = {{{-1, 0, 1}, {0.25, 0.5, 0.25}}, {{-0.5, 0.75}, {0.5, 0.25}}},
            .species_of_rod = {0, 1}},

@@ -19,13 +19,14 @@ namespace shaken::run {
 namespace {
 
 constexpr double kSide = 83.73;
+constexpr double kHigh = 41.1;  // not kSide times a number
 constexpr double kGap = 1.2;
 constexpr double kDt = 4e-6;
 constexpr int kRods = 300;
 
 TrajectoryHeader header() {
   return {kRods,
-          {.box = kSide, .gap = kGap, .species = {{{-2.05, 0, 2.05}, {0.2, 0.4, 0.2}}}},
+          {.box = {kSide, kHigh}, .gap = kGap, .species = {{{-2.05, 0, 2.05}, {0.2, 0.4, 0.2}}}},
           kDt,
           R"({"rods": {"count": 300}})",
           {"0123456789abcdef", 77}};
@@ -38,9 +39,9 @@ Snapshot snapshot(Tick tick) {
   Snapshot s;
   s.tick = tick;
   s.time = static_cast<double>(tick) * kDt;
-  s.box = kSide;
+  s.box = {kSide, kHigh};
   for (int i = 0; i < kRods; ++i) {
-    s.position.emplace_back(kSide * unit(rng), kSide * unit(rng), kGap * unit(rng));
+    s.position.emplace_back(kSide * unit(rng), kHigh * unit(rng), kGap * unit(rng));
     s.director.push_back(Vec3{normal(rng), normal(rng), normal(rng)}.normalized());
     s.velocity.emplace_back(10 * normal(rng), 10 * normal(rng), 100 * normal(rng));
     s.angular_velocity.emplace_back(0, 0, 0);
@@ -142,7 +143,7 @@ TEST(Trajectory, ASpeciesWithoutBeadsIsRefused) {
 TEST(RecordedFrame, PositionsStayInTheBoxWhenRounded) {
   Snapshot s = snapshot(0);
   s.position[0] = Vec3(std::nextafter(kSide, 0.0), kSide - 1e-7, 0.6);
-  const auto frame = decode(record(s), kSide);
+  const auto frame = decode(record(s), s.box);
   EXPECT_LT(frame->position[0].x(), kSide);
   EXPECT_LT(frame->position[0].y(), kSide);
   EXPECT_NEAR(frame->position[0].x(), kSide, 1e-5);
@@ -153,13 +154,13 @@ TEST(RecordedFrame, DirectorsKeepTheirSignAlsoNearThePoles) {
   const std::vector<Vec3> special{{0, 0, 1},  {0, 0, -1},    {1, 0, 0},     {-1, 0, 0},    {0, 1, 0},
                                   {0, -1, 0}, {1e-5, 0, -1}, {0, -1e-4, 1}, {-1e-9, 0, -1}};
   for (std::size_t i = 0; i < special.size(); ++i) s.director[i] = special[i].normalized();
-  expect_same(*decode(record(s), kSide), s);
+  expect_same(*decode(record(s), s.box), s);
 }
 
 TEST(RecordedFrame, AnOrientationThatIsNoneIsRefused) {
   RecordedFrame frame = record(snapshot(0));
   for (std::size_t k = 0; k < 4; ++k) frame.orientation[4 * 7 + k] = 0;
-  const auto decoded = decode(frame, kSide);
+  const auto decoded = decode(frame, {kSide, kHigh});
   ASSERT_FALSE(decoded);
   EXPECT_NE(decoded.error().message.find("rod 7"), std::string::npos) << decoded.error().message;
 }
@@ -171,19 +172,19 @@ TEST(RecordedFrame, ANumberThatNoRodCanHaveIsRefusedWithItsRod) {
     for (const std::size_t k : {0U, 1U, 2U}) {
       RecordedFrame frame = record(snapshot(0));
       frame.position[3 * 7 + k] = bad;
-      const auto decoded = decode(frame, kSide);
+      const auto decoded = decode(frame, {kSide, kHigh});
       ASSERT_FALSE(decoded) << bad << " " << k;
       EXPECT_NE(decoded.error().message.find(k < 2 ? "the position of rod 7 is" : "the height of rod 7 is"),
                 std::string::npos)
           << decoded.error().message;
       frame = record(snapshot(0));
       frame.velocity[3 * 7 + k] = bad;
-      EXPECT_FALSE(decode(frame, kSide)) << bad << " " << k;
+      EXPECT_FALSE(decode(frame, {kSide, kHigh})) << bad << " " << k;
     }
     RecordedFrame frame = record(snapshot(0));
     frame.time = bad;
     if (bad != 1e30F) {
-      EXPECT_FALSE(decode(frame, kSide)) << bad;
+      EXPECT_FALSE(decode(frame, {kSide, kHigh})) << bad;
     }
   }
 }
