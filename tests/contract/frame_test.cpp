@@ -80,10 +80,10 @@ TEST(FrameCodec, AnAngleThatRoundsToTheOtherEndOfTheCircleKeepsTheHead) {
 
 TEST(FrameCodec, PlacesOnTheEdgeOfTheBoxStayThere) {
   Frame frame = random_frame(0, 1);
-  frame.rods = {{0, std::nextafter(kSide, 0.0), 0, 0}};
+  frame.rods = {{0, std::nextafter(kHigh, 0.0), 0, 0}};
   const RodPose rod = decode_chunk(encode_frame(frame)[0])[0];
-  EXPECT_LT(periodic_distance(rod.x, 0), 1e-12);
-  EXPECT_LT(periodic_distance(rod.y, 0), 1e-12);
+  EXPECT_LT(periodic_distance(rod.x, 0, kSide), 1e-12);
+  EXPECT_LT(periodic_distance(rod.y, 0, kHigh), 1e-12);
 }
 
 TEST(Pose, KeepsTheAxis) {
@@ -122,7 +122,7 @@ TEST(FrameAssembler, TakesChunksInAnyOrder) {
     ASSERT_EQ(frame->rods.size(), sent.rods.size());
     EXPECT_EQ(frame->tick, sent.tick);
     for (std::size_t i = 0; i < sent.rods.size(); i += 997) {
-      EXPECT_LT(periodic_distance(frame->rods[i].x, sent.rods[i].x), 0.001) << i;
+      EXPECT_LT(periodic_distance(frame->rods[i].x, sent.rods[i].x, kSide), 0.001) << i;
     }
   } while (std::next_permutation(order.begin(), order.end()));
 }
