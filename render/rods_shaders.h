@@ -37,8 +37,8 @@ float beyond(vec2 at) {
 #endif
   vec2 from_middle = at - middle;
   float r = length(from_middle);
-  vec2 beyond = abs(from_middle) - 0.5 * size;
-  if (arena == 1) return max(beyond.x, beyond.y);
+  vec2 past_sides = abs(from_middle) - 0.5 * size;
+  if (arena == 1) return max(past_sides.x, past_sides.y);
   return arena == 2 ? max(r - 0.5 * size.x, 0.5 * inner - r) : r - 0.5 * size.x;
 }
 vec3 faded(vec3 colour, float depth) {
@@ -272,8 +272,8 @@ void main() {
   float t = ray.z == 0.0 ? -1.0 : ((is_base ? plates.x : plates.y) - start.z) / ray.z;
   vec3 at = start + t * ray;
   float depth = dot(at, forward);
-  vec2 beyond = abs(at.xy - middle) - 0.5 * plate;
-  if (t < 0.0 || max(beyond.x, beyond.y) > line || depth > fade.y || (!is_base && !has_lid)) {
+  vec2 past_sides = abs(at.xy - middle) - 0.5 * plate;
+  if (t < 0.0 || max(past_sides.x, past_sides.y) > line || depth > fade.y || (!is_base && !has_lid)) {
     pixel = vec4(page, 1.0);
     return;
   }
