@@ -17,7 +17,7 @@
 namespace shaken::analysis {
 namespace {
 
-/// Bounds of the cost: rods looked at in one sample, waves to the side of the box.
+/// Bounds of the cost: rods looked at in one sample, waves to the side of a square box, or vectors as many as there.
 constexpr std::size_t kMaxReferencesOfPeak = 1024;
 constexpr int kMostPeakWaves = 128;
 constexpr std::size_t kNeighbours = 6;
@@ -119,7 +119,8 @@ void LatticeOrder::accumulate(std::span<const Vec3> positions, std::span<const V
   }
 
   const double most = box.longer() / shape_.shortest, fewest = box.longer() / shape_.longest;
-  const WaveVectors vectors(box, std::max(1, static_cast<int>(std::min<double>(most, kMostPeakWaves))));
+  const double most_waves = std::min(most, kMostPeakWaves * std::sqrt(box.longer() / box.shorter()));
+  const WaveVectors vectors(box, std::max(1, static_cast<int>(most_waves)));
   const std::vector<double> powers = wave_powers(places, std::vector<double>(places.size(), 1.0), vectors);
   double largest = 0;
   vectors.for_each([&](int m, int k, const Vec2& q) {

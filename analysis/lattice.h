@@ -41,7 +41,8 @@ class LatticeOrder : public Summed<LatticeOrder> {
   struct Shape {
     Box box;
     double ratio;     ///< of a rod's length to its width; distances along the director are divided by it
-    double shortest;  ///< wavelength [mm]; at most 128 waves to the longer side of the box are looked at
+    double shortest;  ///< wavelength [mm]; at most 128 waves to the side of a square box are looked at,
+                      ///< and as many wave vectors of another
     double longest;   ///< [mm]
     friend bool operator==(const Shape&, const Shape&) = default;
     static constexpr auto fields() {

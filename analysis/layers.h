@@ -49,7 +49,8 @@ struct LayerPeak {
 /// as the peak are left out. A wavelength near L is the long-wave bend of a nematic, not layers.
 class LayerOrder : public Summed<LayerOrder> {
  public:
-  /// Waves no shorter than `shortest` [mm], and at most 40 of them to the longer side of the box.
+  /// Waves no shorter than `shortest` [mm], and at most 40 of them to the side of a square box; of another as many
+  /// wave vectors.
   LayerOrder(const Box& box, double shortest);
 
   /// Centres (n_rods) [mm] and directors (n_rods). Rods exactly upright are left out; without any other, nothing

@@ -23,7 +23,10 @@ std::vector<double> densities(const Cell& box, const Frame& frame, double width)
   const Box& sides = box.box;
   const bool is_periodic = !box.walls;
   // Cells at least as wide as the reach, so that neighbours lie in nine of them; fewer than three would count twice.
-  const auto cells_along = [&](double side) { return static_cast<int>(std::clamp(std::floor(side / reach), 1.0, 512.0)); };
+  const auto cells_along = [&](double side) {
+    const int cells = static_cast<int>(std::clamp(std::floor(side / reach), 1.0, 512.0));
+    return cells < 3 ? 1 : cells;
+  };
   const int columns = cells_along(sides.x()), rows = cells_along(sides.y());
   std::vector<std::vector<std::size_t>> in_cell(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
   std::vector<Vec2> place(n);
@@ -44,7 +47,7 @@ std::vector<double> densities(const Cell& box, const Frame& frame, double width)
   }
   const double norm = 2 * kPi * width * width * (1 - std::exp(-4.5));
   std::vector<double> density(n);
-  const bool by_cells = columns >= 3 && rows >= 3;
+  const int wide = columns > 1 ? 1 : 0, high = rows > 1 ? 1 : 0;
   for (std::size_t i = 0; i < n; ++i) {
     double sum = 0;
     const auto add = [&](std::size_t j) {
@@ -53,13 +56,9 @@ std::vector<double> densities(const Cell& box, const Frame& frame, double width)
       const double square = d.squaredNorm();
       if (square < reach * reach) sum += area[box.species_of(j)] * std::exp(-square / (2 * width * width));
     };
-    if (!by_cells) {
-      for (std::size_t j = 0; j < n; ++j) add(j);
-    } else {
-      for (int dj = -1; dj <= 1; ++dj) {
-        for (int di = -1; di <= 1; ++di) {
-          for (const std::size_t j : cell(column_of(place[i]) + di, row_of(place[i]) + dj)) add(j);
-        }
+    for (int dj = -high; dj <= high; ++dj) {
+      for (int di = -wide; di <= wide; ++di) {
+        for (const std::size_t j : cell(column_of(place[i]) + di, row_of(place[i]) + dj)) add(j);
       }
     }
     density[i] = sum / norm;

@@ -138,7 +138,10 @@ class Occupied {
   }
 
  private:
-  static int cells_along(double side, double distance) { return std::max(1, static_cast<int>(side / distance)); }
+  static int cells_along(double side, double distance) {
+    const int cells = static_cast<int>(side / distance);
+    return cells < 3 ? 1 : cells;  // of two, each would be the other's neighbour on both sides
+  }
   static int cell_along(double x, double side, int cells) {
     return std::min(static_cast<int>(analysis::wrapped(x, side) / side * cells), cells - 1);
   }

@@ -25,7 +25,7 @@ View view_of(const RodPicture& picture, const PictureStyle& style) {
     double margin = 0;
     for (const BeadRow& beads : picture.cell.species) margin = std::max(margin, beads.reach());
     view.side = box.longer() + 2 * margin;
-    look_at(box.sides() / 2);
+    view.corner = Vec2(-margin, -margin) - (Vec2(box.longer(), box.longer()) - box.sides()) / 2;
     return view;
   }
   view.side = box.longer() / std::max(style.zoom, 1.0);
@@ -56,8 +56,9 @@ bool is_in_view(const RodPicture& picture, const PictureStyle& style, const Vec2
 Framed framed_in(const RodPicture& picture, const PictureStyle& style) {
   const View view = view_of(picture, style);
   const Box& box = picture.cell.box;
-  const bool shows_more = is_whole(picture.cell, style) || (style.zoom <= 1 && box.x() != box.y());
-  if (shows_more && !followed_rod(picture.frame, style) && !style.followed_defect) return {-view.corner, box.sides()};
+  const bool is_on_the_box =
+      style.zoom <= 1 && !followed_rod(picture.frame, style) && !(style.followed_defect && picture.found.followed);
+  if (is_whole(picture.cell, style) || (is_on_the_box && box.x() != box.y())) return {-view.corner, box.sides()};
   return {Vec2(0, 0), Vec2(view.side, view.side)};
 }
 

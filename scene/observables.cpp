@@ -41,7 +41,7 @@ namespace {
 
 /// Wave vectors up to `waves` of them to the longer side of the box, one of each pair +-q (analysis/wave_sums.h).
 double half_plane(double waves, const Box& box) {
-  const Vec2 most = (waves / box.longer() * box.sides()).array().floor();
+  const Vec2 most = (waves / box.longer() * box.sides() * (1 + 1e-12)).array().floor();
   return (most.x() + 1) * (2 * most.y() + 1);
 }
 
@@ -91,7 +91,8 @@ MeasureMemory of_flow(const Sizes& sizes) {
 
 MeasureMemory of_layers(const Sizes& sizes) {
   const Box box = sizes.plan.system.box();
-  const double waves = std::min(40.0, std::floor(2 * box.longer() / sizes.plan.system.rod.length));
+  const double waves = std::floor(std::min(40 * std::sqrt(box.longer() / box.shorter()),
+                                           2 * box.longer() / sizes.plan.system.rod.length));
   const double vectors = half_plane(waves, box);
   return {"", sizes.in_blocks(2 * kNumberBytes * (vectors + 2 * waves)), vectors * kNumberBytes};
 }
@@ -266,7 +267,9 @@ Observable lattice() {
   return {
     .doc = "Crystalline order: psi_6 and the largest Bragg peak.",
     .periodic = "the nearest images and waves",
-    .memory = [](const Sizes& s) -> MeasureMemory { return {"", s.in_blocks(200), half_plane(128, s.plan.system.box()) * kNumberBytes}; }};
+    .memory = [](const Sizes& s) -> MeasureMemory {
+      const Box box = s.plan.system.box();
+      return {"", s.in_blocks(200), half_plane(128 * std::sqrt(box.longer() / box.shorter()), box) * kNumberBytes}; }};
 }
 
 Observable structure() {

@@ -345,8 +345,12 @@ Result<std::vector<Flight>> place_random(const Placement& rods) {
   // rods are flat here, so centres further apart than one rod length cannot touch: cells of that width
   const double width = rods.rod_extent();
   const Box box = system.box();
-  const int columns = std::max(1, static_cast<int>(box.x() / width));
-  const int rows = std::max(1, static_cast<int>(box.y() / width));
+  const auto cells_along = [width](double side) {
+    const int cells = static_cast<int>(side / width);
+    return cells < 3 ? 1 : cells;  // all rods are neighbours along it
+  };
+  const int columns = cells_along(box.x()), rows = cells_along(box.y());
+  const int wide = columns > 1 ? 1 : 0, high = rows > 1 ? 1 : 0;
   std::vector<std::vector<int>> members(static_cast<std::size_t>(columns) * rows);
   const auto column_of = [&](const Flight& rod) {
     return std::min(columns - 1, static_cast<int>(rod.position.x() / box.x() * columns));
@@ -365,14 +369,8 @@ Result<std::vector<Flight>> place_random(const Placement& rods) {
       find_bead_contacts(species, candidate.director, rods.species_of(other), flights[other].director, D, contacts);
       return !contacts.empty();
     };
-    if (columns < 3 || rows < 3) {
-      for (std::size_t other = 0; other < flights.size(); ++other) {
-        if (touches(static_cast<int>(other))) return false;
-      }
-      return true;
-    }
-    for (int dy = -1; dy <= 1; ++dy) {
-      for (int dx = -1; dx <= 1; ++dx) {
+    for (int dy = -high; dy <= high; ++dy) {
+      for (int dx = -wide; dx <= wide; ++dx) {
         const int cx = (column_of(candidate) + dx + columns) % columns;
         const int cy = (row_of(candidate) + dy + rows) % rows;
         for (int other : members[cy * columns + cx]) {

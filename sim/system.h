@@ -143,8 +143,8 @@ struct System {
   }
   bool has_rotational_noise() const { return rotational_noise > 0; }
   bool has_impacts_at_instant() const { return impacts == ImpactTime::kAtInstant; }
-  /// Nothing pushes or pulls across the plane, and rods that start in it stay there to the last bit.
   Box box() const { return Box::of_aspect(box_side, box_aspect); }
+  /// Nothing pushes or pulls across the plane, and rods that start in it stay there to the last bit.
   bool is_planar() const { return !base && !lid && gravity == 0; }
 
   friend bool operator==(const System&, const System&) = default;

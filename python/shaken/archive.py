@@ -222,6 +222,8 @@ def _small(frame: Frame) -> tuple[float, np.ndarray, np.ndarray, float, int]:
     places, which compresses better than that of their numbers."""
     first = frame.species == 0
     side = float(frame.box[0])
+    if frame.box[1] != side:
+        raise ShakenError("an archive keeps the rods of square boxes only")
     place = np.minimum((frame.positions[first, :2] / side * 65536).astype(int), 65535)
     turn = (frame.theta[first] / np.pi + 0.5) % 1.0
     width = 2 if len(place) < 1500 else 1

@@ -26,7 +26,8 @@ class LiveFrame:
     job_id:    of the run
     time:      simulated time [s]
     tick:      time over the time step
-    side:      of the box [mm]
+    side:      of the box along x [mm]
+    side_y:    of the box along y [mm]
     order:     S of the first species; NaN of spheres
     director:  its angle [rad], in [-pi/2, pi/2)
     positions: (n, 2) centres in the plane [mm], to a 65,536th of the box
@@ -38,6 +39,7 @@ class LiveFrame:
     time: float
     tick: int
     side: float
+    side_y: float
     order: float
     director: float
     positions: np.ndarray
@@ -100,7 +102,7 @@ class _Payload:
 
 
 #: What LCM makes of the types of the messages and their names (`lcm-gen --python`), so that no other type is read.
-_FRAME, _OBSERVABLES = 0x1EFD27B8E565207F, 0x59B43E22B4B3C113
+_FRAME, _OBSERVABLES = 0x0D06D91756EFF7D0, 0x59B43E22B4B3C113
 
 
 def _decode_observables(data: bytes) -> LiveObservables:
@@ -125,7 +127,7 @@ class _FrameParts:
         message = _Payload(data, _FRAME)
         _, sequence = message.numbers("qq")
         job = message.text()
-        time, tick, side, order, director, n_rods, chunk, n_chunks, _, n = message.numbers("dqdddiiiii")
+        time, tick, side, side_y, order, director, n_rods, chunk, n_chunks, _, n = message.numbers("dqddddiiiii")
         if not (0 <= n <= n_rods <= 10_000_000 and 0 <= chunk < n_chunks <= 2_000):
             raise ValueError("sizes that no frame has")
         rods = message.array(4 * n, ">i2").reshape(4, n)
@@ -139,8 +141,8 @@ class _FrameParts:
             return None
         del self._parts[job]
         x, y, heading, n_z = np.concatenate([parts[k] for k in range(n_chunks)], axis=1).astype(float)
-        return LiveFrame(job, time, tick, side, order, director,
-                         np.stack([(x / 65536 + 0.5) * side, (y / 65536 + 0.5) * side], axis=1),
+        return LiveFrame(job, time, tick, side, side_y, order, director,
+                         np.stack([(x / 65536 + 0.5) * side, (y / 65536 + 0.5) * side_y], axis=1),
                          heading * (2 * np.pi / 65536), n_z / 32767)
 
 

@@ -55,7 +55,7 @@ def test_types_are_those_of_the_definitions(tmp_path):
         sys.path.remove(str(tmp_path))
     frame = frame_t()
     frame.job_id, frame.sim_time_s, frame.tick, frame.order = "abc", 1.5, 7, 0.5
-    frame.box_x_mm = frame.box_y_mm = 20.0
+    frame.box_x_mm, frame.box_y_mm = 20.0, 40.0
     frame.n_rods, frame.chunk, frame.n_chunks, frame.n_chunk_rods = 3, 0, 2, 2
     frame.x, frame.y, frame.heading, frame.n_z = [0, 32767], [-32768, 0], [0, 16384], [32767, 0]
     parts = bus._FrameParts()
@@ -64,7 +64,7 @@ def test_types_are_those_of_the_definitions(tmp_path):
     frame.x, frame.y, frame.heading, frame.n_z = [0], [0], [-32768], [0]
     whole = parts.add(frame.encode())
     assert whole.time == 1.5 and whole.tick == 7 and np.allclose(whole.theta, [0, np.pi / 2, -np.pi])
-    assert np.allclose(whole.positions, [[10, 0], [19.9997, 10], [10, 10]], atol=1e-4) and whole.n_z[0] == 1
+    assert np.allclose(whole.positions, [[10, 0], [19.9997, 20], [10, 20]], atol=1e-4) and whole.n_z[0] == 1
     numbers = observables_t()
     numbers.job_id, numbers.n_rods, numbers.order, numbers.eta_s, numbers.collisions_rod_lid = "abc", 9, 0.25, 3.5, 4
     found = bus._decode_observables(numbers.encode())

@@ -75,13 +75,13 @@ Json json_of(const TrajectoryHeader& header) {
   const Cell& cell = header.cell;
   Json json{{"n_rods", header.n_rods},
             {"box_side_mm", cell.box.x()},
-            {"box_side_y_mm", cell.box.y()},
             {"gap_mm", cell.gap},
             {"dt_s", header.dt},
             {"species_of_rod", cell.species_of_rod},
             {"scene", header.scene_json},
             {"run_id", header.provenance.run_id},
             {"seed", header.provenance.seed}};
+  if (cell.box.y() != cell.box.x()) json["box_side_y_mm"] = cell.box.y();
   for (const BeadRow& row : cell.species)
     json["beads"].push_back({{"offset_mm", row.offset}, {"radius_mm", row.radius}});
   if (cell.walls) {

@@ -43,7 +43,7 @@ MeasurementKind structure_kind() {
       .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
         return std::make_unique<MeasuredStructure>(analysis::StructureFactor(context.plan.system.box(), context.plan.structure->waves));
       },
-      .arrays = {{"q_per_mm", "wave numbers 2πk/L"},
+      .arrays = {{"q_per_mm", "wave numbers 2πk/L, L being the longer side of the box"},
                  {"factor", "S(q) of the centres, mean over all directions of q", kWithError},
                  {"factor_along", "of wave vectors within 30° of the director", kWithError},
                  {"factor_across", "of wave vectors within 30° of its normal", kWithError}},

@@ -159,9 +159,10 @@ void resolve_numbers(Resolution& scene) {
 void check_box(Resolution& scene) {
   System& system = scene.plan.system;
   const Field& side = field_at("box.side");
-  if (scene.ok({"box.side", "box.aspect"}) && system.box().y() > side.high) {
-    scene.report({"box.aspect", "box.side"}, fmt::format("a box of {}: no side may be longer than {}",
-                                                         sides_text(system), length_text(side.high)));
+  const double high = system.box().y();
+  if (scene.ok({"box.side", "box.aspect"}) && (high < side.low || high > side.high)) {
+    scene.report({"box.aspect", "box.side"}, fmt::format("a box of {}: sides are {} to {} long", sides_text(system),
+                                                         length_text(side.low), length_text(side.high)));
   }
   for (const RodGroup& group : rod_groups(system)) {
     const Species species = species_of(group.rod);

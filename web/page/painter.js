@@ -52,8 +52,8 @@ void main() {
 export function instancesOf(frame, view) {
   const {n_rods: n, box_mm: box} = frame, half = Math.max(...box) / 2 / view.zoom;
   const reach = frame.outlines.map(([length, , end]) => length + end);
-  const shifts = box.map((side) => {  // to the images that may be seen: of a square, to the nearest
-    const most = frame.walls ? 0 : Math.ceil(Math.max(...box) / side / 2 + 0.5);
+  const shifts = box.map((side) => {  // to the images that may be seen
+    const most = frame.walls ? 0 : Math.max(1, Math.floor((half + Math.max(...reach)) / side + 0.5));
     return Array.from({length: 2 * most + 1}, (_, k) => (k - most) * side);
   });
   const images = shifts[0].length * shifts[1].length;

@@ -50,7 +50,7 @@ std::string text_of(FrameFormat& format, const std::vector<RecordedFrame>& frame
   return text;
 }
 
-constexpr const char* kBox = R"(Lattice="10 0 0 0 10 0 0 0 2" Properties=)";
+constexpr const char* kBox = R"(Lattice="10 0 0 0 5 0 0 0 2" Properties=)";
 
 TEST(ExtendedXyz, HasOneLineForEachRod) {
   EXPECT_EQ(text_of(*make_extended_xyz(two_species()), {frame_of_two()}),
@@ -192,10 +192,10 @@ TEST(Gsd, HoldsTheRodsFromTheMiddleOfTheBox) {
   const GsdFile file(text_of(*make_gsd(two_species(), 1), {frame_of_two()}));
   const auto is = [](auto... values) { return ::testing::ElementsAre(values...); };
   EXPECT_THAT(file.array<std::uint64_t>(0, "configuration/step", kUint64), is(8U));
-  EXPECT_THAT(file.array<float>(0, "configuration/box", kFloat), is(10.F, 10.F, 2.F, 0.F, 0.F, 0.F));
+  EXPECT_THAT(file.array<float>(0, "configuration/box", kFloat), is(10.F, 5.F, 2.F, 0.F, 0.F, 0.F));
   EXPECT_THAT(file.array<std::uint32_t>(0, "particles/N", kUint32), is(2U));
   EXPECT_THAT(file.array<std::uint32_t>(0, "particles/typeid", kUint32), is(0U, 1U));
-  EXPECT_THAT(file.array<float>(0, "particles/position", kFloat), is(-4.F, -3.F, -0.5F, 4.5F, -4.75F, 0.F));
+  EXPECT_THAT(file.array<float>(0, "particles/position", kFloat), is(-4.F, -0.5F, -0.5F, 4.5F, -2.25F, 0.F));
   EXPECT_EQ(file.array<float>(0, "particles/orientation", kFloat), frame_of_two().orientation);
   EXPECT_EQ(file.array<float>(0, "particles/velocity", kFloat), frame_of_two().velocity);
   EXPECT_EQ(file.array<std::int32_t>(0, "particles/image", kInt32), frame_of_two().image);

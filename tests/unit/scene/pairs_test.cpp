@@ -89,7 +89,7 @@ TEST(Packing, OfARectangle) {
             "run.json:1:18: /box/side: a periodic box of 21 mm by 8.4 mm is too small for rods of 4.5 mm: at least "
             "9.9 mm");
   EXPECT_EQ(problem_of(R"({"box": {"side": 100, "aspect": 30}})"),
-            "run.json:1:33: /box/aspect: a box of 100 mm by 3000 mm: no side may be longer than 2000 mm");
+            "run.json:1:33: /box/aspect: a box of 100 mm by 3000 mm: sides are 1 mm to 2000 mm long");
   EXPECT_EQ(problem_of(R"({"box": {"aspect": 2}, "walls": {}})"),
             "run.json:1:20: /box/aspect: an arena lies in the middle of a square box: remove box.aspect or walls");
   EXPECT_EQ(problem_of(R"({"box": {"aspect": 2}, "measure": {"frank": {}}})"),
