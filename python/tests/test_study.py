@@ -16,7 +16,7 @@ from shaken.estimate import Estimate
 from shaken.study import sets, time_step
 from shaken.study.evidence import Evidence
 from shaken.study.figures import FIGURES
-from shaken.study.report import with_sections
+from shaken.study.report import phases, sections, with_sections
 from shaken.study.statements import STATEMENTS
 
 SOURCE = Path(__file__).resolve().parents[2]
@@ -121,6 +121,20 @@ def test_sections_are_replaced_between_their_marks():
         with_sections(document + "<!-- verdicts: begin --><!-- verdicts: end -->", known)
     with pytest.raises(ShakenError, match="lacks one of <!-- claims: begin"):
         with_sections("<!-- claims: end -->", known)
+
+
+def test_every_mark_of_the_pages_is_a_section():
+    known = sections(Evidence([]))
+    for page in ("README.md", "docs/validation.md", "docs/accuracy.md", "docs/findings.md"):
+        text = (SOURCE / page).read_text()
+        again = with_sections(text, {name: lambda: "" for name in known}, page)
+        assert again != text, f"{page} has sections that are drawn"
+
+
+def test_the_phase_diagram_stands_beside_the_papers_words():
+    lines = phases(Evidence([])).splitlines()
+    said = {statement.id: statement.says for statement in STATEMENTS}
+    assert lines[2:] == [f"| {said[name]} | – | no data |" for name in ("ordered", "disordered", "short", "transition")]
 
 
 def _timed_run(step: float, numbers: dict[str, Estimate], cpu: float = 3600.0, time: float = 100.0) -> SimpleNamespace:

@@ -11,6 +11,7 @@ from ..estimate import Estimate
 from ..plots import names
 from ..plots.sheet import Sheet
 from ..run import Run
+from .beyond_paper import swimming_defects
 from .evidence import FREQUENCY, LENGTH, PACKING, SIDE, Runs, key_of, number_of
 from .material import Material, angle_bar, draw_curves, draw_points, draw_rods, first_snapshot, packing_scale
 from .motion_checks import (FREE_OF_THE_WINDOW, late_velocity_correlation, long_rods, papers_diffusion, short_rods,
@@ -244,9 +245,10 @@ def defects(material: Material) -> Sheet:
 
 
 def melting(material: Material) -> Sheet:
-    """Defects against packing and order."""
+    """Defects against packing and order, and how those that last move."""
     runs = material.evidence.joined("long-rods", "short-rods", "crossings", "phases").at(side=33.492)
-    sheet = material.sheet(2, columns=2, height=55)
+    sheet = material.sheet(3, height=55)
+    three = sheet[2].titles(names.axis_title(PACKING), "velocity of +1/2 (mm/s)", "head first where > 0")
     one = sheet[0].titles(names.axis_title(PACKING), names.axis_title("defect_density_per_mm2"), "defects")
     two = sheet[1].titles(names.axis_title("S"), names.axis_title("defect_density_per_mm2"), "against order")
     for k, length in enumerate(runs.values(LENGTH)):
@@ -254,8 +256,10 @@ def melting(material: Material) -> Sheet:
         points = here.points(PACKING, "defect_density_per_mm2")
         draw_points(one, points, label, k)
         draw_points(two, [(here.at(packing=at).number("S").value, e) for at, e in points], label, k, joined=False)
+        draw_points(three, swimming_defects(here), label, k)
     for panel in (one, two):
         panel.range(y=(0, None))
+    three.zero()
     return sheet
 
 

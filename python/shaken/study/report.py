@@ -9,8 +9,9 @@ from pathlib import Path
 from typing import Callable, Mapping
 
 from ..errors import ShakenError
-from .figures import FIGURES
+from .beyond_paper import SECTIONS
 from .evidence import Evidence
+from .figures import FIGURES
 from .sets import ORDER
 from .statements import STATEMENTS, as_table, findings
 from .time_step import differences, prices
@@ -57,6 +58,19 @@ def tally(evidence: Evidence) -> str:
     return _wrapped(f"Of the paper's {len(STATEMENTS)} statements {', '.join(listed)}.").rstrip() + "\n"
 
 
+#: Statements about the phase diagram, figure 3.
+_PHASES = ("ordered", "disordered", "short", "transition")
+
+
+def phases(evidence: Evidence) -> str:
+    """The paper's words on the phase diagram and what was found, for a page that shows the figure; in Markdown."""
+    lines = ["| the paper says | found here | verdict |", "|---|---|---|"]
+    for statement, finding in findings(evidence, [s for s in STATEMENTS if s.id in _PHASES]):
+        why = f": {finding.why}" if finding.why else ""
+        lines.append(f"| {statement.says} | {finding.found or '–'} | {finding.verdict}{why} |")
+    return "\n".join(lines) + "\n"
+
+
 def figures_list(evidence: Evidence, folder: str) -> str:
     """The figures in `folder`, and which are still to come for want of runs."""
     shown, missing = [], []
@@ -82,9 +96,11 @@ def _wrapped(text: str) -> str:
 def sections(evidence: Evidence, folder: str = "figures") -> dict[str, Callable[[], str]]:
     """What makes each section that a page may have, by the names of their marks."""
     return {"origin": lambda: origin(evidence), "tally": lambda: tally(evidence),
-            "claims": lambda: as_table(findings(evidence)), "sweeps": lambda: sets_table(evidence),
+            "claims": lambda: as_table(findings(evidence)),
+            "phases": lambda: phases(evidence), "sweeps": lambda: sets_table(evidence),
             "figures": lambda: figures_list(evidence, folder), "time step": lambda: differences(evidence),
-            "price of errors": lambda: prices(evidence)}
+            "price of errors": lambda: prices(evidence),
+            **{name: lambda make=make: make(evidence) for name, make in SECTIONS.items()}}
 
 
 def with_sections(document: str, known: Mapping[str, Callable[[], str]], where: str = "the report") -> str:

@@ -1,0 +1,301 @@
+# SPDX-License-Identifier: MIT
+"""What the runs have that the paper does not: the tables of docs/findings.md, and the price of the runs to do next."""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Callable, Iterable, Sequence
+
+import numpy as np
+
+from ..estimate import Estimate, derived
+from ..run import Run
+from .evidence import BEADS, FREQUENCY, GAMMA, LENGTH, PACKING, SIDE, Evidence, Runs, key_of, number_of
+from .motion_checks import late_velocity_correlation, papers_diffusion, speed_between
+from .rules import text
+from .running import speed
+
+#: A column of a table: its heading, and what it says of the runs at one state point.
+Column = tuple[str, Callable[[Runs], str]]
+
+
+def table(points: Iterable[Runs], columns: Sequence[Column]) -> str:
+    """A table of Markdown with a row for the runs at each state point; state points without runs are left out."""
+    lines = ["| " + " | ".join(heading for heading, _ in columns) + " |", "|---" * len(columns) + "|"]
+    lines += ["| " + " | ".join(cell(runs) for _, cell in columns) + " |" for runs in points if runs]
+    return "\n".join(lines) + "\n"
+
+
+def key(heading: str, path: str, unit: str = "") -> Column:
+    """A key of the scene."""
+    return heading, lambda runs: f"{key_of(runs[0], path):.3g}{unit}"
+
+
+def number(heading: str, of: str | Callable[[Run], Estimate], factor: float = 1.0) -> Column:
+    """A number with its error, the mean over the replicas."""
+    return heading, lambda runs: text((runs.number(of) if isinstance(of, str) else runs.of(of)) * factor)
+
+
+def seeds(runs: Runs) -> str:
+    """How many runs, and for how long each was simulated."""
+    return f"{len(runs)} × {runs[0].summary['sim_seconds']:.0f} s"
+
+
+PACKED, LONG, BOX = key("φ", PACKING), key("ℓ", LENGTH, " mm"), key("box", SIDE, " mm")
+SEEDS: Column = ("runs", seeds)
+STEP = "time.step"
+
+
+def by(runs: Runs, *paths: str) -> list[Runs]:
+    """The runs at each combination of the values of some keys, in rising order."""
+    if not paths:
+        return [runs] if runs else []
+    return [found for value in runs.values(paths[0]) for found in by(runs.where(paths[0], value), *paths[1:])]
+
+
+def rods_per_area(runs: Runs) -> float:
+    """Number of rods per area of the box [1/mm2]."""
+    return runs[0].summary["n_rods"] / key_of(runs[0], SIDE) ** 2
+
+
+def beyond_reversal(run: Run) -> Estimate:
+    """Mean velocity along the rod at tilts beyond 0.31 [mm/s]: above 0 where it is reversed, as the paper draws it."""
+    return speed_between(run, 0.31, 0.40)
+
+
+def log_interpolated(points: Sequence[tuple[float, Estimate]], x: float) -> Estimate:
+    """A positive number at x, on the straight line of its logarithm between the neighbours of x; not known outside."""
+    for (x0, low), (x1, high) in zip(points, points[1:]):
+        if x0 <= x <= x1:
+            part = (x - x0) / (x1 - x0)
+            value = low.value ** (1 - part) * high.value ** part
+            return derived(value, [((1 - part) * value / low.value, low), (part * value / high.value, high)])
+    return Estimate(reason="outside")
+
+
+def ratio(a: Estimate, b: Estimate) -> Estimate:
+    """a / b of independent numbers."""
+    return derived(a.value / b.value, [(1 / b.value, a), (-a.value / b.value ** 2, b)])
+
+
+def beads(evidence: Evidence) -> str:
+    """D against the number of beads at one area fraction, and beside D of the usual rods where as many lie in an area,
+    in which the set `density` gives its neighbours."""
+    runs = evidence["beads"]
+    usual = runs.where(BEADS, 9)
+    neighbours = [*by(evidence["density"], PACKING), *by(usual, PACKING)]
+    reference = sorted(((rods_per_area(here), here.number("diffusion_mm2_s")) for here in neighbours),
+                       key=lambda point: point[0])
+
+    def at_same_number(here: Runs) -> Estimate:
+        return log_interpolated(reference, rods_per_area(here))
+
+    def compared(here: Runs) -> str:
+        other = at_same_number(here)
+        return text(ratio(here.number("diffusion_mm2_s"), other)) if other.is_known and key_of(here[0], BEADS) != 9 \
+            else "–"
+
+    found = table(by(runs, BEADS), [
+        key("beads", BEADS), PACKED, BOX, SEEDS, ("rods per cm²", lambda here: f"{100 * rods_per_area(here):.1f}"),
+        number("D (mm²/s)", "diffusion_mm2_s"), number("v beyond n_z = 0.31 (mm/s)", beyond_reversal),
+        ("D of 9 beads, as many rods", lambda here: text(at_same_number(here))), ("ratio", compared)])
+    fewest, most = runs.smallest(BEADS), runs.largest(BEADS)
+    if fewest and most:
+        found += f"\nD of the fewest beads over D of the most, at the same area fraction: " \
+                 f"{text(ratio(fewest.number('diffusion_mm2_s'), most.number('diffusion_mm2_s')))}.\n"
+    return found
+
+
+def density(evidence: Evidence) -> str:
+    """D of rods of 2.5 mm with 3.3 % more of them than their area fraction gives."""
+    return table(by(evidence["density"], PACKING), [
+        PACKED, BOX, SEEDS, ("rods per cm²", lambda here: f"{100 * rods_per_area(here):.1f}"),
+        number("D (mm²/s)", "diffusion_mm2_s"), number("exponent, long lags", "alpha_long"),
+        ("the paper's fit, at φ / 1.033", lambda here: f"{papers_diffusion(key_of(here[0], PACKING) / 1.033):.1f}")])
+
+
+def frequency(evidence: Evidence) -> str:
+    """Swimming and D of rods of 2.5 mm at 0.60 against the frequency; the paper's fit has 2.5 mm2/s there."""
+    runs = evidence["frequency"].at(packing=0.60)
+    return table(by(runs, FREQUENCY), [
+        key("f (Hz)", FREQUENCY), BOX, SEEDS, number("D, MSD = 4Dt (mm²/s)", "diffusion_mm2_s"),
+        number("tilt keeps its sign (ms)", "n_z_switching_time_s", 1000),
+        number("v beyond n_z = 0.31 (mm/s)", beyond_reversal)])
+
+
+def rival_frequency(evidence: Evidence) -> str:
+    """D of rods of 2.5 mm at 280 Hz with MSD = 2Dt, as the paper prints it, beside the paper's fit."""
+    runs = evidence["frequency"].where(FREQUENCY, 280)
+    return table(by(runs, PACKING), [
+        PACKED, BOX, SEEDS, number("D, MSD = 2Dt (mm²/s)", "diffusion_mm2_s", 2),
+        ("the paper's fit", lambda here: f"{papers_diffusion(key_of(here[0], PACKING)):.1f}"),
+        number("D, short lags", "diffusion_short_mm2_s", 2), number("exponent, long lags", "alpha_long"),
+        number("v beyond n_z = 0.31 (mm/s)", beyond_reversal)])
+
+
+def shaking(evidence: Evidence) -> str:
+    """Order and motion at area fraction 0.75 against the strength of shaking."""
+    shaken = Runs(run for run in evidence["shaking"] if key_of(run, GAMMA) > 0)
+    return table(by(shaken, LENGTH, GAMMA), [
+        LONG, key("Γ", GAMMA), BOX, SEEDS, number("S", "S"), number("D (mm²/s)", "diffusion_mm2_s"),
+        number("exponent, long lags", "alpha_long"),
+        number("D_r (rad²/s)", "rotational_diffusion_rad2_s")])
+
+
+def diffusion_minimum(evidence: Evidence) -> str:
+    """D of rods of 2.5 mm against packing, with the persistence of their ways and of their tilt."""
+    tilts = evidence["mechanism"]
+
+    def switching(here: Runs) -> str:
+        same = tilts.at(packing=key_of(here[0], PACKING))
+        return text(same.number("n_z_switching_time_s") * 1000)
+
+    runs = evidence.joined("short-rods", "mechanism").at(length=2.5)
+    return table(by(runs, PACKING, SIDE), [
+        PACKED, BOX, SEEDS, number("D (mm²/s)", "diffusion_mm2_s"),
+        number("exponent, short lags", "alpha_short"), number("long lags", "alpha_long"),
+        number("persistence time (s)", "persistence_time_s"), number("length (mm)", "persistence_length_mm"),
+        ("tilt keeps its sign (ms)", switching)])
+
+
+def way_in_boxes(run: Run) -> Estimate:
+    """Root mean square displacement along the director at the longest lag, in sides of the box, the common drift of all
+    rods included."""
+    if "/msd/along_mm2" not in run:
+        return Estimate(reason="not measured")
+    msd = run["/msd/along_mm2"]
+    last = float(np.asarray(msd)[-1])
+    error = float(np.asarray(msd.error)[-1]) if msd.error is not None else math.nan
+    way = math.sqrt(last) / key_of(run, SIDE)
+    return Estimate(way, 0.5 * way * error / last, number_of(run, "S").steady)
+
+
+def drift_part(run: Run) -> Estimate:
+    """The part of the mean square displacement at the longest lag that is the common drift of all rods."""
+    if "/msd/relative_total_mm2" not in run:
+        return Estimate(reason="not measured")
+    total, relative = (float(np.asarray(run[f"/msd/{name}_mm2"])[-1]) for name in ("total", "relative_total"))
+    return Estimate(1 - relative / total, steady=True)
+
+
+def streaming(evidence: Evidence) -> str:
+    """Motion of rods of 4.5 mm along the director, dense."""
+    runs = Runs(run for run in evidence.joined("long-rods", "layers") if key_of(run, PACKING) > 0.59)
+
+    def longest(here: Runs) -> str:
+        return f"{np.asarray(here[0]['/msd/along_mm2'].axis)[-1]:.0f}" if "/msd/along_mm2" in here[0] else "–"
+
+    def drift(here: Runs) -> str:
+        mean = here.of(drift_part)
+        return f"{100 * mean.value:.1f} %" if mean.is_known else "–"
+
+    return table(by(runs, PACKING, SIDE), [
+        PACKED, BOX, SEEDS, number("D along (mm²/s)", "diffusion_along_mm2_s"),
+        number("exponent along, long lags", "alpha_along_long"),
+        number("C_v along, 0.8 to 2.8 s (mm²/s²)", late_velocity_correlation), ("longest lag (s)", longest),
+        number("way along by then, in boxes", way_in_boxes), ("of it common drift", drift)])
+
+
+#: Fewer lasting defects than this [1/mm2], of both signs, are one in a box of 33 mm at a time.
+_ENOUGH_DEFECTS = 0.0009
+
+
+def defect_runs(evidence: Evidence) -> Runs:
+    """Runs in which defects are followed, with those at the paper's time step."""
+    names = ("long-rods", "short-rods", "crossings", "phases", "dilute", "no-order")
+    controls = [run for name in names for run in evidence.controls.get(name, Runs())]
+    return Runs([*evidence.joined(*names), *controls])
+
+
+def swim_head_first(here: Runs) -> Estimate:
+    """Velocity of lasting +1/2 defects along their axis [mm/s], above 0 where the head of the comet is ahead; not known
+    where there are too few of them, or no error."""
+    along = here.number("lasting_defect_speed_plus_along_mm_s")
+    if not math.isfinite(along.error) or here.number("lasting_defect_density_per_mm2").value < _ENOUGH_DEFECTS:
+        return Estimate(reason="too few defects")
+    return along * -1
+
+
+def swimming_defects(runs: Runs) -> list[tuple[float, Estimate]]:
+    """(area fraction, velocity head first) where it is known."""
+    found = [(packing, swim_head_first(runs.at(packing=packing))) for packing in runs.values(PACKING)]
+    return [(packing, velocity) for packing, velocity in found if velocity.is_known]
+
+
+def defects(evidence: Evidence) -> str:
+    """How lasting defects move: +1/2 along their own axis, head of the comet first or tail first."""
+    return table([here for here in by(defect_runs(evidence), LENGTH, PACKING, SIDE, STEP)
+                  if swim_head_first(here).is_known], [
+        LONG, PACKED, BOX, ("step", lambda here: f"{1e6 * key_of(here[0], STEP):.0f} µs"), SEEDS, number("S", "S"),
+        number("defects per cm²", "lasting_defect_density_per_mm2", 100),
+        number("speed of −½ (mm/s)", "lasting_defect_speed_minus_mm_s"),
+        ("+½ head first (mm/s)", lambda here: text(swim_head_first(here))),
+        number("across (mm/s)", "lasting_defect_speed_plus_across_mm_s")])
+
+
+def elastic(evidence: Evidence) -> str:
+    """Bend over splay of rods of 4.5 mm, and whether the law that defines them fits."""
+    runs = Runs(run for run in evidence.joined("long-rods", "size", "elasticity")
+                if 0.49 < key_of(run, PACKING) < 0.71 and key_of(run, SIDE) > 20)
+    return table(by(runs, PACKING, SIDE), [
+        PACKED, BOX, SEEDS, number("S", "S"), number("K₃/K₁", "frank_ratio"), number("χ² per point", "frank_chi2")])
+
+
+@dataclass(frozen=True)
+class Next:
+    """Runs at the desk's time step that would decide a question.
+
+    side: of the box [mm]; seconds: simulated, of each run
+    """
+
+    name: str
+    what: str
+    length: float
+    packing: float
+    side: float
+    seconds: float
+    runs: int
+
+
+NEXT = (
+    Next("beads", "7, 9 and 21 beads with 986 rods each, three seeds", 2.5, 0.75, 41.865, 200, 9),
+    Next("number of rods", "φ = 0.8264 of the set `density`, two seeds", 2.5, 0.8264, 60, 200, 2),
+    Next("frequency", "225 and 280 Hz at 0.80, until the MSD is linear, one seed", 2.5, 0.80, 60, 900, 2),
+    Next("shaking", "Γ = 3 from the disordered end of a run at Γ = 14, three seeds", 2.5, 0.75, 25.119, 1000, 3),
+    Next("minimum of D", "0.65 to 0.85 in steps of 0.05, the set `diffusion`", 2.5, 0.75, 60, 250, 10),
+    Next("persistence", "neighbours' velocities at 0.85, two seeds", 2.5, 0.85, 83.73, 120, 2),
+    Next("lanes", "0.85 in twice the box, for as long, two seeds", 4.5, 0.85, 66.984, 810, 2),
+    Next("defects", "0.80 in the paper's box, defects every 50 ms, two seeds", 2.5, 0.80, 83.73, 120, 2),
+    Next("elastic constants", "0.55 in twice the box, two seeds", 4.5, 0.55, 133.968, 300, 2),
+)
+
+
+def hours(evidence: Evidence, next_: Next) -> float:
+    """CPU-hours of one core, by the speed of the runs of that length near that packing, and by how many rods of that
+    length they have at an area fraction; NaN where there are none."""
+    known = Runs(run for run in evidence.everything.at(length=next_.length)
+                 if "rod_seconds_per_cpu_second" in run.summary and key_of(run, GAMMA) > 0)
+    if not known:
+        return math.nan
+    per_area = float(np.median([run.summary["n_rods"] / key_of(run, SIDE) ** 2 / key_of(run, PACKING)
+                                for run in known]))
+    n_rods = per_area * next_.packing * next_.side ** 2
+    return next_.runs * n_rods * next_.seconds / speed(known, next_.packing) / 3600
+
+
+def next_runs(evidence: Evidence) -> str:
+    """What would decide the questions of the page, and its price."""
+    lines = ["| question | runs | ℓ | φ | box | time of each | CPU-h |", "|---|---|---|---|---|---|---|"]
+    for next_ in NEXT:
+        price = hours(evidence, next_)
+        shown = f"{price:.2g}" if math.isfinite(price) else "–"
+        lines.append(f"| {next_.name} | {next_.what} | {next_.length:g} mm | {next_.packing:g} | {next_.side:.3g} mm | "
+                     f"{next_.seconds:g} s | {shown} |")
+    return "\n".join(lines) + "\n"
+
+
+#: What makes each table of docs/findings.md, by the names of its marks.
+SECTIONS: dict[str, Callable[[Evidence], str]] = {
+    "beads": beads, "number of rods": density, "frequency": frequency, "rival frequency": rival_frequency,
+    "shaking": shaking, "diffusion": diffusion_minimum, "streaming": streaming, "defects": defects,
+    "elastic constants": elastic, "next runs": next_runs}

@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: MIT
+"""The tables of docs/findings.md on made-up runs with known answers."""
+import itertools
+import math
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from shaken.estimate import Estimate
+from shaken.run import Arrays, Run
+from shaken.study import beyond_paper
+from shaken.study.evidence import PACKING, SIDE, Evidence, Runs
+from shaken.study.report import sections
+from shaken.units import unit_of
+
+_ids = itertools.count()
+
+
+def run(sweep, numbers=None, arrays=None, *, length=2.5, packing=0.75, side=40.0, beads=9, gamma=7.0, frequency=200.0,
+        n_rods=800, seconds=200.0, speed=400.0, S=0.2, step=1.6e-5):
+    """A run of a set, with numbers (NAME -> (value, error)) and arrays."""
+    scene = {"rods": {"length": length, "area_fraction": packing, "beads": beads, "end_diameter": 0.4},
+             "box": {"side": side, "gap": 1.2}, "plates": {"gamma": gamma, "frequency": frequency},
+             "time": {"step": step, "seed": 1}}
+
+    def measured(value, error):
+        return {"value": value, "sem": error, "steady": True, "n_effective": 40.0,
+                "drift": {"value": 0.0, "sem": error}}
+
+    summary = {"run_id": f"{next(_ids):016x}", "n_rods": n_rods, "sim_seconds": seconds, "t_steady_s": 30.0,
+               "steady": True, "order": {**measured(S, 0.01), "mean": S, "std": 0.05},
+               "measured": {name: measured(*value) for name, value in (numbers or {}).items()},
+               "rod_seconds_per_cpu_second": speed}
+    contents = arrays or {}
+    made = Run(scene, summary, Arrays(list(contents), lambda name: (np.asarray(contents[name], float), unit_of(name))))
+    made.sweeps = [sweep + "-desk"]
+    return made
+
+
+def rows(text):
+    """The cells of a table's rows, without its head."""
+    return [line.strip("| ").split(" | ") for line in text.splitlines() if line.startswith("| ")][1:]
+
+
+def diffusion(value, error):
+    return {"diffusion_mm2_s": (value, error)}
+
+
+def test_beads_are_compared_at_the_same_number_of_rods():
+    # 9 beads: D = 1, 4, 16 at 0.5, 0.6, 0.7 rods/mm2, so that ln D is a line; 0.55 is half way: D = 2
+    evidence = Evidence([
+        run("beads", diffusion(3.0, 0.3), beads=21, n_rods=880), run("beads", diffusion(6.0, 0.9), beads=7, n_rods=960),
+        run("beads", diffusion(4.0, 0.4), n_rods=960), run("density", diffusion(1.0, 0.1), packing=0.70, n_rods=800),
+        run("density", diffusion(16.0, 1.6), packing=0.80, n_rods=1120)])
+    text = beyond_paper.beads(evidence)
+    fewest, usual, most = rows(text)
+    assert fewest[0] == "7" and fewest[4] == "60.0" and fewest[7] == "4.0 ± 0.4" and fewest[8] == "1.5 ± 0.3"
+    assert usual[8] == "–", "the reference is not compared with itself"
+    # D of 9 beads at 0.55: 2, with error (1/2) sqrt((2 x 0.1)^2 + (2 x 0.1)^2) = 0.14
+    assert most[7] == "2.00 ± 0.14" and most[8] == "1.50 ± 0.18"
+    # 6 / 3, with relative errors 0.15 and 0.1: 2 x 0.18
+    assert text.splitlines()[-1].endswith("at the same area fraction: 2.0 ± 0.4.")
+
+
+def test_nothing_is_interpolated_outside():
+    points = [(1.0, Estimate(2.0, 0.1)), (2.0, Estimate(8.0, 0.2))]
+    assert beyond_paper.log_interpolated(points, 1.5).value == pytest.approx(4.0)
+    assert beyond_paper.log_interpolated(points, 1.0).error == pytest.approx(0.1)
+    assert not beyond_paper.log_interpolated(points, 0.9).is_known
+    assert not beyond_paper.log_interpolated(points, 2.1).is_known
+
+
+def test_state_points_are_split_in_rising_order():
+    runs = Runs([run("a", packing=p, side=s) for p, s in ((0.8, 40.0), (0.7, 60.0), (0.8, 20.0), (0.8, 40.0))])
+    assert [(here[0].key(PACKING), here[0].key(SIDE), len(here)) for here in beyond_paper.by(runs, PACKING, SIDE)] \
+        == [(0.7, 60.0, 1), (0.8, 20.0, 1), (0.8, 40.0, 2)]
+
+
+def test_the_rival_frequency_is_read_as_the_paper_prints_it():
+    evidence = Evidence([run("frequency", {**diffusion(1.25, 0.05), "diffusion_short_mm2_s": (0.5, 0.02)}, packing=0.60,
+                             frequency=f) for f in (200.0, 280.0)])
+    (row,) = rows(beyond_paper.rival_frequency(evidence))
+    assert row[3:6] == ["2.50 ± 0.10", "2.5", "1.00 ± 0.04"], "twice D of MSD = 4Dt; 1.7 + 480 x 0.04^2 = 2.47"
+    assert [row[0] for row in rows(beyond_paper.frequency(evidence))] == ["200", "280"]
+
+
+def test_plates_at_rest_are_no_shaking():
+    evidence = Evidence([run("shaking", gamma=gamma) for gamma in (0.0, 7.0, 3.0)])
+    assert [row[1] for row in rows(beyond_paper.shaking(evidence))] == ["3", "7"]
+
+
+def msd(along, relative):
+    lag = [50.0, 100.0]
+    return {"/msd/lag_s": lag, "/msd/along_mm2": [1.0, along], "/msd/along_sem_mm2": [0.1, 0.1 * along],
+            "/msd/total_mm2": [2.0, 1.25 * along], "/msd/relative_total_mm2": [2.0, relative]}
+
+
+def test_ways_are_in_boxes_and_their_common_drift_is_named():
+    # 6400 mm2 in a box of 40 mm: two boxes, with half the relative error; 6000 of 8000 without the common drift
+    evidence = Evidence([run("long-rods", {"diffusion_along_mm2_s": (10.0, 1.0)}, msd(6400.0, 6000.0), packing=0.85),
+                         run("long-rods", {}, msd(100.0, 100.0), packing=0.55)])
+    (row,) = rows(beyond_paper.streaming(evidence))
+    assert row[6:] == ["100", "2.00 ± 0.10", "25.0 %"], "and what is not dense is no stream"
+
+
+def lasting(along, density, error=0.1):
+    return {"lasting_defect_speed_plus_along_mm_s": (along, error), "lasting_defect_density_per_mm2": (density, 0.0001),
+            "lasting_defect_speed_minus_mm_s": (2.0, 0.1)}
+
+
+def test_defects_swim_head_first_where_they_move_against_their_tail():
+    evidence = Evidence([
+        *(run("short-rods", lasting(-3.0, 0.006), packing=0.8) for _ in range(2)),
+        run("short-rods", lasting(-4.0, 0.006), packing=0.8, step=4e-6),
+        run("short-rods", lasting(-3.0, 0.0001), packing=0.85),
+        run("phases", lasting(2.0, 0.004), length=3.0, packing=0.7)])
+    control, first, second = rows(beyond_paper.defects(evidence))
+    assert first[1:5] == ["0.8", "40 mm", "16 µs", "2 × 200 s"] and first[6] == "0.600 ± 0.007"
+    assert first[8] == "3.00 ± 0.07" and second[0] == "3 mm" and second[8] == "−2.00 ± 0.10"
+    assert control[3] == "4 µs" and control[8] == "4.00 ± 0.10", "another step is another row"
+    unknown = Runs([run("short-rods", {**lasting(-3.0, 0.006), "lasting_defect_speed_plus_along_mm_s": (-3.0, None)})])
+    assert beyond_paper.swimming_defects(unknown) == [], "without an error there is no swimming"
+
+
+def test_tilt_is_compared_at_the_same_packing():
+    evidence = Evidence([run("short-rods", packing=0.6), run("short-rods", packing=0.7),
+                         run("mechanism", {"n_z_switching_time_s": (0.02, 0.001)}, packing=0.6, side=25.0)])
+    assert [(row[0], row[1], row[-1]) for row in rows(beyond_paper.diffusion_minimum(evidence))] == [
+        ("0.6", "25 mm", "20.0 ± 1.0"), ("0.6", "40 mm", "20.0 ± 1.0"), ("0.7", "40 mm", "–")]
+
+
+def test_elastic_constants_are_those_of_boxes_that_hold_waves():
+    evidence = Evidence([run("size", {"frank_ratio": (4.0, 0.5), "frank_chi2": (1.0, 0.2)}, length=4.5, packing=0.55,
+                             side=side) for side in (16.0, 67.0)])
+    assert [row[1:2] + row[4:] for row in rows(beyond_paper.elastic(evidence))] == [["67 mm", "4.0 ± 0.5", "1.0 ± 0.2"]]
+
+
+def test_runs_are_priced_by_the_speed_of_those_at_hand():
+    # 0.5 rods/mm2 at 0.75, hence 600 of them at 0.75 in 1200 mm2; 400 rod seconds a second: 2 x 600 x 300 / 400 s
+    evidence = Evidence([run("short-rods", n_rods=800), run("shaking", gamma=0.0, speed=1.0)])
+    wanted = beyond_paper.Next("x", "y", 2.5, 0.75, math.sqrt(1200), 300, 2)
+    assert beyond_paper.hours(evidence, wanted) == pytest.approx(2 * 600 * 300 / 400 / 3600)
+    assert math.isnan(beyond_paper.hours(evidence, beyond_paper.Next("x", "y", 4.5, 0.75, 40, 300, 2)))
+    assert "| – |" in beyond_paper.next_runs(evidence) and len(rows(beyond_paper.next_runs(evidence))) == \
+        len(beyond_paper.NEXT)
+
+
+def test_an_archive_without_these_sets_has_empty_tables():
+    evidence = Evidence([run("movies")])
+    for name, make in beyond_paper.SECTIONS.items():
+        assert name == "next runs" or rows(make(evidence)) == [], name
+
+
+def test_the_page_has_each_table_once():
+    page = (Path(__file__).resolve().parents[2] / "docs" / "findings.md").read_text()
+    begun = re.findall(r"<!-- (.+?): begin -->", page)
+    assert sorted(begun) == sorted(beyond_paper.SECTIONS), "each table stands on the page, and is known"
+    assert set(beyond_paper.SECTIONS) <= set(sections(Evidence([])))
+
+
+def test_more_rods_stand_beside_the_fit_at_the_area_fraction_that_they_stand_for():
+    evidence = Evidence([run("density", diffusion(5.0, 0.2), packing=0.74 * 1.033, side=60.0, n_rods=1800)])
+    (row,) = rows(beyond_paper.density(evidence))
+    assert row[3:5] == ["50.0", "5.0 ± 0.2"] and row[-1] == "6.5", "1.7 + 480 x 0.1^2"
