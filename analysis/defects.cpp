@@ -17,9 +17,10 @@ constexpr int kRingPoints = 32;
 /// Half turns to take off the step from angle `a` to angle `b` so that it lies in (-pi/2, pi/2].
 int half_turns(double a, double b) { return static_cast<int>(std::ceil((b - a) / kPi - 0.5)); }
 
-/// Twice the charge inside every plaquette (rows * columns, the plaquette with its lower left corner at node (i, j), i fastest).
-/// The four differences of angles round a plaquette cancel, so the charge is minus half the half turns taken off. Each
-/// edge is looked at once and serves its two plaquettes with opposite signs: the sum over all is zero in integers.
+/// Twice the charge inside every plaquette (rows * columns, the plaquette with its lower left corner at node (i, j), i
+/// fastest). The four differences of angles round a plaquette cancel, so the charge is minus half the half turns taken
+/// off. Each edge is looked at once and serves its two plaquettes with opposite signs: the sum over all is zero in
+/// integers.
 std::vector<int> twice_charges(const DirectorField& field) {
   const auto [m, n] = field.grid();
   std::vector<double> theta;

@@ -45,8 +45,8 @@ class DirectorField {
   const Grid& grid() const { return grid_; }
   const Region& region() const { return region_; }
   Vec2 mesh() const { return {region_.box().x() / grid_.columns, region_.box().y() / grid_.rows}; }  ///< each way [mm]
-  Vec2 node(int i, int j) const { return mesh().cwiseProduct(Vec2(i, j)); }  ///< [mm]
-  double smoothing() const { return smoothing_; }                            ///< [mm]
+  Vec2 node(int i, int j) const { return mesh().cwiseProduct(Vec2(i, j)); }                          ///< [mm]
+  double smoothing() const { return smoothing_; }                                                    ///< [mm]
 
   double q_xx(int i, int j) const { return q_xx_[index(i, j)]; }
   double q_xy(int i, int j) const { return q_xy_[index(i, j)]; }

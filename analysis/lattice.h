@@ -45,9 +45,7 @@ class LatticeOrder : public Summed<LatticeOrder> {
                       ///< and as many wave vectors of another
     double longest;   ///< [mm]
     friend bool operator==(const Shape&, const Shape&) = default;
-    static constexpr auto fields() {
-      return std::tuple(&Shape::box, &Shape::ratio, &Shape::shortest, &Shape::longest);
-    }
+    static constexpr auto fields() { return std::tuple(&Shape::box, &Shape::ratio, &Shape::shortest, &Shape::longest); }
   };
   explicit LatticeOrder(const Shape& shape);
 

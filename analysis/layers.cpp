@@ -24,7 +24,7 @@ constexpr double kCone = kPi / 6;
 
 LayerOrder::LayerOrder(const Box& box, double shortest)
     : vectors_(box, std::max(1, static_cast<int>(std::min(kMostLayerWaves * std::sqrt(box.longer() / box.shorter()),
-                                                     box.longer() / shortest)))),
+                                                          box.longer() / shortest)))),
       amplitudes_(vectors_.size()),
       within_(vectors_.size()) {
   SHAKEN_CHECK(shortest > 0, "waves have a length");

@@ -43,10 +43,11 @@ struct LayerPeak {
 /// (0.435 at 10 degrees), 2 sqrt(<s^2> / N) without layers, somewhat more as the peak is the largest of many. Layers
 /// that turn out of the cone count as none while they do. Waves must divide the box, so that wavelengths come in steps
 /// of about lambda^2 / L, and the one that rods would have in a box without end is known no better than to
-/// lambda^2 / (L sqrt(12)), the spread over one step: quote L / lambda, L being the side of the box across the layers. The wavelength is that of the mean of the
-/// peak's wave vector and its neighbours (m +- 1, n +- 1), each with its mean power while it was within the cone, in
-/// opposite pairs so that a flat background does not move it; pairs of which one was there for less than half as long
-/// as the peak are left out. A wavelength near L is the long-wave bend of a nematic, not layers.
+/// lambda^2 / (L sqrt(12)), the spread over one step: quote L / lambda, L being the side of the box across the layers.
+/// The wavelength is that of the mean of the peak's wave vector and its neighbours (m +- 1, n +- 1), each with its mean
+/// power while it was within the cone, in opposite pairs so that a flat background does not move it; pairs of which one
+/// was there for less than half as long as the peak are left out. A wavelength near L is the long-wave bend of a
+/// nematic, not layers.
 class LayerOrder : public Summed<LayerOrder> {
  public:
   /// Waves no shorter than `shortest` [mm], and at most 40 of them to the side of a square box; of another as many
@@ -79,10 +80,10 @@ class LayerOrder : public Summed<LayerOrder> {
 
   WaveVectors vectors_;
   std::int64_t samples_ = 0;
-  double floor_ = 0;                    // sum over samples of 4 <s^2> / N
-  std::vector<double> amplitudes_;      // (vectors), sum over samples of 4 |sum|^2 / N^2 within the cone
-  std::vector<std::int64_t> within_;    // (vectors), samples with the wave vector within the cone
-  std::vector<double> across_, along_;  // (shells) sums of |sum|^2 / N
+  double floor_ = 0;                              // sum over samples of 4 <s^2> / N
+  std::vector<double> amplitudes_;                // (vectors), sum over samples of 4 |sum|^2 / N^2 within the cone
+  std::vector<std::int64_t> within_;              // (vectors), samples with the wave vector within the cone
+  std::vector<double> across_, along_;            // (shells) sums of |sum|^2 / N
   std::vector<std::int64_t> n_across_, n_along_;  // (shells) terms of them
 };
 

@@ -30,9 +30,9 @@ struct NumberFluctuationCurve {
   std::size_t fitted = 0;
 };
 
-/// Giant number fluctuations: the periodic box is cut into m x m boxes of its shape, m = 2, 3, 4, 5, 6, 8, 10, 12, 16, 20,
-/// and the centres in each are counted. A sample costs ten divisions a rod; the memory is 17 kB whatever the number of
-/// samples.
+/// Giant number fluctuations: the periodic box is cut into m x m boxes of its shape, m = 2, 3, 4, 5, 6, 8, 10, 12, 16,
+/// 20, and the centres in each are counted. A sample costs ten divisions a rod; the memory is 17 kB whatever the number
+/// of samples.
 class NumberFluctuations : public Summed<NumberFluctuations> {
  public:
   /// Exponents are fitted to so many sizes of boxes at least.
@@ -40,8 +40,8 @@ class NumberFluctuations : public Summed<NumberFluctuations> {
 
   /// `counts(centre, side)` says whether a box counts: only those wholly inside of walls should. Without it all do.
   /// `area` is that of the arena [mm^2], the box's without walls.
-  /// `side` is that along x. Exponents are fitted to boxes whose shorter side is `fit_from` [mm] or more: two rod lengths, as what is smaller counts single
-  /// rods and their perimeters, not density.
+  /// `side` is that along x. Exponents are fitted to boxes whose shorter side is `fit_from` [mm] or more: two rod
+  /// lengths, as what is smaller counts single rods and their perimeters, not density.
   using Where = std::function<bool(const Vec2& centre, double side)>;
   NumberFluctuations(const Box& box, double area, double fit_from, const Where& counts = {});
 

@@ -33,7 +33,8 @@ PairMap::PairMap(const Shape& shape)
       cut_along_(cut_bins(shape)),
       cut_across_(cut_along_.pairs.size()) {
   SHAKEN_CHECK(shape.bins >= 1 && shape.range > 0 && shape.strip > 0, "bins, range and strip must not be empty");
-  SHAKEN_CHECK(2 * shape.range <= shape.box.shorter() * (1 + 1e-12), "distances beyond half the box have no nearest image");
+  SHAKEN_CHECK(2 * shape.range <= shape.box.shorter() * (1 + 1e-12),
+               "distances beyond half the box have no nearest image");
 }
 
 void PairMap::accumulate(std::span<const Vec3> positions, std::span<const Vec3> directors) {

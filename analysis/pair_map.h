@@ -29,16 +29,16 @@ struct PairCurves {
 /// nematic director of its instant: x along the director, y across it. A pair counts with either rod as the first,
 /// which makes the maps even in (x, y) -> (-x, -y); nothing else is symmetrised, so that g(x, y) = g(x, -y) is a
 /// measurement. The displacement is that to the nearest periodic image. The box is not aligned with the director, so
-/// that a map is unbiased within r < L / 2 of its shorter side only: bins that reach further are NaN. The cuts have their own bins, as wide
-/// as those of the map, up to L / 2: along from pairs with |y| < strip / 2 at |x|, across the other way round. One
-/// sample costs at most 1024 n_rods pairs: of more than 1024 rods, every k-th is taken as i, another set each time.
-/// Rods exactly upright are left out.
+/// that a map is unbiased within r < L / 2 of its shorter side only: bins that reach further are NaN. The cuts have
+/// their own bins, as wide as those of the map, up to L / 2: along from pairs with |y| < strip / 2 at |x|, across the
+/// other way round. One sample costs at most 1024 n_rods pairs: of more than 1024 rods, every k-th is taken as i,
+/// another set each time. Rods exactly upright are left out.
 class PairMap : public Summed<PairMap> {
  public:
   struct Shape {
-    int bins = 81;    ///< each way; an odd number has one about 0
-    double range;     ///< the map covers (-range, range) each way [mm]
-    double strip;     ///< full width of the strips of the cuts [mm]
+    int bins = 81;  ///< each way; an odd number has one about 0
+    double range;   ///< the map covers (-range, range) each way [mm]
+    double strip;   ///< full width of the strips of the cuts [mm]
     Box box;
     friend bool operator==(const Shape&, const Shape&) = default;
     static constexpr auto fields() { return std::tuple(&Shape::range, &Shape::strip, &Shape::box); }

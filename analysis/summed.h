@@ -45,8 +45,8 @@ inline constexpr std::int64_t kMostCounted = std::int64_t{1} << 53;
 ///   static constexpr auto fields() { return std::tuple(Setting{"range", &Angles::range_}, &Angles::counts_); }
 ///
 /// and gets merge, save and restore by deriving from Summed<Angles>. A field is a number, a vector or array of numbers
-/// whose length does not change, a Box, or a struct with fields() of its own. Whole numbers are counts: never negative, and at
-/// most kMostCounted.
+/// whose length does not change, a Box, or a struct with fields() of its own. Whole numbers are counts: never negative,
+/// and at most kMostCounted.
 template <class Self>
 class Summed {
  public:

@@ -359,7 +359,7 @@ std::vector<Streamline> streamlines(const analysis::DirectorField& field, double
   const Box& box = field.region().box();
   const double step = distance / 4, near = distance / 2;
   const auto most = static_cast<std::size_t>(2 * box.longer() / step);  // steps of one line to either side
-  constexpr std::size_t kOwn = 6;                               // steps along a line that may be near to each other
+  constexpr std::size_t kOwn = 6;  // steps along a line that may be near to each other
   Occupied occupied(box, distance);
   std::vector<Streamline> lines;
 

@@ -225,7 +225,8 @@ Result<std::vector<Vec2>> TrajectorySource::displacements(const Snapshot& now, s
   const Result<Snapshot> before = reader_.frame(*past);
   if (!before) return before.error();
   const auto unwrapped = [&](const Snapshot& frame, std::size_t i) -> Vec2 {
-    return frame.position[i].head<2>() + reader_.header().cell.box.sides().cwiseProduct(Vec2(frame.image[i][0], frame.image[i][1]));
+    return frame.position[i].head<2>() +
+           reader_.header().cell.box.sides().cwiseProduct(Vec2(frame.image[i][0], frame.image[i][1]));
   };
   std::vector<Vec2> ways;
   for (std::size_t i = 0; i < now.position.size(); ++i) ways.emplace_back(unwrapped(now, i) - unwrapped(*before, i));

@@ -32,7 +32,8 @@ std::optional<std::size_t> followed_rod(const Frame& frame, const PictureStyle& 
 /// Calls `visit(place)` for each image of `point` that lies in the rectangle or within `reach` of it; images are
 /// `period` apart each way, and none but the point itself if that is 0.
 template <class Visit>
-void for_images(const Vec2& low, const Vec2& high, const Vec2& period, const Vec2& point, double reach, const Visit& visit) {
+void for_images(const Vec2& low, const Vec2& high, const Vec2& period, const Vec2& point, double reach,
+                const Visit& visit) {
   if (period.isZero()) {
     if ((point - low).minCoeff() >= -reach && (high - point).minCoeff() >= -reach) visit(point);
     return;

@@ -91,8 +91,8 @@ MeasureMemory of_flow(const Sizes& sizes) {
 
 MeasureMemory of_layers(const Sizes& sizes) {
   const Box box = sizes.plan.system.box();
-  const double waves = std::floor(std::min(40 * std::sqrt(box.longer() / box.shorter()),
-                                           2 * box.longer() / sizes.plan.system.rod.length));
+  const double waves = std::floor(
+      std::min(40 * std::sqrt(box.longer() / box.shorter()), 2 * box.longer() / sizes.plan.system.rod.length));
   const double vectors = half_plane(waves, box);
   return {"", sizes.in_blocks(2 * kNumberBytes * (vectors + 2 * waves)), vectors * kNumberBytes};
 }

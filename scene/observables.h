@@ -46,10 +46,10 @@ struct Sizes {
 /// All that a scene knows of one observable: the block "measure.NAME". What a run makes of it, the adapter
 /// run/measure/NAME.cpp says.
 struct Observable {
-  std::string name = {};      ///< that of the list (scene/measure_plan.h)
-  std::string doc;            ///< one line, for the reference
-  bool is_usual = false;      ///< measured where a scene has no "measure" at all
-  std::string periodic = "";  ///< what it takes of a periodic box ("the waves"); empty: nothing
+  std::string name = {};       ///< that of the list (scene/measure_plan.h)
+  std::string doc;             ///< one line, for the reference
+  bool is_usual = false;       ///< measured where a scene has no "measure" at all
+  std::string periodic = "";   ///< what it takes of a periodic box ("the waves"); empty: nothing
   bool is_of_squares = false;  ///< of a periodic box it takes that it is square
   AxisUse axis = AxisUse::kNone;
   std::string every_doc = "Time between samples.";     ///< of the key `every`

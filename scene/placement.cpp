@@ -43,8 +43,9 @@ class Placings {
   bool* find_or_add(const RunPlan& plan) {
     const System& system = plan.system;
     std::size_t hash = 0;
-    for (const double part : {static_cast<double>(system.n_rods), system.box_side, system.box_aspect, system.gap, system.rod.length,
-                              static_cast<double>(system.start == Start::kRandom ? system.seed : 0)}) {
+    for (const double part :
+         {static_cast<double>(system.n_rods), system.box_side, system.box_aspect, system.gap, system.rod.length,
+          static_cast<double>(system.start == Start::kRandom ? system.seed : 0)}) {
       hash = 31 * hash + std::hash<double>()(part);
     }
     const RunPlan alike = placed_alike(plan);

@@ -14,8 +14,8 @@ namespace shaken {
 /// Where the rods of a run are, and of which species: what stays the same from frame to frame, and is needed to
 /// draw or measure one. A System says how a scene wants it; this is what came of it, and what files and messages carry.
 struct Cell {
-  Box box;  ///< periodic in x and y
-  double gap = 0;           ///< between the plates [mm]
+  Box box;         ///< periodic in x and y
+  double gap = 0;  ///< between the plates [mm]
   std::optional<SideWalls> walls{};
   std::vector<BeadRow> species{};              ///< order, director and defects are of the first
   std::vector<std::uint8_t> species_of_rod{};  ///< (n_rods) from 0; empty if there is one species

@@ -182,7 +182,8 @@ class Compression {
       pose.position.x() *= scale;
       pose.position.y() *= scale;
       const Species& species = world_.species_of(i);
-      begin_flight(world_.rods[i], 0, pose, motions_[i], world_.system.box(), species.inertia_par / species.inertia_perp);
+      begin_flight(world_.rods[i], 0, pose, motions_[i], world_.system.box(),
+                   species.inertia_par / species.inertia_perp);
     }
     world_.tick = 0;
   }

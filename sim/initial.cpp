@@ -359,8 +359,7 @@ Result<std::vector<Flight>> place_random(const Placement& rods) {
     return std::min(rows - 1, static_cast<int>(rod.position.y() / box.y() * rows));
   };
   const auto is_free = [&](const Flight& candidate, const Species& species) {
-    if (system.walls &&
-        !is_within(*system.walls, box, species, Pose{candidate.position, candidate.director}))
+    if (system.walls && !is_within(*system.walls, box, species, Pose{candidate.position, candidate.director}))
       return false;
     const auto touches = [&](int other) {
       contacts.clear();

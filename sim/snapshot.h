@@ -14,7 +14,7 @@ namespace shaken {
 struct Snapshot {
   Tick tick = 0;
   double time = 0;                                 ///< tick * dt [s]
-  Box box;                         ///< sides [mm]
+  Box box;                                         ///< sides [mm]
   std::vector<Vec3> position;                      ///< centre; x and y in the box, z above the base's rest [mm]
   std::vector<std::array<std::int32_t, 2>> image;  ///< box crossings: unwrapped x = position.x + image[0] * box.x
   std::vector<Vec3> director;                      ///< unit vector along the rod; its sign is a label that stays

@@ -36,9 +36,15 @@ nlohmann::ordered_json head_of(const client::RodFrame& frame) {
              {"size_mm", frame.cell.walls->size},
              {"inner_mm", frame.cell.walls->inner}};
   }
-  return {{"time_s", frame.time},           {"box_mm", {frame.cell.box.x(), frame.cell.box.y()}},    {"order", frame.order},
-          {"director_rad", frame.director}, {"n_rods", frame.rods.size()},           {"outlines", outlines},
-          {"gap_mm", frame.cell.gap},       {"has_heights", !frame.heights.empty()}, {"walls", walls}};
+  return {{"time_s", frame.time},
+          {"box_mm", {frame.cell.box.x(), frame.cell.box.y()}},
+          {"order", frame.order},
+          {"director_rad", frame.director},
+          {"n_rods", frame.rods.size()},
+          {"outlines", outlines},
+          {"gap_mm", frame.cell.gap},
+          {"has_heights", !frame.heights.empty()},
+          {"walls", walls}};
 }
 
 }  // namespace

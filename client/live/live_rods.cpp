@@ -68,8 +68,9 @@ bool has_fitting_order(double order, const RodFrame& constants) {
 void LiveRods::note(const frame_t& message) {
   if (!constants_ || message.job_id != job_) return;
   const bool fits = message.n_rods >= 0 && static_cast<std::size_t>(message.n_rods) == n_rods_ &&
-                    Box(message.box_x_mm, message.box_y_mm) == constants_->cell.box && has_fitting_order(message.order, *constants_) &&
-                    std::abs(message.director_rad) <= 4 && std::isfinite(message.sim_time_s);
+                    Box(message.box_x_mm, message.box_y_mm) == constants_->cell.box &&
+                    has_fitting_order(message.order, *constants_) && std::abs(message.director_rad) <= 4 &&
+                    std::isfinite(message.sim_time_s);
   if (!fits) return;
   std::optional<proto::Frame> frame = assembler_.add(message);
   if (!frame) return;

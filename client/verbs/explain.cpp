@@ -149,9 +149,10 @@ class Explain : public Verb {
                           kArenas.at(static_cast<std::size_t>(s.walls->arena)), length(s.walls->size), inner,
                           length(s.gap));
     } else {
-      text += fmt::format("  box     {}, periodic; plates {} apart\n",
-                          s.box_aspect == 1 ? length(s.box_side) + " square" : length(s.box().x()) + " by " + length(s.box().y()),
-                          length(s.gap));
+      text += fmt::format(
+          "  box     {}, periodic; plates {} apart\n",
+          s.box_aspect == 1 ? length(s.box_side) + " square" : length(s.box().x()) + " by " + length(s.box().y()),
+          length(s.gap));
     }
     text += fmt::format("  plates  {}a = {} mm, f = {}; gravity {}\n",
                         gamma ? fmt::format("Gamma = {}, ", number_text(*gamma)) : "", number_text(s.amplitude),

@@ -27,8 +27,8 @@ RecordedFrame record(const Snapshot& snapshot) {
   for (std::size_t i = 0; i < snapshot.n_rods(); ++i) {
     const Vec3& x = snapshot.position[i];
     const Vec3& v = snapshot.velocity[i];
-    frame.position.insert(frame.position.end(),
-                          {wrapped_float(x.x(), snapshot.box.x()), wrapped_float(x.y(), snapshot.box.y()), static_cast<float>(x.z())});
+    frame.position.insert(frame.position.end(), {wrapped_float(x.x(), snapshot.box.x()),
+                                                 wrapped_float(x.y(), snapshot.box.y()), static_cast<float>(x.z())});
     frame.velocity.insert(frame.velocity.end(),
                           {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())});
     for (const double q : quaternion_of_director(snapshot.director[i])) {

@@ -15,7 +15,7 @@ namespace {
 analysis::DefectTracks::Settings track_settings(const MeasureContext& context) {
   const System& system = context.plan.system;
   const analysis::Region region(system.box(), system.walls);
-  return {region.box(), region.area(), context.interval, system.rod.length, context.plan.defects->min_lifetime,
+  return {region.box(),        region.area(), context.interval, system.rod.length, context.plan.defects->min_lifetime,
           region.is_periodic()};
 }
 
@@ -50,8 +50,8 @@ MeasuredDefects::MeasuredDefects(const MeasureContext& context)
       tracks_(track_settings(context)) {}
 
 void MeasuredDefects::sample(const Sample& sample) {
-  const analysis::DirectorField field(sample->position, sample->director, region_,
-                                      analysis::Grid(region_.box(), mesh_), smoothing_);
+  const analysis::DirectorField field(sample->position, sample->director, region_, analysis::Grid(region_.box(), mesh_),
+                                      smoothing_);
   std::vector<analysis::Defect> defects = analysis::find_defects(field);
   last_ = DefectSample{sample->tick, sample->time, smoothing_, std::move(defects)};
   tracks_.accumulate(sample->time, last_->defects);

@@ -63,8 +63,8 @@ MeasurementKind pairs_kind() {
         const Box box = context.plan.system.box();
         const double width = 2 * context.species.max_radius;
         const double range = pairs.range_for(context.plan.system.rod.length, box.shorter());
-        return std::make_unique<MeasuredPairs>(
-            analysis::PairMap::Shape{pairs.bins, std::min(range, box.shorter() / 2), std::min(width, box.shorter() / 2), box});
+        return std::make_unique<MeasuredPairs>(analysis::PairMap::Shape{pairs.bins, std::min(range, box.shorter() / 2),
+                                                                        std::min(width, box.shorter() / 2), box});
       },
       .arrays =
           {

@@ -41,7 +41,8 @@ MeasurementKind structure_kind() {
       .name = "structure",
       .sources = "structure_factor, wave_sums",
       .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
-        return std::make_unique<MeasuredStructure>(analysis::StructureFactor(context.plan.system.box(), context.plan.structure->waves));
+        return std::make_unique<MeasuredStructure>(
+            analysis::StructureFactor(context.plan.system.box(), context.plan.structure->waves));
       },
       .arrays = {{"q_per_mm", "wave numbers 2πk/L, L being the longer side of the box"},
                  {"factor", "S(q) of the centres, mean over all directions of q", kWithError},

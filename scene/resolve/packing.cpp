@@ -73,7 +73,8 @@ bool resolve_arena(Resolution& scene) {
   if (!scene.ok({"walls.size", "walls.inner", "walls.arena", "box.side", "box.aspect"})) return false;
   if (!system.walls) return true;
   if (system.box_aspect != 1) {
-    return scene.refuse({"box.aspect", "walls"}, "an arena lies in the middle of a square box: remove box.aspect or walls");
+    return scene.refuse({"box.aspect", "walls"},
+                        "an arena lies in the middle of a square box: remove box.aspect or walls");
   }
   double thickest = 0;
   double longest = 0;
@@ -170,8 +171,8 @@ void check_box(Resolution& scene) {
     if (scene.ok({"box.side", "box.aspect", group.path("count"), group.path("area_fraction")}) &&
         system.box().shorter() < least * (1.0 - 1e-9)) {
       scene.report({"box.side", "box.aspect", "walls.size", group.path("count"), group.path("length")},
-                   fmt::format("a periodic box of {} is too small for rods of {}: at least {}",
-                               sides_text(system), length_text(group.rod.length), length_text(least)));
+                   fmt::format("a periodic box of {} is too small for rods of {}: at least {}", sides_text(system),
+                               length_text(group.rod.length), length_text(least)));
     }
   }
 }

@@ -103,9 +103,10 @@ class NeighborList {
   std::vector<std::uint8_t> species_of_rod_;  ///< (n_rods)
   double skin_;
   Box box_;
-  std::array<int, 2> n_cells_;   ///< along x and y; 1, 1: no grid
-  std::array<int, 2> n_images_;  ///< to each side of the nearest that may be near; 0 where the box is twice as wide as pairs
-                                 ///< are long
+  std::array<int, 2> n_cells_;  ///< along x and y; 1, 1: no grid
+  std::array<int, 2>
+      n_images_;  ///< to each side of the nearest that may be near; 0 where the box is twice as wide as pairs
+                  ///< are long
 
   std::vector<Vec2> placed_center_;        ///< in the box
   std::vector<Vec2> placed_direction_;     ///< of the segment

@@ -18,9 +18,9 @@ namespace {
 
 struct Tiled {
   Box box;
-  std::vector<Vec3> places, axes;              ///< in the box
-  std::vector<Vec3> all_places, all_axes;      ///< in the square
-  double side;                                 ///< of the square [mm]
+  std::vector<Vec3> places, axes;          ///< in the box
+  std::vector<Vec3> all_places, all_axes;  ///< in the square
+  double side;                             ///< of the square [mm]
 };
 
 /// Three boxes beside each other along x, or along y.
@@ -30,7 +30,8 @@ Tiled three_boxes(bool wide, std::size_t n_rods, std::uint64_t seed) {
   tiled.places = random_places(draw, n_rods, tiled.box);
   tiled.axes = random_axes(draw, n_rods);
   for (int copy = 0; copy < 3; ++copy) {
-    for (const Vec3& place : tiled.places) tiled.all_places.push_back(place + copy * Vec3(wide ? 0 : 8, wide ? 8 : 0, 0));
+    for (const Vec3& place : tiled.places)
+      tiled.all_places.push_back(place + copy * Vec3(wide ? 0 : 8, wide ? 8 : 0, 0));
     tiled.all_axes.insert(tiled.all_axes.end(), tiled.axes.begin(), tiled.axes.end());
   }
   return tiled;
@@ -103,7 +104,8 @@ TEST(Rectangles, ClustersAreThoseOfAllPairs) {
     }
     std::vector<std::size_t> sizes;
     for (std::size_t k = 0; k < 150; ++k) {
-      if (const auto n = static_cast<std::size_t>(std::count(cluster.begin(), cluster.end(), k)); n > 0) sizes.push_back(n);
+      if (const auto n = static_cast<std::size_t>(std::count(cluster.begin(), cluster.end(), k)); n > 0)
+        sizes.push_back(n);
     }
     std::sort(sizes.rbegin(), sizes.rend());
     EXPECT_GT(sizes.front(), 3U);
@@ -183,7 +185,8 @@ TEST(Rectangles, NumbersFluctuateAsInTheSquare) {
     for (Vec3& place : places) place = {2 * place.x(), place.y() / 4, 0};
     of_box.accumulate(t, places);
   }
-  const NumberFluctuationCurve square = NumberFluctuations::reduce(of_square, 0), box = NumberFluctuations::reduce(of_box, 0);
+  const NumberFluctuationCurve square = NumberFluctuations::reduce(of_square, 0),
+                               box = NumberFluctuations::reduce(of_box, 0);
   ASSERT_EQ(square.mean_n.size(), box.mean_n.size());
   for (std::size_t k = 0; k < box.mean_n.size(); ++k) {
     EXPECT_NEAR(box.area_fraction[k], square.area_fraction[k], 1e-12);

@@ -81,8 +81,7 @@ TEST(Packing, OfARectangle) {
   const System strip = plan_of(R"({"rods": {"area_fraction": 0.5}, "box": {"side": 21, "aspect": 6}})").system;
   EXPECT_EQ(strip.box(), Box(21, 126));
   EXPECT_EQ(strip.n_rods, std::round(0.5 * 21 * 126 / rod.area));
-  const System by_both =
-      plan_of(R"({"rods": {"count": 300, "area_fraction": 0.6}, "box": {"aspect": 0.25}})").system;
+  const System by_both = plan_of(R"({"rods": {"count": 300, "area_fraction": 0.6}, "box": {"aspect": 0.25}})").system;
   EXPECT_NEAR(by_both.box().area(), 300 * rod.area / 0.6, 1e-9);
   EXPECT_DOUBLE_EQ(by_both.box().y(), by_both.box().x() / 4);
   EXPECT_EQ(problem_of(R"({"box": {"side": 21, "aspect": 0.4}})"),

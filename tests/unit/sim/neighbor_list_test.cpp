@@ -169,7 +169,8 @@ TEST(NeighborList, HoldsPairsOfWhichAnyImagesAreNear) {
         for (int j = i + 1; j < static_cast<int>(poses.size()); ++j) {
           const bool near = are_near(rod, poses[i], poses[j], box, 0.4);
           ++(near ? n_near : n_far);
-          ASSERT_EQ(holds(list, i, j), near) << "half-length " << rod.half_length << ", box " << box.x() << ' ' << box.y();
+          ASSERT_EQ(holds(list, i, j), near)
+              << "half-length " << rod.half_length << ", box " << box.x() << ' ' << box.y();
         }
       }
     }
