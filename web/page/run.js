@@ -259,7 +259,7 @@ export class RunPanel {
   async showFrame(frame, id) {
     const canvas = await this.canvas;
     if (id !== this.id) return;
-    byId("run-facts").textContent = `t = ${frame.time_s.toFixed(3)} s, ${frame.n_rods} rods in ${[...new Set(frame.box_mm)].map(number).join(" × ")} mm` +
+    byId("run-facts").textContent = `t = ${frame.time_s.toFixed(3)} s, ${frame.n_rods} rods in ${[...new Set(frame.box_mm)].map((side) => number(side)).join(" × ")} mm` +
       (frame.order === null ? "" : `, S = ${frame.order.toFixed(3)}`);
     this.orderChart.mark(frame.time_s);
     if (!canvas) return;

@@ -128,8 +128,8 @@ TEST(NeighborList, KeptUpRodByRodItStaysCompleteAndSaysWhatChanged) {
     }
   }
   EXPECT_GT(n_touching, 5000);
-  EXPECT_GT(n_gained, 500);
-  EXPECT_GT(n_lost, 500);
+  EXPECT_GT(n_gained, 300);
+  EXPECT_GT(n_lost, 300);
 }
 
 /// The slow twin of who is near whom: of every image within three boxes, the distance of the two flattened segments.
