@@ -22,7 +22,8 @@ ALLOWED = {
     # everything outside sim/ sees simulations, not steppers
     "analysis": ["base/estimate.h", "sim/system.h", "sim/cell.h"],
     "scene": ["base/keys", "sim/rod", "sim/cell.h", "sim/system.h", "sim/physics_version.h"],
-    # whether rods can be placed, the simulation itself says
+    # whether rods can be placed, or a run begin where another ends, the simulation itself says
+    "scene/stages.cpp": ["scene", "base/keys", "sim/initial.h"],
     "scene/placement.cpp": ["scene", "base/keys", "sim/rod", "sim/system.h", "sim/initial.h"],
     # a film is as large as the renderer can draw it
     "scene/field_table.cpp": ["scene", "base/keys", "base/picture_limits.h", "sim/rod", "sim/system.h"],

@@ -91,7 +91,7 @@ Result<Simulation> start_simulation(const scene::RunPlan& plan, const path& dire
   for (const RunDirectory& parent : find_run(folders, id)) {
     const Result<Simulation> left = saved_state(parent, id, time);
     Result<Simulation> simulation =
-        left ? Simulation::start(plan.system, left->world()) : Result<Simulation>(left.error());
+        left ? Simulation::start(plan.system, left->world(), go_on) : Result<Simulation>(left.error());
     if (simulation) return simulation;
     if (trouble.empty()) trouble = simulation.error().message;
   }

@@ -45,14 +45,19 @@ class VariationReader {
           std::find_if(kKinds.begin(), kKinds.end(), [&](const NamedKind& one) { return one.name == member.key; });
       if (known != kKinds.end()) {
         read_factor(known->kind, member.value);
+      } else if (member.key == "stages") {
+        read_stages(member.value);
       } else if (member.key == "replicas") {
         variation_.replicas = read_count(within("replicas"), member.value, 1, kMaxReplicas, problems_).value_or(1);
       } else {
-        std::vector<std::string> names{"replicas"};
+        std::vector<std::string> names{"replicas", "stages"};
         for (const NamedKind& one : kKinds) names.emplace_back(one.name);
         const std::string meant = suggestion(problems_, [&] { return did_you_mean(nearest(member.key, names)); });
         report(member.place, within(member.key), "unknown key" + meant);
       }
+    }
+    for (const Stage& stage : variation_.stages) {
+      for (const Axis& axis : stage) refuse_sweeping(axis.path, axis.key);
     }
     return std::move(variation_);
   }
@@ -85,8 +90,8 @@ class VariationReader {
     return false;
   }
 
-  /// The field that `member`'s key names, if it can be swept and is not yet.
-  const Field* swept_field(const Member& member) {
+  /// The field that `member`'s key names, if it can be swept.
+  const Field* field_of(const Member& member) {
     const int index = field_index(member.key);
     if (index < 0 || fields()[static_cast<std::size_t>(index)].form == Form::kBlock) {
       const bool exists = index >= 0 || fields().is_group(member.key);
@@ -95,16 +100,72 @@ class VariationReader {
                     : "unknown key" + suggestion(problems_, [&] { return fields().suggest_path(member.key); }));
       return nullptr;
     }
+    return &fields()[static_cast<std::size_t>(index)];
+  }
+
+  /// Whether a factor sweeps `path` already, which is a problem.
+  bool refuse_sweeping(std::string_view path, const Place& key) {
     for (const Factor& factor : variation_.factors) {
       for (const Axis& axis : factor.axes) {
-        if (axis.path != member.key) continue;
-        report(member.place, member.key,
-               fmt::format("swept twice, in \"{}\" at {}:{} before", name_of(factor.kind), axis.key.line,
-                           axis.key.column));
-        return nullptr;
+        if (axis.path != path) continue;
+        report(
+            key, path,
+            fmt::format("swept twice, in \"{}\" at {}:{} too", name_of(factor.kind), axis.key.line, axis.key.column));
+        return true;
       }
     }
-    return &fields()[static_cast<std::size_t>(index)];
+    return false;
+  }
+
+  /// The field that `member`'s key names, if it can be swept and is not yet.
+  const Field* swept_field(const Member& member) {
+    const Field* field = field_of(member);
+    return field && refuse_sweeping(member.key, member.place) ? nullptr : field;
+  }
+
+  /// An entry stands for one stage, or for as many as its keys have values: a ramp in steps.
+  void read_stages(const Node& stages) {
+    if (!expect(stages, Node::Kind::kArray, within("stages"), "an array of objects")) return;
+    for (const Node& entry : stages.items) {
+      if (!expect(entry, Node::Kind::kObject, within("stages"), "an object of paths and values")) continue;
+      read_steps(entry);
+    }
+    if (stages.items.empty()) report(stages.place, within("stages"), "names no stage");
+    if (variation_.stages.size() > kMaxStages) {
+      report(stages.place, within("stages"),
+             fmt::format("{} stages; at most {} are allowed", variation_.stages.size(), kMaxStages));
+      variation_.stages.clear();
+    }
+  }
+
+  void read_steps(const Node& entry) {
+    std::vector<Axis> axes;
+    std::size_t n_steps = 1;
+    for (const Member& member : entry.members) {
+      const Field* field = field_of(member);
+      if (!field) continue;
+      if (member.key == "time.seed" || member.key.starts_with("start") || member.key.starts_with("rods.start")) {
+        report(member.place, member.key,
+               "a stage begins where the one before ends, with the same seed: say this in \"scene\", for the first");
+        continue;
+      }
+      Axis axis{member.key, member.place, read_values(*field, member.value, room_, problems_)};
+      if (axis.values.empty()) continue;
+      if (axis.values.size() > 1 && n_steps > 1 && axis.values.size() != n_steps) {
+        report(member.place, member.key,
+               fmt::format("{} values, but another key of this stage has {}; keys of a stage vary together",
+                           axis.values.size(), n_steps));
+        continue;
+      }
+      n_steps = std::max(n_steps, axis.values.size());
+      axes.push_back(std::move(axis));
+    }
+    for (std::size_t step = 0; step < n_steps; ++step) {
+      Stage& stage = variation_.stages.emplace_back();
+      for (const Axis& axis : axes) {
+        stage.push_back({axis.path, axis.key, {axis.values[axis.values.size() == 1 ? 0 : step]}});
+      }
+    }
   }
 
   void read_grid(const Node& grid) {

@@ -11,6 +11,7 @@
 namespace shaken::scene {
 
 inline constexpr int kMaxReplicas = 10000;
+inline constexpr std::size_t kMaxStages = 1000;  ///< of one product
 
 /// One swept path, with the value that it takes in each choice of its factor (a single one in a list).
 struct Axis {
@@ -34,10 +35,16 @@ struct Factor {
 /// "grid"
 std::string name_of(Factor::Kind kind);
 
+/// What one run of a protocol says beyond the scene: one value of each path. It holds for the runs after it too, until
+/// one of them says otherwise.
+using Stage = std::vector<Axis>;
+
 /// A product: its points are all combinations of its factors' choices, the first factor varying slowest, with
-/// `replicas` runs of each.
+/// `replicas` runs of each. With stages, each of these is a chain of runs, in which every one but the first begins
+/// where the one before has left the rods.
 struct Variation {
   std::vector<Factor> factors;
+  std::vector<Stage> stages;
   int replicas = 1;
 };
 

@@ -113,8 +113,9 @@ Field start_run() {
                 .may_look_like_number = true,
                 .expected = "the id of a run, 16 hex digits",
                 .fallback_note = "must be given",
-                .doc = "Id of the run whose rods are taken over. It must have the same rods, box, gap, plates and "
-                       "walls; shaking, gravity, contacts, step and seed may differ."},
+                .doc = "Id of the run whose rods are taken over. It must have the same rods, shape of the box, "
+                       "plates and walls; side and gap (without walls), shaking, gravity, contacts, step and seed may "
+                       "differ."},
                at<&RunPlan::start, &StartState::run>);
 }
 

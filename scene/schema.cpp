@@ -91,6 +91,7 @@ Schema product_schema() {
   sobol["maxProperties"] = 2 + kMaxSobolDimensions;
   Schema replicas = whole_number(1, kMaxReplicas);
   replicas["default"] = 1;
+  const Schema stages{{"type", "array"}, {"items", object_with(values)}, {"minItems", 1}, {"maxItems", kMaxStages}};
   return object_with(
       {{"grid", described("All combinations of the values of these keys.", object_with(values))},
        {"zip", described("These keys vary together: the first values, the second, ...", object_with(values))},
@@ -98,6 +99,7 @@ Schema product_schema() {
        {"random", described("Independent random points.", draws)},
        {"latin", described("A Latin hypercube: one point in each nth of each interval.", draws)},
        {"sobol", described("Sobol's sequence, scrambled by the seed.", std::move(sobol))},
+       {"stages", described("Runs one after the other, each from where the one before has left the rods.", stages)},
        {"replicas", described("Runs of each point, each with a seed of its own.", std::move(replicas))}});
 }
 

@@ -18,6 +18,7 @@
 #include "scene/load.h"
 #include "scene/resolve.h"
 #include "scene/settings.h"
+#include "scene/stages.h"
 #include "scene/sweep_keys.h"
 #include "scene/values.h"
 
@@ -88,7 +89,7 @@ class Products {
   }
 
   /// In one product: the values of a setting take the place of the grid's axis of that path, or are a further axis; a
-  /// single value is none.
+  /// single value is none, and holds in all stages.
   void put_in_place(const Setting& setting, const std::vector<Node>& values, Variation& product) {
     std::vector<Factor>& factors = product.factors;
     const auto swept =
@@ -96,6 +97,15 @@ class Products {
     if (swept != factors.end() && swept->kind != Factor::Kind::kGrid) {
       return report(setting.place, setting.path,
                     fmt::format("the file's \"{}\" sweeps it; a setting cannot take its place", name_of(swept->kind)));
+    }
+    for (Stage& stage : product.stages) {
+      const auto of_stage = [&](const Axis& axis) { return axis.path == setting.path; };
+      if (values.size() == 1) {
+        std::erase_if(stage, of_stage);
+      } else if (std::any_of(stage.begin(), stage.end(), of_stage)) {
+        return report(setting.place, setting.path,
+                      "the file's stages set it; a setting of one value would do so for all");
+      }
     }
     Factor factor{Factor::Kind::kGrid, values.size(), {{setting.path, setting.place, values}}, {}};
     if (values.size() == 1) {
@@ -109,7 +119,7 @@ class Products {
 
   /// The number of points; of a product of large numbers, which could overflow, some number above kMaxPoints.
   static std::size_t size_of(const Variation& product) {
-    std::size_t n_points = static_cast<std::size_t>(product.replicas);
+    std::size_t n_points = static_cast<std::size_t>(product.replicas) * std::max<std::size_t>(product.stages.size(), 1);
     for (const Factor& factor : product.factors) {
       n_points = std::min<std::size_t>(n_points * factor.n_choices, std::size_t{1} << 40);
     }
@@ -122,6 +132,7 @@ class Products {
     for (const Factor& factor : product.factors) {
       text += fmt::format("{} ({}) x ", factor.n_choices, name_of(factor.kind));
     }
+    if (!product.stages.empty()) text += fmt::format("{} stages x ", product.stages.size());
     return text + fmt::format("{} replicas", product.replicas);
   }
 
@@ -153,47 +164,85 @@ class Products {
     points = std::move(kept);
   }
 
+  /// Gives a draft one value more, and puts it into the point's label and parameters.
+  void assign(const Axis& axis, std::size_t choice, Draft& draft, SweepPoint& point) {
+    draft.assign(axis.path, axis.key, axis.values[choice], problems_);
+    const Given* given = draft.find(axis.path);
+    if (!given || !given->ok) return;
+    const nlohmann::ordered_json value = to_json(field_at(axis.path), given->value);
+    const double* number = std::get_if<double>(&given->value);
+    const std::string text = number              ? fmt::format("{}", *number)
+                             : value.is_string() ? value.get<std::string>()
+                                                 : value.dump();
+    point.parameters[axis.path] = value;
+    point.label += fmt::format("{}{}={}", point.label.empty() ? "" : " ", axis.path, text);
+  }
+
   void add_point(const Variation& product, const Draft& base, const std::vector<std::size_t>& choice,
                  std::vector<SweepPoint>& made) {
     Draft draft = base;
     SweepPoint point;
     point.parameters = nlohmann::ordered_json::object();
-    const auto apply = [&](const Axis& axis, std::size_t i) {
-      draft.assign(axis.path, axis.key, axis.values[i], problems_);
-      const Given* given = draft.find(axis.path);
-      if (!given || !given->ok) return;
-      const Field& field = field_at(axis.path);
-      const nlohmann::ordered_json value = to_json(field, given->value);
-      const double* number = std::get_if<double>(&given->value);
-      const std::string text = number              ? fmt::format("{}", *number)
-                               : value.is_string() ? value.get<std::string>()
-                                                   : value.dump();
-      point.parameters[axis.path] = value;
-      point.label += fmt::format("{}{}={}", point.label.empty() ? "" : " ", axis.path, text);
-    };
     for (std::size_t f = 0; f < product.factors.size(); ++f) {
       const Factor& factor = product.factors[f];
       if (factor.members.empty()) {
-        for (const Axis& axis : factor.axes) apply(axis, choice[f]);
+        for (const Axis& axis : factor.axes) assign(axis, choice[f], draft, point);
       } else {
-        for (const std::size_t a : factor.members[choice[f]]) apply(factor.axes[a], 0);
+        for (const std::size_t a : factor.members[choice[f]]) assign(factor.axes[a], 0, draft, point);
       }
     }
-    const std::optional<RunPlan> plan = resolve(draft, problems_);
-    if (!plan) return;
-    point.plan = *plan;
+    if (!product.stages.empty()) return add_stages(product, draft, point, made);
+    if (const std::optional<RunPlan> plan = resolve(draft, problems_)) add_replicas(product, draft, *plan, point, made);
+  }
+
+  /// The runs of `plan`, one for each replica, to the end of `made`.
+  void add_replicas(const Variation& product, const Draft& draft, const RunPlan& plan, SweepPoint point,
+                    std::vector<SweepPoint>& made) {
+    point.plan = plan;
     const Field& seed = field_at("time.seed");
-    if (static_cast<double>(plan->system.seed) > seed.high - (product.replicas - 1)) {
+    if (static_cast<double>(plan.system.seed) > seed.high - (product.replicas - 1)) {
       const Given* given = draft.find("time.seed");
-      return report(given ? given->place : base.place(), "time.seed",
+      return report(given ? given->place : draft.place(), "time.seed",
                     fmt::format("{} replicas lead past the largest seed, {:.16g}", product.replicas, seed.high));
     }
     const std::string label = point.label;
     for (point.replica = 1; point.replica <= product.replicas; ++point.replica) {
-      point.plan.system.seed = plan->system.seed + static_cast<std::uint64_t>(point.replica - 1);
+      point.plan.system.seed = plan.system.seed + static_cast<std::uint64_t>(point.replica - 1);
       if (product.replicas > 1)
         point.label = fmt::format("{}{}replica={}", label, label.empty() ? "" : " ", point.replica);
       made.push_back(point);
+    }
+  }
+
+  /// The chains of a protocol, stage by stage: all replicas of the first, of the second and so on.
+  void add_stages(const Variation& product, const Draft& start, const SweepPoint& point,
+                  std::vector<SweepPoint>& made) {
+    const Protocol protocol(product.stages);
+    const auto n_replicas = static_cast<std::size_t>(product.replicas);
+    for (std::size_t k = 0; k < protocol.size() && problems_.size() < kEnoughProblems; ++k) {
+      Draft draft = start;
+      SweepPoint here = point;
+      here.parameters["stage"] = k + 1;
+      here.label += fmt::format("{}stage={}", here.label.empty() ? "" : " ", k + 1);
+      for (const Axis& axis : protocol.settings(k)) assign(axis, 0, draft, here);
+      if (k > 0) begin_where_another_ends(draft, problems_);
+      std::optional<RunPlan> plan = resolve(draft, problems_);
+      if (!plan) return;
+      protocol.name_the_rest(*plan, here.parameters);
+      if (k > 0) {
+        const RunPlan& former = made[made.size() - n_replicas].plan;
+        const Place place = protocol.place(k).value_or(draft.place());
+        if (const std::string why = cannot_follow(*plan, former); !why.empty()) {
+          return report(place, "stages", fmt::format("stage {} cannot follow stage {}: {}", k + 1, k, why));
+        }
+        plan->start->time = former.total_time();
+      }
+      const std::size_t n_before = made.size();
+      add_replicas(product, draft, *plan, here, made);
+      if (made.size() != n_before + n_replicas) return;  // a problem is reported
+      for (std::size_t i = n_before; k > 0 && i < made.size(); ++i) {
+        made[i].plan.start->run = run_id(made[i - n_replicas].plan);
+      }
     }
   }
 

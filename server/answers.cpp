@@ -97,6 +97,7 @@ Json job_report(const Job& job, const std::filesystem::path& runs) {
           {"label", job.label},
           {"parameters", parameters(job)},
           {"replica", job.replica},
+          {"starts_from", job.starts_from.empty() ? Json(nullptr) : Json(job.starts_from)},
           {"priority", job.priority},
           {"attempt", job.attempt},
           {"pid", job.pid},

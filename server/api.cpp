@@ -189,7 +189,6 @@ Api::Answer Api::submit(const Call& call) const {
   for (const scene::StartState& start : submission->starts) {
     std::string reason = refuse_start(start, queue_, info_.runs());
     if (!reason.empty()) problems.push_back({request.file, 0, 0, "/start", std::move(reason)});
-    if (queue_.job(start.run)) submission->terms.after.emplace_back(start.run);
   }
   if (!problems.empty()) return problems_answer(problems);
   if (request.dry_run) return checked(*submission);

@@ -56,6 +56,7 @@ std::vector<Point> points_of(const std::vector<Job>& jobs) {
 Result<std::vector<NewJob>> with_replicas(const Queue& queue, std::int64_t sweep, int n,
                                           const std::filesystem::path& runs) {
   std::vector<NewJob> jobs;
+  std::map<std::pair<std::string, int>, std::string> ids;  // by the id of a point's first replica, and the replica
   for (const Point& point : points_of(queue.jobs(sweep))) {
     const auto& [first, known] = *point.replicas.begin();
     const auto parameters = nlohmann::json::parse(known.parameters, nullptr, false);
@@ -69,6 +70,7 @@ Result<std::vector<NewJob>> with_replicas(const Queue& queue, std::int64_t sweep
     auto plan = scene::load_scene(scene, "job " + known.id);
     if (!plan) return Error{keys::to_string(plan.error())};
     const std::uint64_t seed = plan->system.seed - static_cast<std::uint64_t>(first - 1);
+    const std::string start = plan->start ? plan->start->run : "";
     const int n_all = std::max(n, point.replicas.rbegin()->first);
     for (int replica = 1; replica <= n_all; ++replica) {
       NewJob job;
@@ -77,13 +79,19 @@ Result<std::vector<NewJob>> with_replicas(const Queue& queue, std::int64_t sweep
       job.replica = replica;
       if (const auto there = point.replicas.find(replica); there != point.replicas.end()) {
         job.id = there->second.id;
+        job.starts_from = there->second.starts_from;
         job.scene = queue.scene(job.id);
       } else {
         plan->system.seed = seed + static_cast<std::uint64_t>(replica - 1);
+        if (plan->start) {
+          const auto stage = ids.find({start, replica});
+          job.starts_from = plan->start->run = stage == ids.end() ? start : stage->second;
+        }
         job.id = scene::run_id(*plan);
         job.scene = scene::to_json(*plan).dump(2) + "\n";
         job.has_results = run::is_done(run::RunDirectory{runs / job.id}, *plan);
       }
+      ids[{known.id, replica}] = job.id;
       jobs.push_back(std::move(job));
     }
   }

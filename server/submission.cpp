@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <unordered_map>
 
 #include "base/files.h"
 #include "run/files/directory.h"
@@ -162,6 +163,7 @@ keys::Loaded<Submission> expand(const SubmitRequest& request, const std::filesys
   submission.terms.executor = sweep->executor;
   submission.terms.settings = scene::to_text(sweep->slurm);
   submission.jobs.reserve(sweep->points.size());
+  std::unordered_map<std::string, double> ends;  // of these runs, by id
   for (scene::SweepPoint& each : sweep->points) {
     const scene::SweepPoint point = std::move(each);  // of 100,000, what is not needed any more counts
     NewJob job;
@@ -171,14 +173,25 @@ keys::Loaded<Submission> expand(const SubmitRequest& request, const std::filesys
     job.parameters = point.parameters.dump();
     job.replica = point.replica;
     job.has_results = run::is_done(run::RunDirectory{runs / job.id}, point.plan);
-    submission.jobs.push_back(std::move(job));
+    ends.emplace(job.id, point.plan.total_time());
     extent.fewest_rods = std::min(extent.fewest_rods, point.plan.system.n_all_rods());
     extent.most_rods = std::max(extent.most_rods, point.plan.system.n_all_rods());
     extent.simulated += point.plan.total_time();
-    const auto& start = point.plan.start;
-    if (start && std::find(submission.starts.begin(), submission.starts.end(), *start) == submission.starts.end()) {
-      submission.starts.push_back(*start);
+    if (const auto& start = point.plan.start) {
+      job.starts_from = start->run;
+      const auto end = ends.find(start->run);
+      if (end != ends.end() && end->second != start->time) {
+        return std::vector{keys::Problem{
+            request.file, 0, 0, "/sweep",
+            fmt::format("run {} is to end at {:.10g} s, and another is to start from it at {:.10g} s: stages that say "
+                        "the same from the start on must last equally long",
+                        start->run, end->second, start->time)}};
+      }
+      if (end == ends.end() && !std::count(submission.starts.begin(), submission.starts.end(), *start)) {
+        submission.starts.push_back(*start);
+      }
     }
+    submission.jobs.push_back(std::move(job));
   }
   return submission;
 }

@@ -39,7 +39,7 @@ struct Submission {
   int priority = 0;
   Terms terms;
   std::vector<NewJob> jobs;
-  std::vector<scene::StartState> starts;  ///< other runs that they start from, each once
+  std::vector<scene::StartState> starts;  ///< runs that they start from and that are none of them, each once
   Extent extent = {};
 };
 

@@ -28,10 +28,10 @@ constexpr double kThicker = 0.01;  ///< diameters of beads while the box shrinks
 constexpr double kWay = 0.0025;    ///< of a rod in a tick, at the speed of a start
 constexpr double kPushed = 0.025;  ///< deepest overlap that a step may make
 
-constexpr double kMostShrink = 0.003;  ///< of the side in one step
-constexpr double kLeastShrink = 1e-5;  ///< else the rods first fly on
+constexpr double kMostChange = 0.003;  ///< of the side, and of the gap, in one step
+constexpr double kLeastChange = 1e-5;  ///< else the rods first fly on
 constexpr int kTicksBetween = 20;      ///< of two steps: a few times the way that a step has pushed rods together
-constexpr int kStepsToJam = 400;       ///< if the side shrinks by less than this meanwhile:
+constexpr int kStepsToJam = 400;       ///< if side and gap come nearer to their aims by less than this meanwhile:
 constexpr double kStandstill = 0.001;
 constexpr int kTicksToSettle = 5;
 constexpr int kMostSettling = 2000;
@@ -52,7 +52,13 @@ double area_of(const World& world) {
   return area;
 }
 
-/// Rods that fly about in a box that shrinks.
+/// A step towards `aim` that changes `now` by at most `by` of it.
+double step_towards(double aim, double now, double by) {
+  if (by >= std::abs(1.0 - aim / now)) return aim;
+  return aim < now ? now * (1.0 - by) : now * (1.0 + by);
+}
+
+/// Rods that fly about in a box that changes.
 class Compression {
  public:
   Compression(const System& system, const GoOn& go_on) : system_(system), go_on_(go_on), aim_(empty_world(system)) {
@@ -63,17 +69,49 @@ class Compression {
     }
   }
 
-  Result<World> run() {
+  /// From random places in a larger box.
+  Result<World> from_random() {
     if (auto done = insert(); !done) return done.error();
+    gap_ = world_.system.gap;
+    return run();
+  }
+
+  /// From where they are in `left`.
+  Result<World> from_rods_of(const World& left) {
+    System loose = gas();
+    loose.box_side = left.system.box_side;
+    loose.gap = left.system.gap;
+    thicken(loose, std::min(left.system.gap, system_.gap));
+    gap_ = system_.gap;
+    world_ = empty_world(loose);
+    poses_ = rods_left(world_, left).poses;
+    motions_.resize(poses_.size());
+    world_.rods.resize(poses_.size());
+    const double base = system_.is_planar() ? 0.0 : left.plates.at(left.tick).base;
+    for (std::size_t i = 0; i < poses_.size(); ++i) {
+      poses_[i].position.z() -= base;
+      Flight flight;
+      flight.director = poses_[i].director;
+      Rng rng(system_.seed, RngStream::kVelocity, 1, static_cast<std::uint64_t>(i));
+      push_at_start(flight, system_, rng);
+      const Species& species = world_.species_of(i);
+      motions_[i] = motion_after(flight, 0.0, 0.0, flight.director, species.inertia_par / species.inertia_perp);
+    }
+    fly_anew_in(loose.box_side, loose.gap);
+    return run();
+  }
+
+ private:
+  Result<World> run() {
     double former = INFINITY;
-    for (int steps = 0; world_.system.box_side > system_.box_side; ++steps) {
+    for (int steps = 0; to_go() > 0; ++steps) {
       bool goes_on = true;
       if (steps % kStepsToJam == 0) {
-        goes_on = world_.system.box_side < former * (1.0 - kStandstill);
-        former = world_.system.box_side;
+        goes_on = to_go() < former - kStandstill;
+        former = to_go();
       }
       if (auto done = may_go_on(goes_on); !done) return done.error();
-      shrink();
+      approach();
       if (auto done = fly(kTicksBetween); !done) return done.error();
     }
     for (int tries = 1;; ++tries) {
@@ -84,34 +122,49 @@ class Compression {
       }
       if (auto done = may_go_on(tries < kMostSettling); !done) return done.error();
       if (tries % kFinerAfter == 0) world_.system.dt *= 0.5;
-      fly_anew_from(world_.system.box_side);
+      fly_anew_in(world_.system.box_side, world_.system.gap);
       if (auto done = fly(kTicksToSettle); !done) return done.error();
     }
   }
 
- private:
-  /// Rods at random places of a box that is larger than wanted, if need be.
-  Result<void> insert() {
-    System loose = system_;
-    loose.start = Start::kRandom;
-    loose.amplitude = 0;
-    loose.gravity = 0;
-    loose.base = loose.lid = !system_.is_planar();
+  /// How far side and gap are from their aims, in parts of these; 0 once they are there.
+  double to_go() const {
+    return std::abs(world_.system.box_side / system_.box_side - 1.0) + std::abs(world_.system.gap / gap_ - 1.0);
+  }
+
+  /// The system in which the rods fly about, but for its box, gap and thicker beads.
+  System gas() const {
+    System gas = system_;
+    gas.start = Start::kRandom;
+    gas.amplitude = 0;
+    gas.gravity = 0;
+    gas.base = gas.lid = !system_.is_planar();
     const ContactParameters elastic{0.0, 1.0};
-    loose.rod_rod = loose.rod_base = loose.rod_lid = elastic;
-    loose.rotational_noise = 0;
-    loose.law = ImpulseLaw::kNewton;
-    loose.solver_sweeps = 1;
-    loose.order = ContactOrder::kSorted;
-    loose.impacts = ImpactTime::kTickEnd;
-    loose.stepper = StepperKind::kScheduled;
-    loose.dt = kWay * thinnest_ / kStartSpeed;
-    loose.gap = std::min(system_.gap, 1.5 * 2.0 * thickest_);
-    const double more = std::min(kThicker * thinnest_, 0.5 * (loose.gap - 2.0 * thickest_));
-    loose.rod = thicker(loose.rod, more);
-    for (auto& added : loose.added) {
+    gas.rod_rod = gas.rod_base = gas.rod_lid = elastic;
+    gas.rotational_noise = 0;
+    gas.law = ImpulseLaw::kNewton;
+    gas.solver_sweeps = 1;
+    gas.order = ContactOrder::kSorted;
+    gas.impacts = ImpactTime::kTickEnd;
+    gas.stepper = StepperKind::kScheduled;
+    gas.dt = kWay * thinnest_ / kStartSpeed;
+    return gas;
+  }
+
+  /// Beads of the gas become thicker, if they still fit into `gap`.
+  void thicken(System& gas, double gap) const {
+    const double more = std::min(kThicker * thinnest_, 0.5 * (gap - 2.0 * thickest_));
+    gas.rod = thicker(gas.rod, more);
+    for (auto& added : gas.added) {
       if (added) added->rod = thicker(added->rod, more);
     }
+  }
+
+  /// Rods at random places of a box that is larger than wanted, if need be.
+  Result<void> insert() {
+    System loose = gas();
+    loose.gap = std::min(system_.gap, 1.5 * 2.0 * thickest_);
+    thicken(loose, loose.gap);
     const double fraction = area_of(aim_) / system_.box().area();
     double wanted = kLoose;
     for (int k = 1;; ++k, wanted *= kLooser) {
@@ -137,18 +190,34 @@ class Compression {
     }
   }
 
-  /// Deepest overlap of rods of these species where the rods are now, with their centres moved together.
-  double deepest(const NeighborList& neighbors, const std::vector<Species>& species, double shrunk) const {
+  /// Deepest overlap of rods of these species where the rods are now, with their centres moved together or apart: by
+  /// `wide` along the plates and by `high` across.
+  double deepest(const NeighborList& neighbors, const std::vector<Species>& species, double wide, double high) const {
     std::vector<BeadContact> contacts;
     double overlap = 0;
     for (const auto& [i, j] : neighbors.pairs()) {
       contacts.clear();
       Vec3 D = nearest_image(poses_[i].position, poses_[j].position, world_.system.box());
-      D.x() *= shrunk;
-      D.y() *= shrunk;
+      D.x() *= wide;
+      D.y() *= wide;
+      D.z() *= high;
       find_bead_contacts(species[world_.species_of_rod[i]], poses_[i].director, species[world_.species_of_rod[j]],
                          poses_[j].director, D, contacts);
       for (const BeadContact& contact : contacts) overlap = std::max(overlap, contact.overlap);
+    }
+    return overlap;
+  }
+
+  /// Deepest overlap of beads and plates in such a gap, with all heights in proportion to it.
+  double deepest_in_plates(double gap) const {
+    double overlap = 0;
+    for (std::size_t i = 0; i < poses_.size() && world_.system.lid; ++i) {
+      const Species& species = world_.species_of(i);
+      const double height = poses_[i].position.z() * (gap / world_.system.gap);
+      for (int b = 0; b < species.n_beads(); ++b) {
+        const double z = height + species.bead_offset[b] * poses_[i].director.z();
+        overlap = std::max({overlap, species.bead_radius[b] - z, z + species.bead_radius[b] - gap});
+      }
     }
     return overlap;
   }
@@ -160,27 +229,34 @@ class Compression {
   }
 
   /// A step, as large as overlaps allow; none where rods overlap too much as it is.
-  void shrink() {
+  void approach() {
     look();
-    const double former = world_.system.box_side;
     const NeighborList near = neighbors();
-    const double most = 1.0 - system_.box_side / former;
-    double by = std::min(kMostShrink, most);
-    while (deepest(near, world_.species, 1.0 - by) > kPushed * thinnest_) {
+    const double side = world_.system.box_side, gap = world_.system.gap;
+    const double most = std::max(std::abs(1.0 - system_.box_side / side), std::abs(1.0 - gap_ / gap));
+    for (double by = std::min(kMostChange, most);;) {
+      const double new_side = step_towards(system_.box_side, side, by), new_gap = step_towards(gap_, gap, by);
+      const bool is_apart = deepest(near, world_.species, new_side / side, new_gap / gap) <= kPushed * thinnest_ &&
+                            (new_gap == gap || deepest_in_plates(new_gap) <= kPushed * thinnest_);
+      if (is_apart) return fly_anew_in(new_side, new_gap);
       by *= 0.5;
-      if (by < kLeastShrink) return;
+      if (by < kLeastChange) return;
     }
-    fly_anew_from(by == most ? system_.box_side : former * (1.0 - by));
   }
 
-  /// Begins flights where the rods were when they were looked at last, their centres scaled with the side of the box.
-  void fly_anew_from(double side) {
-    const double scale = side / world_.system.box_side;
+  /// Begins flights where the rods were when they were looked at last, their centres scaled with the box and the gap.
+  void fly_anew_in(double side, double gap) {
+    const double wide = side / world_.system.box_side, high = gap / world_.system.gap;
     world_.system.box_side = side;
+    if (gap != world_.system.gap) {
+      world_.system.gap = gap;
+      world_.plates = PlateMotion(0, world_.system.frequency, gap, world_.system.dt);
+    }
     for (std::size_t i = 0; i < world_.rods.size(); ++i) {
       Pose pose = poses_[i];
-      pose.position.x() *= scale;
-      pose.position.y() *= scale;
+      pose.position.x() *= wide;
+      pose.position.y() *= wide;
+      pose.position.z() *= high;
       const Species& species = world_.species_of(i);
       begin_flight(world_.rods[i], 0, pose, motions_[i], world_.system.box(),
                    species.inertia_par / species.inertia_perp);
@@ -219,7 +295,7 @@ class Compression {
   /// The flights of the start, if no true rods overlap where they are now. Looks.
   std::optional<std::vector<Flight>> settled() {
     look();
-    if (deepest(neighbors(), aim_.species, 1.0) > 0) return std::nullopt;
+    if (deepest(neighbors(), aim_.species, 1.0, 1.0) > 0) return std::nullopt;
     const double raised = 2.0 * system_.amplitude + 0.5 * (system_.gap - world_.system.gap);
     std::vector<Flight> flights(poses_.size());
     for (std::size_t i = 0; i < poses_.size(); ++i) {
@@ -243,6 +319,7 @@ class Compression {
   World world_;  ///< in which they fly about
   double thinnest_ = INFINITY;
   double thickest_ = 0;
+  double gap_ = 0;  ///< aim of the gap while they do [mm]
   std::vector<Pose> poses_;
   std::vector<Motion> motions_;
 };
@@ -251,7 +328,13 @@ class Compression {
 
 Result<World> make_compressed_world(const System& system, const GoOn& go_on) {
   if (system.walls) return Error{"rods can be compressed in a periodic box only, without walls"};
-  return Compression(system, go_on).run();
+  return Compression(system, go_on).from_random();
+}
+
+Result<World> make_resized_world(const System& system, const World& left, const GoOn& go_on) {
+  if (auto fits = check_left(system, left); !fits) return fits.error();
+  if (system.walls) return Error{"rods can be compressed in a periodic box only, without walls"};
+  return Compression(system, go_on).from_rods_of(left);
 }
 
 }  // namespace shaken

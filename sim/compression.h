@@ -28,4 +28,13 @@ using GoOn = std::function<bool()>;
 /// Velocities at tick 0 are those of any other start.
 Result<World> make_compressed_world(const System& system, const GoOn& go_on = {});
 
+/// The world at tick 0 of a run that goes on from another in a box of another side, or with another gap: the rods of
+/// `left` at its tick, as which they begin; then side and gap become those of `system` in small steps, while the rods
+/// fly about between plates at rest as above. So a packing is changed without a change of the rods: all centres keep
+/// their places in units of the box, and directors change only where rods hit each other.
+///
+/// Errors: rods, their number, plates or the shape of the box are not those of `left`; or it has walls; or rods jam.
+/// Velocities at tick 0 are those of any other start, since those of `left` have been lost in the gas.
+Result<World> make_resized_world(const System& system, const World& left, const GoOn& go_on = {});
+
 }  // namespace shaken

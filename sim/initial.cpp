@@ -404,33 +404,6 @@ Result<std::vector<Flight>> place_random(const Placement& rods) {
   return flights;
 }
 
-/// What must be the same in a run and the one that it goes on from, and is not; empty if all is.
-std::string what_differs(const System& one, const System& other) {
-  std::string all;
-  const auto compare = [&](bool is_same, const char* what) {
-    if (!is_same) all += std::string(all.empty() ? "" : ", ") + what;
-  };
-  const auto arena_of = [](const System& system) {
-    return system.walls ? std::tuple(true, system.walls->arena, system.walls->size, system.walls->inner)
-                        : std::tuple(false, Arena::kDisc, 0.0, 0.0);
-  };
-  compare(one.rod == other.rod && one.added == other.added, "the rods");
-  compare(one.n_rods == other.n_rods, "their number");
-  compare(one.box() == other.box(), "the sides of the box");
-  compare(one.gap == other.gap, "the gap");
-  compare(one.base == other.base && one.lid == other.lid, "the plates that are there");
-  compare(arena_of(one) == arena_of(other), "the walls");
-  return all;
-}
-
-/// Time by which the plates of `world` are past, or ahead of, the beginning of a vibration; 0 where nothing moves [s].
-double off_the_beat(const World& world) {
-  const System& system = world.system;
-  if (system.amplitude == 0 || (!system.base && !system.lid)) return 0;
-  const double cycles = static_cast<double>(world.tick) * system.dt * system.frequency;
-  return (cycles - std::round(cycles)) / system.frequency;
-}
-
 }  // namespace
 
 void push_at_start(Flight& flight, const System& system, Rng& rng) {
@@ -480,35 +453,81 @@ Result<World> make_world(const System& system) {
   return world;
 }
 
-Result<World> make_world(const System& system, const World& left) {
-  if (const std::string differs = what_differs(system, left.system); !differs.empty()) {
+std::string start_mismatch(const System& system, const System& other) {
+  std::string all;
+  const auto compare = [&](bool is_same, const char* what) {
+    if (!is_same) all += std::string(all.empty() ? "" : ", ") + what;
+  };
+  const auto arena_of = [](const System& one) {
+    return one.walls ? std::tuple(true, one.walls->arena, one.walls->size, one.walls->inner)
+                     : std::tuple(false, Arena::kDisc, 0.0, 0.0);
+  };
+  compare(system.rod == other.rod && system.added == other.added, "the rods");
+  compare(system.n_rods == other.n_rods, "their number");
+  compare(system.box_aspect == other.box_aspect, "the shape of the box");
+  compare(system.base == other.base && system.lid == other.lid, "the plates that are there");
+  compare(arena_of(system) == arena_of(other), "the walls");
+  if (system.walls && other.walls) {
+    compare(system.box_side == other.box_side, "the side of the box");
+    compare(system.gap == other.gap, "the gap");
+  }
+  return all;
+}
+
+double off_the_beat(const System& system, Tick tick) {
+  if (system.amplitude == 0 || (!system.base && !system.lid)) return 0;
+  const double cycles = static_cast<double>(tick) * system.dt * system.frequency;
+  return (cycles - std::round(cycles)) / system.frequency;
+}
+
+bool is_resized(const System& system, const System& other) {
+  return system.box_side != other.box_side || system.gap != other.gap;
+}
+
+Result<void> check_left(const System& system, const World& left) {
+  if (const std::string differs = start_mismatch(system, left.system); !differs.empty()) {
     return Error{"not the same as where the rods come from: " + differs};
   }
-  if (const double off = off_the_beat(left); std::abs(off) > 0.5 * left.system.dt * (1 + 1e-6)) {
-    const double now = static_cast<double>(left.tick) * left.system.dt;
-    return Error{"its plates are in the middle of a vibration at " + std::to_string(now) +
-                 " s and would jump; the nearest whole one is at " + std::to_string(now - off) + " s"};
-  }
-  World world = empty_world(system);
-  const bool has_plates = system.base || system.lid;
-  const double rise = has_plates ? world.plates.at(0).base - left.plates.at(left.tick).base : 0.0;
-  world.rods.resize(left.rods.size());
+  const double off = off_the_beat(left.system, left.tick);
+  if (std::abs(off) <= 0.5 * left.system.dt * (1 + 1e-6)) return {};
+  const double now = static_cast<double>(left.tick) * left.system.dt;
+  return Error{"its plates are in the middle of a vibration at " + std::to_string(now) +
+               " s and would jump; the nearest whole one is at " + std::to_string(now - off) + " s"};
+}
+
+RodsLeft rods_left(const World& world, const World& left) {
+  RodsLeft rods;
+  rods.poses.reserve(left.rods.size());
+  rods.motions.reserve(left.rods.size());
   std::vector<std::size_t> next(world.species.size(), 0);  // of each species, where to look for its next rod
-  for (std::size_t i = 0; i < world.rods.size(); ++i) {
-    const std::uint8_t kind = world.species_of_rod[i];
+  for (const std::uint8_t kind : world.species_of_rod) {
     std::size_t& from = next[kind];
     while (left.species_of_rod[from] != kind) ++from;
     const Flight& flight = left.rods[from++];
     const double ratio = world.species[kind].inertia_par / world.species[kind].inertia_perp;
     const double tau = static_cast<double>(left.tick - flight.since) * left.system.dt;
-    Pose pose = pose_after(flight, tau, left.system.gravity);
-    Motion motion = motion_after(flight, tau, left.system.gravity, pose.director, ratio);
-    pose.position.z() += rise;
+    rods.poses.push_back(pose_after(flight, tau, left.system.gravity));
+    rods.motions.push_back(motion_after(flight, tau, left.system.gravity, rods.poses.back().director, ratio));
+  }
+  return rods;
+}
+
+Result<World> make_world(const System& system, const World& left) {
+  if (auto fits = check_left(system, left); !fits) return fits.error();
+  SHAKEN_CHECK(!is_resized(system, left.system), "sim/compression.h makes that");
+  World world = empty_world(system);
+  const bool has_plates = system.base || system.lid;
+  const double rise = has_plates ? world.plates.at(0).base - left.plates.at(left.tick).base : 0.0;
+  auto [poses, motions] = rods_left(world, left);
+  world.rods.resize(poses.size());
+  for (std::size_t i = 0; i < world.rods.size(); ++i) {
+    const Species& species = world.species_of(i);
+    poses[i].position.z() += rise;
     if (system.seed != left.system.seed) {
       Rng rng(system.seed, RngStream::kKicks, 0, static_cast<std::uint64_t>(i));
-      for (double& component : motion.velocity) component *= 1.0 + kKick * rng.normal();
+      for (double& component : motions[i].velocity) component *= 1.0 + kKick * rng.normal();
     }
-    begin_flight(world.rods[i], 0, pose, motion, system.box(), ratio);
+    begin_flight(world.rods[i], 0, poses[i], motions[i], system.box(), species.inertia_par / species.inertia_perp);
     world.rods[i].image = {0, 0};
   }
   world.start = content(world);

@@ -22,8 +22,8 @@ Result<Simulation> Simulation::start(const System& system, const GoOn& go_on) {
   return Simulation(std::move(world).value());
 }
 
-Result<Simulation> Simulation::start(const System& system, const World& left) {
-  auto world = make_world(system, left);
+Result<Simulation> Simulation::start(const System& system, const World& left, const GoOn& go_on) {
+  auto world = is_resized(system, left.system) ? make_resized_world(system, left, go_on) : make_world(system, left);
   if (!world) return world.error();
   return Simulation(std::move(world).value());
 }

@@ -27,8 +27,9 @@ class Simulation {
   /// Places the rods as the scene says. Fails, with the largest area fraction that fits, if they cannot be packed.
   /// A compressed start takes CPU seconds; it asks `go_on` now and then, and fails once that says false.
   static Result<Simulation> start(const System& system, const GoOn& go_on = {});
-  /// Begins with the rods as they are in `left` (sim/initial.h); fails as make_world() does.
-  static Result<Simulation> start(const System& system, const World& left);
+  /// Begins with the rods as they are in `left` (sim/initial.h), in a box and a gap that may be others
+  /// (make_resized_world() in sim/compression.h, which asks `go_on`); fails as those do.
+  static Result<Simulation> start(const System& system, const World& left, const GoOn& go_on = {});
   /// Continues from bytes made by checkpoint(), bitwise as if there had been no stop.
   /// Fails if the bytes are damaged or belong to another scene.
   static Result<Simulation> resume(const System& system, std::span<const std::byte> checkpoint);

@@ -157,6 +157,29 @@ def test_nothing_swept_nothing_drawn() -> None:
     assert sweeps.sweep_figure([point(2.5, 0.6, NAN), point(2.5, 0.7, NAN)]) is None
 
 
+def test_the_ways_up_and_down_of_a_protocol_are_curves() -> None:
+    def stage(number: int, fraction: float, gap: float = 1.2) -> sweeps.PlottedPoint:
+        return sweeps.PlottedPoint({"box.gap": gap, "stage": number, "rods.area_fraction": fraction,
+                                    "time.measure": 1 + number}, fraction + 0.01 * number, 0.1)
+
+    fractions = [0.4, 0.5, 0.6, 0.5, 0.5, 0.4]
+    points = [stage(number, fraction) for number, fraction in enumerate(fractions, 1)]
+    found = sweeps.sweep_figure(points[::-1])
+    assert found is not None and found[0] == "order_rods_area_fraction"
+    curves = [drawn for drawn in found[1][0].drawn if not drawn.curve.startswith("reference")]
+    assert [drawn.curve for drawn in curves] == ["up", "down"]
+    assert list(curves[0].x) == [0.4, 0.5, 0.6] and list(curves[1].x) == [0.4, 0.5, 0.5]
+    assert list(curves[1].y) == pytest.approx([0.46, 0.54, 0.55]), "the last stage but one stays where it is"
+    # what differs within a stage is a sweep around the protocol
+    found = sweeps.sweep_figure(points + [stage(number, fraction, 1.4) for number, fraction in enumerate(fractions, 1)])
+    assert found is not None
+    curves = [drawn for drawn in found[1][0].drawn if not drawn.curve.startswith("reference")]
+    assert [names.plain(drawn.curve) for drawn in curves] == ["w = 1.2 mm, up", "w = 1.2 mm, down", "w = 1.4 mm, up",
+                                                              "w = 1.4 mm, down"]
+    assert sweeps.ways_of([3, 3, 2, 2, 4]) == ["down", "down", "down", "down", "up"]
+    assert sweeps.sweep_figure(points, x="stage") is not None
+
+
 def test_texts_with_units_are_numbers() -> None:
     found = sweeps.sweep_figure([sweeps.PlottedPoint({"box.gap": gap}, y, 0.1) for gap, y in
                                  (("1.2 mm", 0.5), ("0.9 mm", 0.4))])

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "server/queue/database_schema.h"
 
+#include <array>
 #include <string>
 
 namespace shaken::server {
@@ -90,6 +91,16 @@ std::int64_t version(Database& database) {
   return query.integer(0);
 }
 
+/// `waits` becomes a sum: 1 for the prerequisites of the sweep, 2 for the run that the job starts from.
+void jobs_start_from_jobs(Database& database) {
+  database.execute(R"sql(
+ALTER TABLE jobs ADD COLUMN starts_from TEXT NOT NULL DEFAULT '';  -- id of a run whose end it begins at
+CREATE INDEX jobs_by_start ON jobs(starts_from) WHERE starts_from <> '';
+DROP INDEX jobs_that_wait;
+CREATE INDEX jobs_that_wait ON jobs(sweep) WHERE waits & 1;
+)sql");
+}
+
 std::string damage(Database& database) {
   Query query = database.query("PRAGMA quick_check(1)");
   query.next();
@@ -98,7 +109,10 @@ std::string damage(Database& database) {
 
 }  // namespace
 
-std::span<const Migration> migrations() { return {}; }
+std::span<const Migration> migrations() {
+  static constexpr std::array<Migration, 1> kMigrations{jobs_start_from_jobs};
+  return kMigrations;
+}
 
 void prepare_schema(Database& database, std::span<const Migration> upgrades) {
   const std::string found = damage(database);

@@ -68,16 +68,18 @@ struct Job {
   std::int64_t created = 0;
   std::int64_t started = 0;  ///< the last attempt
   std::int64_t finished = 0;
-  std::int64_t not_before = 0;  ///< a queued job that has crashed, or is refused where it is to run, waits until then
-  std::int64_t asked_by = 0;    ///< the sweep that asked for it last, whose terms it obeys
-  bool waits = false;           ///< until what that sweep comes after is done
+  std::int64_t not_before = 0;   ///< a queued job that has crashed, or is refused where it is to run, waits until then
+  std::int64_t asked_by = 0;     ///< the sweep that asked for it last, whose terms it obeys
+  bool waits = false;            ///< until what that sweep comes after is done
+  bool waits_for_start = false;  ///< until the run that it starts from is done
   std::chrono::milliseconds soft_limit{0};  ///< see Terms
   std::chrono::milliseconds time_limit{0};
   /// Wall time of its attempts since it was submitted or retried last; of the present one, all but the last seconds.
   std::chrono::milliseconds wall{0};
-  int crashes = 0;       ///< in a row, without a checkpoint between them
-  bool longer = false;   ///< asked to go on for longer than its worker knows
-  std::string worker{};  ///< by which a worker that outlives the daemon is found
+  int crashes = 0;            ///< in a row, without a checkpoint between them
+  bool longer = false;        ///< asked to go on for longer than its worker knows
+  std::string worker{};       ///< by which a worker that outlives the daemon is found
+  std::string starts_from{};  ///< the id of a run whose end it begins at; empty: none
 };
 
 /// An ordered list of jobs asked for together.

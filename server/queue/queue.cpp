@@ -90,6 +90,10 @@ std::optional<JobPhase> Queue::apply(const std::string& id, JobEvent event, cons
   if (has_ended(state) || has_ended(job->state)) {
     for (const std::int64_t sweep : store_.sweeps_that_wait_for(id)) update_waiting(sweep);
   }
+  if (has_ended(state) || has_ended(job->state) || *to == JobPhase::kHeldForOthers ||
+      job->phase == JobPhase::kHeldForOthers) {
+    update_starts_from(id);
+  }
   return to;
 }
 
@@ -130,6 +134,9 @@ Submitted Queue::submit(const std::string& name, int priority, std::span<const N
     }
     store_.set_terms(result.sweep, terms);
     if (!terms.after.empty()) update_waiting(result.sweep);
+    for (const NewJob& job : jobs) {
+      if (!job.starts_from.empty()) update_starts_from(job.starts_from);
+    }
     result.counts = store_.counts_of(Target(result.sweep));
     return result;
   });
@@ -191,6 +198,7 @@ void Queue::refuse_circle(std::span<const NewJob> jobs, const Terms& terms) cons
                                        : ""));
       }
       const Job job = *store_.job(id);
+      if (job.waits_for_start && seen.insert(job.starts_from).second) pending.emplace_back(job.starts_from);
       if (!job.waits) continue;
       for (const std::string& word : store_.prerequisites(job.asked_by)) {
         if (seen.insert(target_named(word)).second) pending.push_back(target_named(word));
@@ -215,6 +223,21 @@ void Queue::update_waiting(std::int64_t sweep) {
     apply(id, kPrerequisiteRetried, "what it is to come after is tried again");
   }
   if (all_done) store_.end_waiting(sweep);
+}
+
+/// Jobs that start from run `id` wait until it is done, and are held where nothing will come of it. One that is not in
+/// the queue keeps nobody waiting: its results may be on the disk.
+void Queue::update_starts_from(const std::string& id) {
+  const auto run = store_.job(id);
+  if (!run) return;
+  const bool is_hopeless = (has_ended(run->state) && run->state != JobState::kDone) ||  //
+                           run->phase == JobPhase::kHeldForOthers;
+  const std::string reason = fmt::format("it is to start from run {}: {}", id, to_word(run->state));
+  for (const std::string& next : store_.ids_starting_from(id)) {
+    store_.set_waiting_for_start(next, run->state != JobState::kDone);
+    apply(next, is_hopeless ? kPrerequisiteFailed : kPrerequisiteRetried,
+          is_hopeless ? reason : "run " + id + " goes on", is_hopeless ? reason : "");
+  }
 }
 
 void Queue::update_all_waiting() {
@@ -284,6 +307,10 @@ std::vector<Job> Queue::explained(std::vector<Job> jobs) const {
       reasons;  // by sweep, of jobs that wait for others or do not
   for (Job& job : jobs) {
     if (job.state != JobState::kQueued || !job.reason.empty()) continue;
+    if (job.waits_for_start && !job.waits) {
+      job.reason = fmt::format("waits for run {}, from which it starts", job.starts_from);
+      continue;
+    }
     const auto [entry, is_new] = reasons.try_emplace({job.asked_by, job.waits});
     if (is_new) entry->second = why_waiting(job);
     job.reason = entry->second.first;
@@ -309,6 +336,7 @@ int Queue::request(JobEvent event, const Target& target) {
   return write([&] {
     int changed = 0;
     std::map<std::int64_t, bool> was_refused;  // by sweep
+    std::set<std::string> starts;              // runs without which some of these cannot start
     const auto end_refusal = [&](std::int64_t sweep) {
       const auto [entry, is_new] = was_refused.try_emplace(sweep);
       const auto refusal = is_new ? store_.refusal_of(sweep) : std::nullopt;
@@ -324,9 +352,13 @@ int Queue::request(JobEvent event, const Target& target) {
         store_.set(id, "reason", "");
       }
       const auto to = apply(id, event, cause_of(event, job.state));
-      if (to == JobPhase::kQueued && job.phase == JobPhase::kHeldForOthers) store_.set(id, "waits", 0);
+      if (to == JobPhase::kQueued && job.phase == JobPhase::kHeldForOthers) {
+        store_.wait_for_start_only(id);
+        if (!job.starts_from.empty()) starts.insert(job.starts_from);
+      }
       changed += to || is_paused ? 1 : 0;
     }
+    for (const std::string& id : starts) update_starts_from(id);
     if (event == kCancel || event == kHold) return changed;
     if (const std::int64_t* sweep = std::get_if<std::int64_t>(&target)) store_.lift_met_rule(*sweep);
     update_all_waiting();

@@ -181,6 +181,7 @@ class Queue {
   void refuse_circle(std::span<const NewJob> jobs, const Terms& terms) const;
   void update_waiting(std::int64_t sweep);
   void update_all_waiting();
+  void update_starts_from(const std::string& id);
   void check_stop_rule(std::int64_t sweep);
   std::pair<std::string, std::int64_t> why_waiting(const Job& job) const;
   std::vector<Job> explained(std::vector<Job> jobs) const;

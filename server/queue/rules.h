@@ -8,6 +8,8 @@
 //   than it may (`at_most`), and its executor has not just refused what its sweep asks of it.
 // - *Prerequisites (`--after`).* Jobs wait until all that their sweep comes after is done. If some of that comes to
 //   nothing, those that are queued are held; they wait on if it is tried again, and start all the same if resumed.
+// - *Starts.* A job that begins at the end of another run waits until that is done. It is held if nothing comes of it,
+//   and goes on waiting if it is tried again; resumed, it is held again as long as there is nothing to start from.
 // - *Soft limit.* A job is preempted only if more ready jobs, of at least its priority, need a slot than others stop.
 // - *Time limit.* All attempts count together. A retry, or a submission once more, begins the count anew.
 // - *Stop rule (`--stop-if`).* Looked at whenever a job of the sweep ends by itself. It holds the queued jobs of the

@@ -42,7 +42,7 @@ std::string members_of(const Target& target) {
 const std::string kColumns =
     ", j.id, j.state, j.hold, j.after_stop, j.reason, j.attempt, j.pid, j.created_utime, j.started_utime, "
     "j.finished_utime, j.priority, j.not_before_utime, j.soft_limit_ms, j.time_limit_ms, j.wall_ms, j.sweep, j.waits, "
-    "j.crashes, j.longer, j.worker ";
+    "j.crashes, j.longer, j.worker, j.starts_from ";
 const std::string kSelectJobs = "SELECT j.sweep, j.label, j.parameters, j.replica" + kColumns + "FROM jobs j ";
 const std::string kSelectMembers = "SELECT m.sweep, m.label, m.parameters, m.replica" + kColumns +
                                    "FROM members m JOIN jobs j ON j.number = m.job WHERE m.sweep = ?1 ";
@@ -78,13 +78,15 @@ Job read_job(const Query& query) {
           .finished = query.integer(13),
           .not_before = query.integer(15),
           .asked_by = query.integer(19),
-          .waits = query.integer(20) != 0,
+          .waits = (query.integer(20) & 1) != 0,
+          .waits_for_start = (query.integer(20) & 2) != 0,
           .soft_limit = milliseconds(query.integer(16)),
           .time_limit = milliseconds(query.integer(17)),
           .wall = milliseconds(query.integer(18)),
           .crashes = as_int(query, 21),
           .longer = query.integer(22) != 0,
-          .worker = query.text(23)};
+          .worker = query.text(23),
+          .starts_from = query.text(24)};
 }
 
 Sweep read_sweep(const Query& query) {
@@ -303,23 +305,38 @@ std::vector<std::string> QueueStore::prerequisites(std::int64_t sweep) const {
 }
 
 std::vector<std::string> QueueStore::waiting_in(std::int64_t sweep) const {
-  return read_texts(database_.query("SELECT id FROM jobs WHERE sweep = ?1 AND waits = 1 ORDER BY number", sweep));
+  return read_texts(database_.query("SELECT id FROM jobs WHERE sweep = ?1 AND waits & 1 ORDER BY number", sweep));
 }
 
 std::vector<std::int64_t> QueueStore::sweeps_that_wait() const {
-  return read_integers(database_.query("SELECT DISTINCT sweep FROM jobs WHERE waits = 1"));
+  return read_integers(database_.query("SELECT DISTINCT sweep FROM jobs WHERE waits & 1"));
 }
 
 std::vector<std::int64_t> QueueStore::sweeps_that_wait_for(const std::string& id) const {
   return read_integers(database_.query(
       "SELECT DISTINCT sweep FROM prerequisites WHERE target IN "
       "(SELECT ?1 UNION ALL SELECT 's' || m.sweep FROM jobs j JOIN members m ON m.job = j.number WHERE j.id = ?1) "
-      "AND EXISTS (SELECT 1 FROM jobs w WHERE w.sweep = prerequisites.sweep AND w.waits = 1)",
+      "AND EXISTS (SELECT 1 FROM jobs w WHERE w.sweep = prerequisites.sweep AND w.waits & 1)",
       id));
 }
 
 void QueueStore::end_waiting(std::int64_t sweep) {
-  database_.run("UPDATE jobs SET waits = 0 WHERE sweep = ?1 AND waits = 1", sweep);
+  database_.run("UPDATE jobs SET waits = waits & ~1 WHERE sweep = ?1 AND waits & 1", sweep);
+}
+
+std::vector<std::string> QueueStore::ids_starting_from(const std::string& id) const {
+  return read_texts(
+      database_.query("SELECT id FROM jobs WHERE starts_from = ?1 AND starts_from <> '' AND state IN ('queued', "
+                      "'held') ORDER BY number",
+                      id));
+}
+
+void QueueStore::set_waiting_for_start(const std::string& id, bool waits) {
+  database_.run("UPDATE jobs SET waits = (waits & ~2) | ?2 WHERE id = ?1", id, waits ? 2 : 0);
+}
+
+void QueueStore::wait_for_start_only(const std::string& id) {
+  database_.run("UPDATE jobs SET waits = waits & ~1 WHERE id = ?1", id);
 }
 
 std::vector<std::int64_t> QueueStore::ruled_sweeps_of(const std::string& id) const {
@@ -379,7 +396,8 @@ void QueueStore::set_terms(std::int64_t sweep, const Terms& terms) {
                   static_cast<std::int64_t>(i), to_word(terms.after[i]));
   }
   database_.run(
-      "UPDATE jobs SET waits = ?2 AND state IN ('queued', 'held') WHERE sweep = ?1 AND (?2 OR waits) "
+      "UPDATE jobs SET waits = (waits & ~1) | (?2 AND state IN ('queued', 'held')) WHERE sweep = ?1 AND (?2 OR waits & "
+      "1) "
       "AND number IN (SELECT job FROM members WHERE sweep = ?1)",
       sweep, terms.after.empty() ? 0 : 1);
 }
@@ -390,10 +408,10 @@ bool QueueStore::add_job(const NewJob& job, int priority, std::int64_t sweep, co
   const std::string_view state = to_word(is_done ? JobState::kDone : JobState::kQueued);
   const int added = database_.run(
       "INSERT INTO jobs(id, state, priority, created_utime, sweep, label, parameters, replica, soft_limit_ms, "
-      "time_limit_ms, turn, finished_utime) VALUES(?1, ?10, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, "
-      "(SELECT COALESCE(MAX(sequence), 0) + 1 FROM journal), ?11) ON CONFLICT(id) DO NOTHING",
+      "time_limit_ms, turn, finished_utime, starts_from) VALUES(?1, ?10, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, "
+      "(SELECT COALESCE(MAX(sequence), 0) + 1 FROM journal), ?11, ?12) ON CONFLICT(id) DO NOTHING",
       job.id, priority, utime_now(), sweep, job.label, job.parameters, job.replica, terms.soft_limit.count(),
-      terms.time_limit.count(), state, is_done ? utime_now() : 0);
+      terms.time_limit.count(), state, is_done ? utime_now() : 0, job.starts_from);
   if (added == 0) return false;
   database_.run("INSERT INTO scenes(job, scene) VALUES(?1, ?2)", database_.last_row_id(), job.scene);
   add_to_journal(job.id, "", state, 0, cause + (is_done ? "; its results were there already" : ""));

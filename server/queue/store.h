@@ -28,6 +28,7 @@ struct NewJob {
   /// Whether its results are on the disk: a new job is done then, and one that was done is not done any more without
   /// them. Where nobody has looked, the queue is believed.
   std::optional<bool> has_results{};
+  std::string starts_from{};  ///< the id of a run whose end it begins at; empty: none
 };
 
 /// A state change, from the journal.
@@ -94,6 +95,12 @@ class QueueStore {
   std::vector<std::int64_t> sweeps_that_wait() const;
   std::vector<std::int64_t> sweeps_that_wait_for(const std::string& id) const;
   void end_waiting(std::int64_t sweep);
+  /// Those that have not begun, of the jobs that start from run `id`.
+  std::vector<std::string> ids_starting_from(const std::string& id) const;
+  /// Whether a job waits for the run that it starts from.
+  void set_waiting_for_start(const std::string& id, bool waits);
+  /// A job does not wait for what its sweep comes after any more.
+  void wait_for_start_only(const std::string& id);
   /// Sweeps with this job that have a stop rule which is not met yet.
   std::vector<std::int64_t> ruled_sweeps_of(const std::string& id) const;
   /// Jobs that obey the terms of a sweep of which they are members.

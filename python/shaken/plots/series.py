@@ -15,6 +15,8 @@ from .sheet import Sheet
 
 #: A key under which points carry what computed them, where that differs: {"": "shaken 0.1.0, physics 3"}.
 VERSION = ""
+#: A key under which a curve carries which way a protocol goes along it: {"way": "up"}.
+WAY = "way"
 _MOST_NAMED = len(style.PALETTE)
 
 
@@ -30,7 +32,7 @@ def number_of(value: Any) -> float:
 
 def label_of(parameters: Mapping[str, Any]) -> str:
     """Parameters in print; the version as it is."""
-    return ", ".join(str(value) if key == VERSION else names.value_label(key, value)
+    return ", ".join(str(value) if key in (VERSION, WAY) else names.value_label(key, value)
                      for key, value in parameters.items())
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any, Mapping, Sequence
 
 from . import names
-from .series import VERSION, Arrangement, number_of
+from .series import VERSION, WAY, Arrangement, number_of
 from .sheet import Sheet
 
 
@@ -29,15 +29,39 @@ class PlottedPoint:
     runs: Sequence[str] = field(default_factory=tuple)
 
 
+#: The parameter that numbers the runs of a protocol, from 1.
+STAGE = "stage"
+_OF_COURSE = {STAGE, "time.steady", "time.measure"}
+
+
 def longest_parameter(points: Sequence[PlottedPoint]) -> str:
-    """The swept key with the most values that are numbers; empty if none has two."""
+    """The swept key with the most values that are numbers; empty if none has two. The number of a stage and
+    how long it lasts come last: what the stages of a protocol change says more."""
     values: dict[str, set[float]] = {}
     for point in points:
         for key, value in point.parameters.items():
             if math.isfinite(number_of(value)):
                 values.setdefault(key, set()).add(number_of(value))
     several = {key: len(found) for key, found in values.items() if len(found) > 1}
-    return max(several, key=lambda key: several[key]) if several else ""
+    return max(several, key=lambda key: (key not in _OF_COURSE, several[key])) if several else ""
+
+
+def set_by_stages(points: Sequence[PlottedPoint]) -> set[str]:
+    """The keys of a protocol: those that are the same in all points of a stage."""
+    values: dict[tuple[str, float], set[str]] = {}
+    for point in points:
+        for key, value in point.parameters.items():
+            values.setdefault((key, number_of(point.parameters.get(STAGE))), set()).add(repr(value))
+    keys = {key for key, _ in values}
+    return {key for key in keys if all(len(found) == 1 for (name, _), found in values.items() if name == key)}
+
+
+def ways_of(along: Sequence[float]) -> list[str]:
+    """Of each value in turn, whether it lies on a way up or down; where it stays, as before."""
+    ways = ["up" if next((b > a for a, b in zip(along, along[1:]) if a != b), True) else "down"]
+    for before, now in zip(along, along[1:]):
+        ways.append(ways[-1] if now == before else "up" if now > before else "down")
+    return ways
 
 
 def file_name(field_name: str) -> str:
@@ -46,20 +70,35 @@ def file_name(field_name: str) -> str:
     return field_name.replace(".", "_")
 
 
+Group = tuple[dict[str, Any], list[tuple[float, PlottedPoint]]]
+
+
+def _by_way(others: dict[str, Any], group: list[tuple[float, PlottedPoint]]) -> list[Group]:
+    """The stages of a protocol, in their order, as those on ways up and those on ways down."""
+    ways = ways_of([at for at, _ in group])
+    return [({**others, WAY: way}, [pair for pair, its in zip(group, ways) if its == way])
+            for way in dict.fromkeys(ways)]
+
+
 def sweep_figure(points: Sequence[PlottedPoint], x: str = "", y: str = "order.mean",
                  width: str | None = None) -> tuple[str, Sheet] | None:
     """(name, figure): `y` against `x`, the longest swept parameter if left out. Other parameters, and versions, are
-    told by colours and panels as Arrangement does. None where no parameter is swept, or no point has both."""
+    told by colours and panels as Arrangement does, and so are the ways up and down of a protocol. None where no
+    parameter is swept, or no point has both."""
     path = x or longest_parameter(points)
     if not path:
         return None
+    of_protocol: set[str] = set()
+    if path != STAGE and any(STAGE in point.parameters for point in points):
+        of_protocol = set_by_stages(points) | {STAGE}
+        points = sorted(points, key=lambda point: number_of(point.parameters.get(STAGE)))
     several_versions = len({point.version for point in points if point.version}) > 1
-    groups: list[tuple[dict[str, Any], list[tuple[float, PlottedPoint]]]] = []
+    groups: list[Group] = []
     for point in points:
         at = point.x if x and math.isfinite(point.x) else number_of(point.parameters.get(path))
         if not math.isfinite(at) or not math.isfinite(point.y):
             continue
-        others = {key: value for key, value in point.parameters.items() if key != path}
+        others = {key: value for key, value in point.parameters.items() if key != path and key not in of_protocol}
         if several_versions and point.version:
             others[VERSION] = point.version
         group = next((found for known, found in groups if known == others), None)
@@ -69,6 +108,8 @@ def sweep_figure(points: Sequence[PlottedPoint], x: str = "", y: str = "order.me
         group.append((at, point))
     if not groups:
         return None
+    if of_protocol:
+        groups = [part for group in groups for part in _by_way(*group)]
     arrangement = Arrangement([others for others, _ in groups])
     sheet = arrangement.sheet(width, names.axis_title(path), names.axis_title(y))
     any_error = any(math.isfinite(point.error) for _, group in groups for _, point in group)

@@ -58,7 +58,7 @@ TEST(Configs, TheExamplesOfTheReferenceAreValid) {
       example.clear();
     }
   }
-  EXPECT_EQ(n_examples, 4);
+  EXPECT_EQ(n_examples, 5);
 }
 
 }  // namespace

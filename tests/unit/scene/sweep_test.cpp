@@ -290,6 +290,76 @@ TEST(Sweep, ReplicasDifferInTheSeedOnly) {
   EXPECT_EQ(sweep_of("{}", {}, 4).points.size(), 4u);
 }
 
+TEST(Sweep, StagesAreAChainOfRuns) {
+  const Sweep sweep = sweep_of(R"({
+    "scene": {"rods": {"start": "random", "area_fraction": 0.4}, "time": {"steady": "1 s", "measure": "2 s"}},
+    "sweep": {"grid": {"box.gap": [1.2, 1.4]}, "replicas": 2, "stages": [
+      {"time.measure": "3 s"}, {"plates.gamma": "6:5:-0.5", "plates.noise": [0, 1, 2]}, {"time.measure": 4}]}})");
+  ASSERT_EQ(sweep.points.size(), 2u * 5 * 2);
+  const std::vector<std::string> all = labels(sweep);
+  EXPECT_THAT(
+      std::vector(all.begin(), all.begin() + 5),
+      ElementsAre("box.gap=1.2 stage=1 time.measure=3 replica=1", "box.gap=1.2 stage=1 time.measure=3 replica=2",
+                  "box.gap=1.2 stage=2 time.measure=3 plates.gamma=6 plates.noise=0 replica=1",
+                  "box.gap=1.2 stage=2 time.measure=3 plates.gamma=6 plates.noise=0 replica=2",
+                  "box.gap=1.2 stage=3 time.measure=3 plates.gamma=5.5 plates.noise=1 replica=1"));
+  EXPECT_EQ(sweep.points[0].parameters.dump(),
+            R"({"box.gap":1.2,"stage":1,"time.measure":3.0,"plates.gamma":7.0,"plates.noise":0.0})");
+  EXPECT_EQ(sweep.points[8].parameters.dump(),
+            R"({"box.gap":1.2,"stage":5,"time.measure":4.0,"plates.gamma":5.0,"plates.noise":2.0})");
+  for (std::size_t i = 0; i < sweep.points.size(); ++i) {
+    SCOPED_TRACE(sweep.points[i].label);
+    const RunPlan& plan = sweep.points[i].plan;
+    EXPECT_EQ(plan.system.seed, 1 + i % 2);
+    if (i % 10 < 2) {
+      EXPECT_FALSE(plan.start);
+      EXPECT_EQ(plan.system.start, Start::kRandom);
+      continue;
+    }
+    ASSERT_TRUE(plan.start);
+    EXPECT_EQ(plan.start->run, run_id(sweep.points[i - 2].plan)) << "the same replica, one stage before";
+    EXPECT_EQ(plan.start->time, 4) << "when that has been steady for a second and measured for three";
+    EXPECT_EQ(plan, plan_of(to_json(plan).dump())) << "a scene like any other";
+  }
+}
+
+TEST(Sweep, AStageKeepsItsRodsAndMayChangeTheirPacking) {
+  const std::string stages = R"("sweep": {"stages": [{}, {"rods.area_fraction": "0.5:0.6:0.1"}]}})";
+  const Sweep sweep = sweep_of(R"({"scene": {"rods": {"count": 300, "area_fraction": 0.4}}, )" + stages);
+  ASSERT_EQ(sweep.points.size(), 3u);
+  for (const SweepPoint& point : sweep.points) EXPECT_EQ(point.plan.system.n_rods, 300);
+  EXPECT_GT(sweep.points[0].plan.system.box_side, sweep.points[1].plan.system.box_side);
+  EXPECT_GT(sweep.points[1].plan.system.box_side, sweep.points[2].plan.system.box_side);
+  EXPECT_EQ(
+      sweep_problems(R"({"scene": {"box": {"side": 40}}, )" + stages),
+      "s.json:1:60: /stages: stage 2 cannot follow stage 1: not the same in both: their number (a stage that names "
+      "rods.area_fraction keeps the rods and changes the box if the scene gives rods.count and not box.side)\n");
+}
+
+TEST(Sweep, MistakesInStages) {
+  const auto problem = [](const std::string& stages, const std::vector<std::string>& settings = {}) {
+    return sweep_problems(R"({"sweep": {"grid": {"box.gap": [1.2]}, "stages": )" + stages + "}}", settings);
+  };
+  EXPECT_THAT(problem("[]"), HasSubstr("/sweep/stages: names no stage"));
+  EXPECT_THAT(problem("{}"), HasSubstr("/sweep/stages: expected an array of objects, not an object"));
+  EXPECT_THAT(problem(R"([{}, {"box.gap": 1.3}])"), HasSubstr("/box/gap: swept twice, in \"grid\" at 1:21 too"));
+  EXPECT_THAT(problem(R"([{"time.seed": 2}])"), HasSubstr("/time/seed: a stage begins where the one before ends"));
+  EXPECT_THAT(problem(R"([{"rods.start": "random"}])"), HasSubstr("/rods/start: a stage begins where"));
+  EXPECT_THAT(problem(R"([{"plates.gamma": [5, 6], "plates.noise": [0, 1, 2]}])"),
+              HasSubstr("3 values, but another key of this stage has 2; keys of a stage vary together"));
+  EXPECT_THAT(problem(R"([{"plates.gamma": "5:7:0.001"}])"), HasSubstr("2001 stages; at most 1000 are allowed"));
+  EXPECT_THAT(
+      problem(R"([{"time.measure": "1.001 s"}, {"plates.gamma": 6}])"),
+      HasSubstr("stage 2 cannot follow stage 1: that ends in the middle of a vibration, at 1.001 s, and the plates "
+                "would jump; the nearest whole one ends at 1 s"));
+  EXPECT_THAT(problem(R"([{"until.order_sem": 0.01}, {}])"), HasSubstr("with `until`, the time at which that ends"));
+  EXPECT_THAT(problem(R"([{}, {"walls.arena": "disc"}])"), HasSubstr("the walls"));
+  EXPECT_THAT(problem(R"([{"plates.gamma": 6}])", {"plates.gamma=5,6"}), HasSubstr("the file's stages set it"));
+  const Sweep overridden =
+      sweep_of(R"({"sweep": {"stages": [{"time.measure": 3}, {"time.measure": 4}]}})", {"time.measure=1"});
+  for (const SweepPoint& point : overridden.points) EXPECT_EQ(point.plan.measure_time, 1);
+}
+
 TEST(Sweep, SettingsOfSeveralValuesAreAxes) {
   EXPECT_THAT(labels(sweep_of("{}", {"rods.length=2.5,3.5 mm", "box.gap=1.2:1.4:0.2", "plates.gamma=6"})),
               ElementsAre("rods.length=2.5 box.gap=1.2", "rods.length=2.5 box.gap=1.4", "rods.length=3.5 box.gap=1.2",
@@ -332,7 +402,7 @@ TEST(Sweep, StructuralMistakes) {
   EXPECT_EQ(sweep_problems(R"({"sweep": {"grid": {"measure": [1]}}})"),
             "s.json:1:21: /measure: this is an object; sweep the keys in it\n");
   EXPECT_EQ(sweep_problems(R"({"sweep": {"grid": {"box.gap": [1.2]}, "list": [{"box.gap": 1.3}]}})"),
-            "s.json:1:50: /box/gap: swept twice, in \"grid\" at 1:21 before\n");
+            "s.json:1:50: /box/gap: swept twice, in \"grid\" at 1:21 too\n");
   EXPECT_EQ(sweep_problems(R"({"sweep": {"random": {"box.gap": {"from": 1.2, "to": 2}}}})"),
             "s.json:1:22: /sweep/random: lacks \"n\", the number of draws\n");
   EXPECT_EQ(sweep_problems(R"({"sweep": {"random": {"n": 2, "box.gap": {"from": 3, "to": 2}}}})"),

@@ -878,7 +878,8 @@ TEST_F(ApiTest, ARunThatStartsFromAnotherWaitsForIt) {
   EXPECT_THAT(wrong.error(), HasSubstr("ends at 10 s, where its last state is kept, not at start.time 9 s"));
   const Json job = submit({{"text", scene("10")}, {"name", "second"}}).json["jobs"][0];
   EXPECT_EQ(job["state"], "queued");
-  EXPECT_EQ(job["reason"], "waits for " + parent);
+  EXPECT_EQ(job["reason"], "waits for run " + parent + ", from which it starts");
+  EXPECT_EQ(job["starts_from"], parent);
   EXPECT_FALSE(begin(queue_, job["id"]));
   begin(queue_, parent);
   queue_.ended(parent, JobEvent::kWorkerDone);
@@ -909,6 +910,37 @@ TEST_F(ApiTest, ARunStartsOnlyWhereItsParentWithAConditionCanHaveEnded) {
              R"({"run_id": ")" + parent + R"(", "exit": {"state": "done", "tick": 1000000}})");
   EXPECT_EQ(start("4").status, 201);
   EXPECT_THAT(start("3").error(), HasSubstr("ended at 4 s"));
+}
+
+TEST_F(ApiTest, StagesAreChainsThatRunBesideEachOther) {
+  const std::string stages =
+      R"({"sweep": {"stages": [{}, {"plates.gamma": [6, 5]}, {"time.measure": "1 s"}], "replicas": 2}})";
+  const Response two = submit({{"text", stages}, {"name", "ramp"}});
+  ASSERT_EQ(two.status, 201) << two.error();
+  const Json& jobs = two.json["jobs"];
+  ASSERT_EQ(jobs.size(), 8U);
+  for (std::size_t i = 0; i < 8; ++i) {
+    EXPECT_EQ(jobs[i]["starts_from"], i < 2 ? Json(nullptr) : jobs[i - 2]["id"]) << i;
+    EXPECT_EQ(jobs[i]["parameters"]["stage"], 1 + i / 2);
+  }
+  EXPECT_EQ(queue_.next(10).size(), 2U) << "the first stage of each";
+  begin(queue_, jobs[0]["id"]);
+  queue_.ended(jobs[0]["id"], JobEvent::kWorkerDone);
+  EXPECT_TRUE(begin(queue_, jobs[2]["id"])) << "whatever the other replica does";
+  EXPECT_FALSE(begin(queue_, jobs[3]["id"]));
+
+  // a further replica is a further chain, as if submitted so
+  const Response three = post("/v1/sweeps/ramp/replicas", R"({"replicas": 3})");
+  ASSERT_EQ(three.json["jobs"].size(), 12U);
+  EXPECT_EQ(three.json["counts"]["new"], 4);
+  for (std::size_t i = 3; i < 12; ++i) EXPECT_EQ(three.json["jobs"][i]["starts_from"], three.json["jobs"][i - 3]["id"]);
+  const Response same = submit({{"text", stages}, {"name", "ramp"}, {"replicas", 3}});
+  EXPECT_EQ(same.json["counts"]["new"], 0);
+
+  const std::string other = R"({"sweep": [{"stages": [{}, {"plates.gamma": 6}]},
+                                          {"stages": [{"time.measure": "2 s"}, {"plates.gamma": 5}]}]})";
+  EXPECT_THAT(submit({{"text", other}, {"name", "other"}}).error(),
+              HasSubstr("stages that say the same from the start on must last equally long"));
 }
 
 TEST_F(ApiTest, ASweepGetsMoreReplicasAsIfSubmittedSo) {

@@ -354,6 +354,62 @@ TEST_F(QueueTest, ExtendingAFailedJobLeavesItFailed) {
   EXPECT_EQ(seconds_asked(queue_, job.id), 4);
 }
 
+/// A chain of jobs: each starts from the one before.
+std::vector<NewJob> chain(const std::string& digits) {
+  std::vector<NewJob> jobs;
+  for (const char digit : digits) {
+    const std::string former = jobs.empty() ? "" : jobs.back().id;
+    jobs.push_back(new_job(digit));
+    jobs.back().starts_from = former;
+  }
+  return jobs;
+}
+
+TEST_F(QueueTest, AJobStartsOnceTheRunThatItStartsFromIsDone) {
+  queue_.submit("s", 0, chain("abc"));
+  EXPECT_EQ(queue_.next(10).size(), 1U);
+  EXPECT_EQ(queue_.job(b_)->reason, "waits for run aaaaaaaaaaaaaaaa, from which it starts");
+  EXPECT_EQ(begin(queue_, b_), std::nullopt);
+  begin(queue_, a_);
+  queue_.ended(a_, JobEvent::kWorkerDone);
+  EXPECT_EQ(queue_.job(b_)->reason, "");
+  EXPECT_EQ(queue_.next(10).size(), 1U) << "and the third waits for the second";
+  EXPECT_EQ(begin(queue_, b_), 1);
+  // one that is known already, and done, keeps nobody waiting; nor does one that is not in the queue
+  std::vector<NewJob> more = chain("ad");
+  queue_.submit("t", 0, more);
+  EXPECT_EQ(begin(queue_, more[1].id), 1);
+  NewJob other = new_job('e');
+  other.starts_from = std::string(16, 'f');
+  queue_.submit("u", 0, std::vector{other});
+  EXPECT_EQ(begin(queue_, other.id), 1);
+}
+
+TEST_F(QueueTest, AChainIsHeldWhereARunOfItFailsAndGoesOnWhenThatIsTriedAgain) {
+  const auto sweep = queue_.submit("s", 0, chain("abc")).sweep;
+  begin(queue_, a_);
+  queue_.ended(a_, JobEvent::kWorkerFailed, "exit 1");
+  EXPECT_EQ(state('b'), kHeld);
+  EXPECT_EQ(queue_.job(b_)->reason, "it is to start from run aaaaaaaaaaaaaaaa: failed");
+  EXPECT_EQ(state('c'), kHeld) << "so does nothing come of what follows";
+  EXPECT_EQ(queue_.resume(Target(b_)), 1);
+  EXPECT_EQ(state('b'), kHeld) << "there is nothing to start from";
+  EXPECT_EQ(queue_.retry(Target(sweep)), 1) << "the others follow";
+  EXPECT_EQ(state('a'), kQueued);
+  EXPECT_EQ(state('b'), kQueued);
+  EXPECT_EQ(state('c'), kQueued);
+  EXPECT_EQ(queue_.next(10).size(), 1U) << "one after the other, as before";
+  queue_.cancel(Target(a_));
+  EXPECT_EQ(state('c'), kHeld);
+  queue_.submit("s", 0, chain("abc"));
+  EXPECT_EQ(state('c'), kQueued);
+}
+
+TEST_F(QueueTest, AJobDoesNotWaitForWhatStartsFromIt) {
+  queue_.submit("s", 0, chain("ab"));
+  EXPECT_THROW(queue_.submit("t", 0, std::vector{new_job('a')}, Terms{.after = {Target(b_)}}), Circular);
+}
+
 TEST_F(QueueTest, IdsAreFoundByTheirBeginning) {
   NewJob near = new_job('a');
   near.id = "aaab000000000000";
@@ -491,9 +547,11 @@ TEST(QueueFileTest, EachMigrationIsAppliedOnceAndWhollyOrNotAtAll) {
   const Migration one = [](Database& database) { database.execute("CREATE TABLE one(x INTEGER)"); };
   const Migration two = [](Database& database) { database.execute("CREATE TABLE two(x INTEGER)"); };
   const Migration fails = [](Database& database) { database.execute("CREATE TABLE two(x INTEGER); nonsense"); };
-  const auto prepare = [&](const std::vector<Migration>& migrations) {
+  const auto prepare = [&](const std::vector<Migration>& more) {
+    std::vector<Migration> all(migrations().begin(), migrations().end());
+    all.insert(all.end(), more.begin(), more.end());
     Database database(file);
-    prepare_schema(database, migrations);
+    prepare_schema(database, all);
   };
   EXPECT_THROW(prepare({one, fails}), StorageError);
   EXPECT_EQ(version(), first);
@@ -505,6 +563,31 @@ TEST(QueueFileTest, EachMigrationIsAppliedOnceAndWhollyOrNotAtAll) {
   std::filesystem::remove(file);
   prepare({one, two});
   EXPECT_EQ(version(), first + 2) << "an empty file";
+}
+
+TEST(QueueFileTest, AQueueOfTheFormerVersionIsUpgradedWithItsJobs) {
+  const ScratchFolder directory;
+  const auto file = directory / "queue.db";
+  {
+    Database database(file);
+    prepare_schema(database, {});
+    database.execute(
+        "INSERT INTO sweeps(name, created_utime) VALUES('old', 1), ('older', 1);"
+        "INSERT INTO jobs(id, state, priority, created_utime, sweep, label, parameters, replica, waits)"
+        " VALUES('aaaaaaaaaaaaaaaa', 'queued', 0, 1, 1, '', '{}', 1, 0), ('bbbbbbbbbbbbbbbb', 'queued', 0, 1, 2, '', "
+        "'{}', 1, 1);"
+        "INSERT INTO scenes(job, scene) VALUES(1, '{}'), (2, '{}');"
+        "INSERT INTO members(sweep, position, job, label, parameters, replica) VALUES(1, 0, 1, '', '{}', 1), "
+        "(2, 0, 2, '', '{}', 1);"
+        "INSERT INTO prerequisites(sweep, position, target) VALUES(2, 0, 's1')");
+  }
+  Queue queue(file);
+  const std::string a(16, 'a'), b(16, 'b');
+  EXPECT_EQ(queue.job(a)->starts_from, "");
+  EXPECT_EQ(queue.job(b)->reason, "waits for s1: 0 of 1 done");
+  EXPECT_EQ(begin(queue, a), 1);
+  queue.ended(a, JobEvent::kWorkerDone);
+  EXPECT_EQ(begin(queue, b), 1);
 }
 
 TEST(QueueFileTest, AnUnwritableFolderIsAnError) { EXPECT_THROW(Queue("/nonexistent/queue.db"), StorageError); }

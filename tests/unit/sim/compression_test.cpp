@@ -4,7 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
+#include <utility>
 
+#include "sim/balance.h"
+#include "sim/checkpoint.h"
 #include "sim/contact/bead_contacts.h"
 #include "sim/neighbors/neighbor_list.h"
 #include "sim/simulation.h"
@@ -157,6 +161,76 @@ TEST(Compression, IsGivenUpWhenAsked) {
   ASSERT_FALSE(stopped);
   EXPECT_EQ(stopped.error().message, "stopped");
   EXPECT_EQ(n_asked, 10);
+}
+
+/// Rods that have been shaken for a tenth of a second.
+Simulation shaken_at(double area_fraction, const System& base) {
+  System system = base;
+  system.n_rods = static_cast<int>(std::round(area_fraction * system.box().area() / make_species(system.rod).area));
+  Simulation simulation = std::move(Simulation::start(system)).value();
+  EXPECT_FALSE(simulation.advance_to(std::llround(0.1 / system.dt)));
+  return simulation;
+}
+
+/// Mean of |n . n'|, and root mean square of how far centres have moved in units of the box.
+std::pair<double, double> likeness(const Snapshot& then, const Snapshot& now) {
+  double along = 0, moved = 0;
+  for (std::size_t i = 0; i < then.n_rods(); ++i) {
+    along += std::abs(then.director[i].dot(now.director[i]));
+    for (int axis = 0; axis < 2; ++axis) {
+      const double part = now.position[i][axis] / now.box[axis] - then.position[i][axis] / then.box[axis];
+      moved += std::pow(part - std::round(part), 2);
+    }
+  }
+  const auto n = static_cast<double>(then.n_rods());
+  return {along / n, std::sqrt(moved / n)};
+}
+
+// A packing that changes: the same rods in a box of another side, with another gap, or both.
+TEST(Resized, KeepsTheRodsWhereTheyAreInUnitsOfTheBox) {
+  System base = scene_at(3.5, 0, 16);
+  base.start = Start::kAligned;
+  base.box_aspect = 1.5;
+  for (const auto& [from, to, gap] :
+       {std::tuple{0.6, 0.75, 1.2}, {0.6, 0.6, 1.0}, {0.6, 0.5, 1.4}, {0.75, 0.85, 1.0}, {0.85, 0.6, 1.2}}) {
+    SCOPED_TRACE(testing::Message() << from << " to " << to << ", gap " << gap);
+    const Simulation before = shaken_at(from, base);
+    System system = before.world().system;
+    system.box_side *= std::sqrt(from / to);
+    system.gap = gap;
+    const auto world = make_resized_world(system, before.world());
+    ASSERT_TRUE(world) << world.error().message;
+    EXPECT_EQ(world->system, system);
+    EXPECT_EQ(world->tick, 0);
+    expect_free(*world);
+    const auto [along, moved] = likeness(before.snapshot(), snapshot(*world));
+    EXPECT_GT(along, 0.95);
+    EXPECT_LT(moved, 0.06) << "a millimetre";
+    EXPECT_EQ(world->start.energy, content(*world).energy);
+    EXPECT_EQ(state_hash(*make_resized_world(system, before.world())), state_hash(*world));
+    Simulation after = std::move(Simulation::start(system, before.world())).value();
+    EXPECT_EQ(after.state_hash(), state_hash(*world));
+    EXPECT_FALSE(after.advance_to(2500));
+  }
+}
+
+TEST(Resized, IsRefusedWhereItCannotBe) {
+  System base = scene_at(3.5, 0, 16);
+  base.start = Start::kAligned;
+  const Simulation before = shaken_at(0.6, base);
+  const auto refusal = [&](const System& system, const GoOn& go_on = {}) {
+    const auto world = make_resized_world(system, before.world(), go_on);
+    return world ? std::string() : world.error().message;
+  };
+  System system = before.world().system;
+  system.n_rods += 1;
+  system.box_aspect = 2;
+  EXPECT_EQ(refusal(system), "not the same as where the rods come from: their number, the shape of the box");
+  system = before.world().system;
+  system.box_side *= std::sqrt(0.6 / 1.6);
+  const std::string jam = refusal(system);
+  EXPECT_TRUE(jam.starts_with("the rods jammed at area fraction 0.")) << jam;
+  EXPECT_EQ(refusal(system, [] { return false; }), "stopped");
 }
 
 }  // namespace

@@ -335,7 +335,8 @@ TEST(MakeWorld, FromAnotherThatDoesNotFitIsRefused) {
   system.rod.length += 0.1;
   system.lid = false;
   EXPECT_EQ(refusal(before.world(), system),
-            "not the same as where the rods come from: the rods, the gap, the plates that are there");
+            "not the same as where the rods come from: the rods, the plates that are there")
+      << "another gap would do";
   system = before.world().system;
   system.walls = SideWalls{};
   EXPECT_EQ(refusal(before.world(), system), "not the same as where the rods come from: the walls");
