@@ -33,8 +33,8 @@ class Protocol {
 /// Makes of a draft one that begins at the end of a run that is yet to be named.
 void begin_where_another_ends(Draft& draft, std::vector<Problem>& problems);
 
-/// Why a run of `plan` cannot begin where one of `former` ends; empty if it can. The same rods, plates and walls must be
-/// in both, and the former end with a whole number of vibrations, at a time that is known before.
+/// Why a run of `plan` cannot begin where one of `former` ends; empty if it can. The same rods, plates and walls must
+/// be in both, and the former end with a whole number of vibrations, at a time that is known before.
 std::string cannot_follow(const RunPlan& plan, const RunPlan& former);
 
 }  // namespace shaken::scene

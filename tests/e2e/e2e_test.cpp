@@ -386,6 +386,33 @@ TEST(EndToEnd, ASweepOfSobolPointsGrowsByTheNewOnes) {
   EXPECT_EQ(daemon.shaken({"wait", "--timeout", "100"}).code, 0);
 }
 
+TEST(EndToEnd, AProtocolIsAChainOfRunsForEachReplica) {
+  const Daemon daemon;
+  const auto file = write_file(daemon.root() / "ramp.json", R"({
+    "scene": { "accuracy": "desk", "rods": { "length": "2.5 mm", "count": 60, "area_fraction": 0.4 },
+               "time": { "measure": "100 ms" }, "measure": { "order": { "every": "5 ms" } } },
+    "sweep": { "replicas": 2, "stages": [
+      {}, { "rods.area_fraction": [0.5, 0.6] }, { "plates.gamma": 5, "time.measure": "50 ms" } ] } })");
+  ASSERT_EQ(daemon.shaken({"submit", file.string()}).code, 0);
+  const Finished waited = daemon.shaken({"wait", "ramp"});
+  ASSERT_EQ(waited.code, 0) << waited.output;
+  const Json rows = daemon.json({"results", "ramp"}).at("rows");
+  ASSERT_EQ(rows.size(), 8u);
+  std::map<int, std::vector<double>> sides;  // by stage
+  for (const Json& row : rows) {
+    const int stage = row.at("parameters").at("stage").get<int>();
+    EXPECT_EQ(row.at("parameters").at("plates.gamma"), stage == 4 ? 5.0 : 7.0);
+    EXPECT_EQ(row.at("summary").at("start").is_null(), stage == 1);
+    EXPECT_EQ(row.at("summary").at("n_rods"), 60);
+    const Json scene = Json::parse(std::ifstream(row.at("directory").get<std::string>() + "/scene.json"));
+    sides[stage].push_back(scene.at("box").at("side").get<double>());
+  }
+  EXPECT_GT(sides[1][0], sides[2][1]);
+  EXPECT_GT(sides[2][0], sides[3][1]);
+  EXPECT_EQ(sides[3], sides[4]);
+  EXPECT_EQ(daemon.shaken({"submit", file.string()}).code, 0) << "again, which is nothing new";
+}
+
 TEST(EndToEnd, MalformedSceneTellsEveryMistakeAtOnce) {
   const ScratchFolder out;
   const auto file = write_file(out.path() / "bad.json", R"({

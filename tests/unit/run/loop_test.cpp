@@ -722,6 +722,23 @@ TEST(Run, StartingFromAnotherNeedsThatOneOnlyOnce) {
   expect_same_results(folder.path() / "two", folder.path() / "whole");
 }
 
+TEST(Run, StartsFromAnotherInASmallerBoxWithEitherStepperAndThroughStops) {
+  const ScratchFolder folder;
+  ASSERT_EQ(run_in(folder.path() / "one", small_plan()).state, RunState::kDone);
+  scene::RunPlan plan = plan_from(0.3);
+  plan.system.box_side *= 0.97;
+  plan.system.gap *= 0.95;
+  const RunOutcome whole = run_in(folder.path() / "whole", plan);
+  ASSERT_EQ(whole.state, RunState::kDone) << whole.message;
+  run_with_stops(folder.path() / "stopped", plan, {0.0, 0.05});
+  ASSERT_EQ(run_in(folder.path() / "stopped", plan).state, RunState::kDone);
+  expect_same_results(folder.path() / "stopped", folder.path() / "whole");
+
+  plan.system.stepper = StepperKind::kReference;
+  ASSERT_EQ(run_in(folder.path() / "slow", plan).state, RunState::kDone);
+  EXPECT_EQ(summary_in(folder.path() / "slow")["state_hash"], summary_in(folder.path() / "whole")["state_hash"]);
+}
+
 TEST(Run, StartingFromAStateThatIsNotThereFailsWithTheReason) {
   const ScratchFolder folder;
   const RunOutcome nowhere = run_in(folder.path() / "two", plan_from(0.3));
@@ -745,9 +762,9 @@ TEST(Run, StartingFromAStateThatIsNotThereFailsWithTheReason) {
                         std::filesystem::copy_options::overwrite_existing);
   std::filesystem::remove_all(folder.path() / scene::run_id(small_plan()));
 
-  scene::RunPlan wider = plan_from(0.3);
-  wider.system.box_side += 1;
-  EXPECT_THAT(run_in(folder.path() / "three", wider).message, HasSubstr("the sides of the box"));
+  scene::RunPlan longer = plan_from(0.3);
+  longer.system.box_aspect = 2;
+  EXPECT_THAT(run_in(folder.path() / "three", longer).message, HasSubstr("the shape of the box"));
 }
 
 }  // namespace
