@@ -128,7 +128,8 @@ def test_sections_are_replaced_between_their_marks():
 
 def test_every_mark_of_the_pages_is_a_section():
     known = sections(Evidence([]))
-    for page in ("README.md", "docs/validation.md", "docs/accuracy.md", "docs/findings.md"):
+    pages = [str(path.relative_to(SOURCE)) for path in (SOURCE / "docs" / "validation").iterdir()]
+    for page in ("README.md", "docs/validation.md", "docs/accuracy.md", "docs/findings.md", *pages):
         text = (SOURCE / page).read_text()
         again = with_sections(text, {name: lambda: "" for name in known}, page)
         assert again != text, f"{page} has sections that are drawn"
