@@ -51,8 +51,8 @@ def parser() -> argparse.ArgumentParser:
     found.add_argument("--runs-per-task", type=int, help="runs that a task of Slurm does, one after the other")
     found.add_argument("--slurm-option", action="append", help="any option of sbatch")
     found.add_argument("--report", type=Path, action="append", default=[],
-                       help="Markdown file whose marked sections are written anew, and those of the pages in the folder of "
-                       "its name; may be given several times")
+                       help="Markdown file whose marked sections are written anew, and those of the pages in the "
+                       "folder of its name; may be given several times")
     found.add_argument("--json", action="store_true", help="what was made, and the verdicts, as JSON")
     found.add_argument("-y", "--yes", action="store_true", help="do not ask before a start on a terminal")
     return found
