@@ -43,13 +43,13 @@ class Snapshot:
     time:      [s]
     positions: (n, 2) centres [mm], to a 65,536th of the box
     theta:     (n,) angles of the axes in the plane [rad], in [-pi/2, pi/2), to half a degree or better
-    side:      of the box [mm]
+    box:       (2,) sides of the box along x and y [mm]
     """
 
     time: float
     positions: np.ndarray
     theta: np.ndarray
-    side: float
+    box: np.ndarray
 
 
 class ArchivedRun(Run):
@@ -78,10 +78,11 @@ class ArchivedRun(Run):
         found = []
         for entry in self._header["snapshots"]:
             n, at = entry["n"], entry["at"]
-            place = np.frombuffer(self._data, "<u2", 2 * n, at).reshape(2, n).T * (entry["side"] / 65536)
+            box = np.array([entry["side"], entry.get("side_y", entry["side"])])
+            place = np.frombuffer(self._data, "<u2", 2 * n, at).reshape(2, n).T * (box / 65536)
             angle = np.frombuffer(self._data, "<u2" if entry["bytes"] == 2 else "u1", n, at + 4 * n)
             theta = (angle + 0.5) * (np.pi / (65536 if entry["bytes"] == 2 else 256)) - np.pi / 2
-            found.append(Snapshot(entry["time"], place, theta, entry["side"]))
+            found.append(Snapshot(entry["time"], place, theta, box))
         return found
 
 
@@ -123,13 +124,18 @@ def archive_file(run: DirectoryRun, sweeps: Iterable[str] = ()) -> bytes:
             raise ShakenError(f"run {run.id} does not fit into {LARGEST} bytes: its arrays are too long")
 
 
+#: Time, places and angles as whole numbers, sides of the box, bytes of an angle.
+_Small = tuple[float, np.ndarray, np.ndarray, np.ndarray, int]
+
+
 def _packed(run: Run, sweeps: Iterable[str], arrays: dict[str, tuple[np.ndarray, str]],
-            snapshots: list[tuple[float, np.ndarray, np.ndarray, float, int]]) -> bytes:
+            snapshots: list[_Small]) -> bytes:
     data = bytearray()
     header: dict[str, Any] = {"format": _FORMAT, "sweeps": sorted(set(sweeps)), "parameters": run.parameters,
                               "scene": run.scene, "summary": _kept_summary(run.summary), "arrays": [], "snapshots": []}
-    for time, place, angle, side, width in snapshots:
-        header["snapshots"].append({"time": time, "side": side, "n": len(angle), "bytes": width, "at": len(data)})
+    for time, place, angle, box, width in snapshots:
+        sides = {"side": float(box[0]), **({"side_y": float(box[1])} if box[1] != box[0] else {})}
+        header["snapshots"].append({"time": time, **sides, "n": len(angle), "bytes": width, "at": len(data)})
         data += place.T.astype("<u2").tobytes() + angle.astype("<u2" if width == 2 else "u1").tobytes()
     data += bytes(-len(data) % 4)
     for name, (values, unit) in arrays.items():
@@ -203,7 +209,7 @@ def _trace(name: str, values: np.ndarray, time: np.ndarray) -> np.ndarray | None
     return values[::each]
 
 
-def _kept_snapshots(run: DirectoryRun) -> list[tuple[float, np.ndarray, np.ndarray, float, int]]:
+def _kept_snapshots(run: DirectoryRun) -> list[_Small]:
     if not (run.directory / "trajectory.h5").exists():
         return []
     trajectory = run.trajectory
@@ -217,19 +223,17 @@ def _kept_snapshots(run: DirectoryRun) -> list[tuple[float, np.ndarray, np.ndarr
     return [_small(frame) for frame in frames]
 
 
-def _small(frame: Frame) -> tuple[float, np.ndarray, np.ndarray, float, int]:
-    """Time, places and angles as whole numbers, side of the box, bytes of an angle. Rods go in the order of their
-    places, which compresses better than that of their numbers."""
+def _small(frame: Frame) -> _Small:
+    """The rods of a frame in whole numbers. They go in the order of their places, which compresses better than that of
+    their numbers."""
     first = frame.species == 0
-    side = float(frame.box[0])
-    if frame.box[1] != side:
-        raise ShakenError("an archive keeps the rods of square boxes only")
-    place = np.minimum((frame.positions[first, :2] / side * 65536).astype(int), 65535)
+    box = frame.box[:2]
+    place = np.minimum((frame.positions[first, :2] / box * 65536).astype(int), 65535)
     turn = (frame.theta[first] / np.pi + 0.5) % 1.0
     width = 2 if len(place) < 1500 else 1
     angle = np.minimum((turn * 256**width).astype(int), 256**width - 1)
     order = np.lexsort((place[:, 1], place[:, 0]))
-    return frame.time, place[order], angle[order], side, width
+    return frame.time, place[order], angle[order], box, width
 
 
 def read_archived(path: str | Path) -> ArchivedRun:

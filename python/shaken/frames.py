@@ -25,7 +25,7 @@ class Frame:
     velocities: (n, 3) [mm/s]
     images:     (n, 3) crossings of the border of the box: positions + box * images is a path without jumps
     species:    (n,) 0 for `rods`, 1 and 2 for `rods_2` and `rods_3` as far as the scene has them
-    box:        (3,) sides of the box [mm]: L, L, gap between the plates
+    box:        (3,) sides of the box along x and y [mm], and the gap between the plates
     """
 
     time: float
@@ -55,7 +55,7 @@ class Frame:
     def to_freud(self) -> tuple[Any, np.ndarray, np.ndarray]:
         """What freud takes: (box, points, orientations).
 
-        box:          freud.box.Box of the plane, L x L, periodic; a tuple (Lx, Ly) where freud is not installed
+        box:          freud.box.Box of the plane, Lx x Ly, periodic; a tuple (Lx, Ly) where freud is not installed
         points:       (n, 3) float32, counted from the middle of the box, with z = 0, as freud has them in the plane
         orientations: (n, 4) float32 unit quaternions (w, x, y, z) that turn the x axis into the rod's direction in the
                       plane, as freud's two-dimensional computations have them

@@ -22,7 +22,7 @@ PROGRAMS = Path(os.environ.get("SHAKEN_PROGRAMS", Path(__file__).resolve().paren
 
 
 def made_up_run(directory, *, run_id="0123456789abcdef", seed=1, order=0.8, sem=0.01, steady=True, state="done",
-                seconds=10.0, arrays=None, frames=0, measured=None, scene=None, version=("0.1.0", 3)):
+                seconds=10.0, arrays=None, frames=0, measured=None, scene=None, version=("0.1.0", 3), aspect=1):
     """A run's directory as the worker leaves it, with what a test gives."""
     directory = Path(directory)
     directory.mkdir(parents=True, exist_ok=True)
@@ -49,11 +49,11 @@ def made_up_run(directory, *, run_id="0123456789abcdef", seed=1, order=0.8, sem=
             file[name] = np.asarray(values, dtype=float)
             file[name].attrs["unit"] = unit
     if frames:
-        _write_frames(directory / "trajectory.h5", frames)
+        _write_frames(directory / "trajectory.h5", frames, aspect)
     return directory
 
 
-def _write_frames(path, n_frames, n_rods=50, side=20.0):
+def _write_frames(path, n_frames, aspect, n_rods=50, side=20.0):
     rng = np.random.default_rng(1)
     theta = rng.uniform(-np.pi, np.pi, (n_frames, n_rods))
     # the shortest turn of the z axis into (cos theta, sin theta, 0) is about (-sin theta, cos theta, 0), by a quarter
@@ -62,13 +62,13 @@ def _write_frames(path, n_frames, n_rods=50, side=20.0):
                            np.zeros_like(theta)], axis=-1)
     with h5py.File(path, "w") as file:
         rods = file.create_group("particles/trajectory")
-        rods["position/value"] = rng.uniform(0, side, (n_frames, n_rods, 3)).astype("f4")
+        rods["position/value"] = (rng.uniform(0, side, (n_frames, n_rods, 3)) * [1, aspect, 1]).astype("f4")
         rods["position/step"] = np.arange(n_frames) * 1000
         rods["position/time"] = np.arange(n_frames) * 0.5
         rods["orientation/value"] = quaternion.astype("f4")
         rods["velocity/value"] = rng.normal(0, 20, (n_frames, n_rods, 3)).astype("f4")
         rods["image/value"] = np.zeros((n_frames, n_rods, 3), dtype="i4")
-        rods["box/edges/value"] = np.tile(np.diag([side, side, 1.2]), (n_frames, 1, 1))
+        rods["box/edges/value"] = np.tile(np.diag([side, side * aspect, 1.2]), (n_frames, 1, 1))
     np.save(path.with_suffix(".npy"), theta)
 
 

@@ -45,10 +45,21 @@ def test_snapshots_are_of_the_end_and_of_most_defects(tmp_path):
     made_up_run(tmp_path / "run", arrays=curves(np.random.default_rng(2)), frames=9)
     last, most = shaken.open(archive.add_run(tmp_path / "run", tmp_path / "archive")).snapshots
     frames = list(shaken.open(tmp_path / "run").frames())
-    assert last.time == 4.0 and most.time == 2.0 and last.side == 20
+    assert last.time == 4.0 and most.time == 2.0 and list(last.box) == [20, 20]
     order = np.lexsort((frames[4].positions[:, 1], frames[4].positions[:, 0]))
     assert np.abs(most.positions - frames[4].positions[order, :2]).max() < 20 / 65536 + 1e-6
     assert np.allclose(np.exp(2j * most.theta), np.exp(2j * frames[4].theta[order]), atol=1e-4)
+
+
+def test_the_rods_of_a_box_that_is_not_square_lie_where_they_lay(tmp_path):
+    made_up_run(tmp_path / "run", frames=2, aspect=6, scene={"box.aspect": 6})
+    kept = shaken.open(archive.add_run(tmp_path / "run", tmp_path / "archive"))
+    [snapshot] = kept.snapshots
+    last = list(shaken.open(tmp_path / "run").frames())[-1]
+    order = np.lexsort((last.positions[:, 1], last.positions[:, 0]))
+    assert kept.key("box.aspect") == 6 and list(snapshot.box) == [20, 120]
+    assert snapshot.positions[:, 1].max() > 60, "they fill all of its length"
+    assert (np.abs(snapshot.positions - last.positions[order, :2]) < snapshot.box / 65536 + 1e-6).all()
 
 
 def test_a_run_that_was_cut_is_not_archived(tmp_path):

@@ -19,11 +19,13 @@ _ids = itertools.count()
 
 
 def run(sweep, numbers=None, arrays=None, *, length=2.5, packing=0.75, side=40.0, beads=9, gamma=7.0, frequency=200.0,
-        n_rods=800, seconds=200.0, speed=400.0, S=0.2, step=1.6e-5):
+        n_rods=800, seconds=200.0, speed=400.0, S=0.2, step=1.6e-5, aspect=None):
     """A run of a set, with numbers (NAME -> (value, error)) and arrays."""
     scene = {"rods": {"length": length, "area_fraction": packing, "beads": beads, "end_diameter": 0.4},
              "box": {"side": side, "gap": 1.2}, "plates": {"gamma": gamma, "frequency": frequency},
              "time": {"step": step, "seed": 1}}
+    if aspect is not None:
+        scene["box"]["aspect"] = aspect
 
     def measured(value, error):
         return {"value": value, "sem": error, "steady": True, "n_effective": 40.0,
@@ -164,3 +166,27 @@ def test_more_rods_stand_beside_the_fit_at_the_area_fraction_that_they_stand_for
     evidence = Evidence([run("density", diffusion(5.0, 0.2), packing=0.74 * 1.033, side=60.0, n_rods=1800)])
     (row,) = rows(beyond_paper.density(evidence))
     assert row[3:5] == ["50.0", "5.0 ± 0.2"] and row[-1] == "6.5", "1.7 + 480 x 0.1^2"
+
+
+def test_layers_of_a_strip_stand_beside_those_of_the_square_box():
+    def layers(sweep, wavelength, **more):
+        return run(sweep, {"theta_m_deg": (9.0, 0.5), "wavelength_mm": (wavelength, 0.1), "layer_order": (0.3, 0.02)},
+                   length=4.5, packing=0.80, **more)
+
+    square = layers("layers", 14.0, side=42.0)
+    assert beyond_paper.strip(Evidence([square])) == "", "nothing is shown before there are runs"
+    strips = [layers("strip", value, side=21.0, aspect=6, n_rods=850) for value in (14.0, 14.0, 14.0)]
+    first, second = rows(beyond_paper.strip(Evidence([square, *strips])))
+    # three waves of 14 mm fit into 42 mm, nine into 126: the next are 42 / 4 and 126 / 10
+    assert first[0] == "42 mm" and second[0] == "21 × 126 mm" and second[2] == "3 × 200 s"
+    assert first[6] == "3.5" and second[6] == "1.4"
+    # a uniform error over the step, 42 / 2.5 - 42 / 3.5 and 126 / 8.5 - 126 / 9.5, besides that of each run
+    for cell, step, runs_ in ((first[5], 4.8, 1), (second[5], 1.56, 3)):
+        error = math.hypot(step / math.sqrt(12), 0.1) / math.sqrt(runs_)
+        assert float(cell.split(" ± ")[1]) == pytest.approx(error, rel=0.15)
+
+
+def test_rods_are_counted_in_the_area_of_a_box_that_is_not_square():
+    evidence = Evidence([run("strip", length=4.5, packing=0.8, side=20.0, aspect=2, n_rods=320)])
+    next_ = beyond_paper.Next("q", "", 4.5, 0.8, 40.0, 100.0, 1)
+    assert beyond_paper.hours(evidence, next_) == pytest.approx(0.4 * 1600 * 100 / 400 / 3600)

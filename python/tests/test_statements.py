@@ -11,7 +11,7 @@ from shaken.run import Arrays, Run
 from shaken.study import rules
 from shaken.study.evidence import Evidence, Runs, crossing
 from shaken.study.order_checks import n_peaks
-from shaken.study.statements import STATEMENTS, findings
+from shaken.study.statements import STATEMENTS, judged
 from shaken.units import unit_of
 
 CHECKS = {statement.id: statement for statement in STATEMENTS}
@@ -396,10 +396,21 @@ def test_peaks_are_counted():
 
 def test_every_statement_has_made_up_runs():
     assert set(CASES) | {"g-flattens"} == set(CHECKS) and len(CHECKS) == 45
-    assert len(findings(Evidence([]))) == 45
+    assert len(judged(Evidence([]))) == 45
 
 
 def test_numbers_are_means_over_replicas():
     made = Runs(runs("a", 0.5, {"dip": 0.5}) + runs("a", 0.6, {"dip": 0.7}))
     assert made.points("rods.area_fraction", "dip")[1][1].value == pytest.approx(0.7)
     assert made.largest("rods.area_fraction").values("rods.area_fraction") == [0.6]
+
+
+def test_a_verdict_tells_the_samples_seeds_boxes_and_times_that_it_stands_on():
+    short = runs("long-rods", 0.45, length=4.5, S=0.1, n=3, seconds=210.0)
+    wide = runs("dilute", 0.45, length=4.5, S=0.05, n=2, side=67.0, seconds=100.0, arrays=g2(0.0))
+    [verdict] = judged(Evidence(short + wide), [CHECKS["disordered"]])
+    assert verdict.finding.verdict == "agrees"
+    # 40 independent samples of each run
+    assert verdict.basis.cells() == ["80 to 120", "2 to 3", "33.5 to 67 mm", "100 to 210 s"]
+    # without a verdict it stands on nothing, and one check does not read for another
+    assert judged(Evidence(short), [CHECKS["long-range"]])[0].basis.cells() == ["–"] * 4

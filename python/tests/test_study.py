@@ -8,14 +8,17 @@ import sys
 from pathlib import Path
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from conftest import PROGRAMS
+from shaken.archive import Snapshot
 from shaken.errors import ShakenError
 from shaken.estimate import Estimate
 from shaken.study import sets, time_step
 from shaken.study.evidence import Evidence
 from shaken.study.figures import FIGURES
+from shaken.study.material import defects_of
 from shaken.study.report import phases, sections, with_sections
 from shaken.study.statements import STATEMENTS
 
@@ -125,7 +128,8 @@ def test_sections_are_replaced_between_their_marks():
 
 def test_every_mark_of_the_pages_is_a_section():
     known = sections(Evidence([]))
-    for page in ("README.md", "docs/validation.md", "docs/accuracy.md", "docs/findings.md"):
+    pages = [str(path.relative_to(SOURCE)) for path in (SOURCE / "docs" / "validation").iterdir()]
+    for page in ("README.md", "docs/validation.md", "docs/accuracy.md", "docs/findings.md", *pages):
         text = (SOURCE / page).read_text()
         again = with_sections(text, {name: lambda: "" for name in known}, page)
         assert again != text, f"{page} has sections that are drawn"
@@ -172,3 +176,17 @@ def test_every_figure_is_completed_by_the_shell():
     source = (SOURCE / "client" / "verbs" / "figures.cpp").read_text()
     words = source.split("return split(")[1].split("' ')")[0].replace('"', " ").replace(",", " ").split()
     assert words == [f.number for f in FIGURES if f.number] + [f.name for f in FIGURES]
+
+
+def test_defects_are_found_where_they_are_in_a_box_of_any_shape():
+    # rods on a grid whose director turns by half a turn around two places, and back around two others: in a strip
+    x, y = (grid.ravel() for grid in np.meshgrid(np.arange(0.25, 20, 0.5), np.arange(0.25, 60, 0.5)))
+    cores = {(5.0, 10.0): 0.5, (15.0, 50.0): 0.5, (15.0, 10.0): -0.5, (5.0, 50.0): -0.5}
+    theta = sum(charge * np.arctan2(y - b - 60 * j, x - a - 20 * i) for (a, b), charge in cores.items()
+                for i in range(-3, 4) for j in range(-3, 4))
+    strip = Snapshot(0.0, np.column_stack([x, y]), theta, np.array([20.0, 60.0]))
+    found = defects_of(strip, 1.0)
+    assert len(found) == 4
+    for (a, b), charge in cores.items():
+        [nearest] = [row for row in found if np.hypot(row[0] - a, row[1] - b) < 1]
+        assert nearest[2] == charge

@@ -99,7 +99,7 @@ class Table:
 
 
 class Run:
-    """Trajectory, results and scene of a run; arrays of shape (frames, rods, ...) [mm, s]."""
+    """Trajectory, results and scene of a run; arrays of shape (frames, rods, ...) [mm, s]. `box` are its two sides."""
 
     def __init__(self, directory, observables):
         self.scene = json.load(open(os.path.join(directory, "scene.json")))
@@ -119,16 +119,18 @@ class Run:
             self.velocity = particles["velocity/value"][()].astype(float)
             w, x, y, z = np.moveaxis(particles["orientation/value"][()].astype(float), -1, 0)
             parameters = file["parameters"]
-            self.box = float(parameters.attrs["box_side_mm"])
+            side = float(parameters.attrs["box_side_mm"])
+            self.box = np.array([side, parameters.attrs.get("box_side_y_mm", side)])
             self.gap = float(parameters.attrs["gap_mm"])
             self.dt = float(parameters.attrs["dt_s"])
             offset, radius = parameters["bead_offset_mm"][()], parameters["bead_radius_mm"][()]
-            if "species" in particles or "walls" in parameters or "box_side_y_mm" in parameters.attrs:
-                sys.exit("rods of several species, side walls and boxes that are not square are not dealt with here")
+            if "species" in particles or "walls" in parameters:
+                sys.exit("rods of several species and side walls are not dealt with here")
         director = np.stack([2 * (x * z + w * y), 2 * (y * z - w * x), w * w - x * x - y * y + z * z], axis=-1)
         self.director = director / np.linalg.norm(director, axis=-1, keepdims=True)
         self.theta = np.arctan2(self.director[..., 1], self.director[..., 0])
-        self.unwrapped = (self.position + self.box * self.image)[..., :2]
+        self.shorter, self.longer, self.area = self.box.min(), self.box.max(), self.box.prod()
+        self.unwrapped = self.position[..., :2] + self.box * self.image[..., :2]
         self.place = self.position[..., :2] % self.box
         self.n = self.position.shape[1]
         self.beads = offset, radius
@@ -178,6 +180,7 @@ def is_steady(time, t_steady):
 
 
 def nearest(difference, box):
+    """The shortest of a difference and its periodic images; (..., 2) with both sides, or one component with its own."""
     return difference - box * np.round(difference / box)
 
 
@@ -301,10 +304,10 @@ def check_reading(run, table):
         boxes.append(step.dimensions * ([MM_PER_ANGSTROM] * 3 + [1] * 3))
     table.add("trajectory: frames", "MDAnalysis H5MDReader", len(run.time), len(universe.trajectory), 0)
     table.add("trajectory: times", "MDAnalysis H5MDReader", run.time, times, 1e-9)
-    table.add("trajectory: positions", "MDAnalysis H5MDReader", run.position.ravel(), np.ravel(positions), 4e-7 * run.box)
+    table.add("trajectory: positions", "MDAnalysis H5MDReader", run.position.ravel(), np.ravel(positions), 4e-7 * run.longer)
     table.add("trajectory: velocities", "MDAnalysis H5MDReader", run.velocity.ravel(), np.ravel(velocities),
               4e-7 * np.max(np.abs(run.velocity)))
-    box = np.array([run.box, run.box, run.gap, 90, 90, 90])
+    box = np.array([*run.box, run.gap, 90, 90, 90])
     table.add("trajectory: box", "MDAnalysis H5MDReader", box, boxes[-1], 1e-5)
     followed = np.cumsum(nearest(np.diff(positions, axis=0)[..., :2].astype(float), run.box), axis=0)
     table.add("trajectory: image", "shortest steps", (run.unwrapped[1:] - run.unwrapped[0]).ravel(), followed.ravel(), 1e-4)
@@ -314,7 +317,7 @@ def universe_of(run, frames, coordinates, box):
     """MDAnalysis' view of coordinates (frames, rods, 2) in the plane."""
     flat = np.concatenate([coordinates, np.zeros((*coordinates.shape[:2], 1))], axis=-1).astype(np.float32)
     universe = MDAnalysis.Universe.empty(run.n, trajectory=True)
-    universe.load_new(flat, dimensions=np.tile([box, box, 10 * box, 90, 90, 90], (len(frames), 1)))
+    universe.load_new(flat, dimensions=np.tile([*box, 10 * max(box), 90, 90, 90], (len(frames), 1)))
     return universe
 
 
@@ -731,7 +734,7 @@ def check_g2(run, table):
     parts = steady_parts(run, frames)
     kept = np.concatenate(parts)
     bins = len(run.arrays["/g2/r_mm"])
-    width = run.box / 2 / bins
+    width = run.shorter / 2 / bins
 
     def visit(d, value, other, _):
         place = np.hypot(d[..., 0], d[..., 1])[other] / width
@@ -743,7 +746,7 @@ def check_g2(run, table):
     pairs, doubt, sums = (sum(one[k] for one in found.values()) for k in range(3))
     n_references = sum(len(references(run.n, s)) for s in kept)
     ring = np.pi * width ** 2 * (2 * np.arange(bins) + 1)
-    expected = n_references * (run.n - 1) / run.box ** 2 * ring
+    expected = n_references * (run.n - 1) / run.area * ring
     table.add("/g2/r_mm", "definition", run.arrays["/g2/r_mm"], (np.arange(bins) + 0.5) * width)
     table.add("/g2/g", "numpy O(N^2)", run.arrays["/g2/g"], pairs / expected, doubt / expected + 1e-9)
     table.add("/g2/g2", "numpy O(N^2)", run.arrays["/g2/g2"], np.where(pairs > 0, sums / np.maximum(pairs, 1), np.nan),
@@ -751,7 +754,7 @@ def check_g2(run, table):
 
     def curves(some):
         count, value = (sum(found[k][part] for k in some) for part in (0, 2))
-        gas = sum(len(references(run.n, k)) for k in some) * (run.n - 1) / run.box ** 2 * ring
+        gas = sum(len(references(run.n, k)) for k in some) * (run.n - 1) / run.area * ring
         return np.concatenate([np.where(count > 0, value / np.maximum(count, 1), np.nan), count / gas])
 
     _, sems = jackknife(parts, curves)
@@ -761,7 +764,7 @@ def check_g2(run, table):
         table.compared.add(f"/g2/{name}_sem")
     if run.n <= 1024:
         universe = universe_of(run, frames, run.place[frames], run.box)
-        rdf = MDAnalysis.analysis.rdf.InterRDF(universe.atoms, universe.atoms, bins, (0, run.box / 2),
+        rdf = MDAnalysis.analysis.rdf.InterRDF(universe.atoms, universe.atoms, bins, (0, run.shorter / 2),
                                                exclusion_block=(1, 1), norm="none")
         rdf.run(frames=[int(k) for k in kept])
         table.add("/g2/g", "MDAnalysis InterRDF, its counts", run.arrays["/g2/g"], rdf.results.count / expected,
@@ -774,8 +777,8 @@ def check_pairs(run, table):
     kept = np.concatenate(parts)
     along = run.arrays["/pairs/along_mm"]
     bins = len(along)
-    reach = min(run.scene["measure"]["pairs"]["range"], run.box / 2)
-    width, strip = 2 * reach / bins, min(run.width, run.box / 2)
+    reach = min(run.scene["measure"]["pairs"]["range"], run.shorter / 2)
+    width, strip = 2 * reach / bins, min(run.width, run.shorter / 2)
     cut_bins = len(run.arrays["/pairs/cut/r_mm"])
     edges = np.linspace(-reach, reach, bins + 1)
 
@@ -805,12 +808,12 @@ def check_pairs(run, table):
     sampled = list(pair_sums(run, frames, kept, visit))
     counts, sums, doubt = (sum(s[k] for s in sampled) for k in range(3))
     doubt = 9 * scipy.ndimage.uniform_filter(doubt, 3, mode="constant")
-    density = (run.n - 1) / run.box ** 2 * np.array([len(references(run.n, s)) for s in kept])
+    density = (run.n - 1) / run.area * np.array([len(references(run.n, s)) for s in kept])
     expected = density.sum() * width ** 2
     # either rod may be the first: the map and its point reflection
     counts, sums, doubt = (a + a[::-1, ::-1] for a in (counts, sums, doubt))
     corner = np.hypot(np.abs(along)[:, None] + width / 2, np.abs(along)[None] + width / 2)
-    known = corner <= run.box / 2
+    known = corner <= run.shorter / 2
     g = np.where(known, counts / (2 * expected), np.nan)
     g2 = np.where(known & (counts > 0), sums / np.maximum(counts, 1), np.nan)
     table.add("/pairs/along_mm", "definition", along, (edges[1:] + edges[:-1]) / 2)
@@ -893,29 +896,32 @@ def first_period(r, values, smoothing):
 
 
 def wave_sums(places, weights, m, n, box):
-    """sum w exp(-i q . r) for q = 2 pi (m, n) / L."""
-    step = -2j * np.pi / box
+    """sum w exp(-i q . r) for q = 2 pi (m / L_x, n / L_y)."""
     waves = [np.arange(k.min(), k.max() + 1) for k in (m, n)]
-    of_x, of_y = (np.exp(step * np.multiply.outer(places[:, k], waves[k])) for k in (0, 1))
+    of_x, of_y = (np.exp(-2j * np.pi / box[k] * np.multiply.outer(places[:, k], waves[k])) for k in (0, 1))
     return ((of_x * np.asarray(weights)[:, None]).T @ of_y)[m - m.min(), n - n.min()]
 
 
-def half_plane(most, everything=False):
-    m, n = np.meshgrid(np.arange(0, most + 1), np.arange(-most, most + 1), indexing="ij")
+def half_plane(box, most, everything=False):
+    """m and n of one of each pair +-q of waves, and q in units of 2 pi over the longer side (waves, 2): none of them
+    longer than `most` along either side, nor, but for `everything`, altogether."""
+    most_m, most_n = np.floor(most * box / box.max() * (1 + 1e-12)).astype(int)
+    m, n = np.meshgrid(np.arange(0, most_m + 1), np.arange(-most_n, most_n + 1), indexing="ij")
     m, n = m.ravel(), n.ravel()
+    q = np.stack([m, n], axis=1) * (box.max() / box)
     keep = (m > 0) | (n > 0)
     if not everything:
-        keep &= np.hypot(m, n) <= most
-    return m[keep], n[keep]
+        keep &= np.linalg.norm(q, axis=1) <= most
+    return m[keep], n[keep], q[keep]
 
 
 def check_layers(run, table):
     frames = run.frames("layers")
     parts = steady_parts(run, frames)
     kept = np.concatenate(parts)
-    waves = max(1, int(min(40, run.box / (run.length / 2))))
-    m, n = half_plane(waves)
-    size = np.hypot(m, n)
+    waves = max(1, int(min(40 * np.sqrt(run.longer / run.shorter), run.longer / (run.length / 2))))
+    m, n, q = half_plane(run.box, waves)
+    size = np.linalg.norm(q, axis=1)
     shell = np.floor(size + 0.5).astype(int) - 1
     shells = waves
     power = np.zeros((len(frames), len(m)))
@@ -925,11 +931,11 @@ def check_layers(run, table):
         f = frames[sample]
         s = np.sin(2 * (run.theta[f] - run.axis[f]))
         power[sample] = np.abs(wave_sums(run.place[f], s, m, n, run.box)) ** 2
-        to_director = fold(np.arctan2(n, m) - run.axis[f])
+        to_director = fold(np.arctan2(q[:, 1], q[:, 0]) - run.axis[f])
         along[sample] = np.abs(to_director) <= np.pi / 6
         across[sample] = np.abs(to_director) >= np.pi / 3
     table.add("/layers/q_per_mm", "definition", run.arrays["/layers/q_per_mm"],
-              2 * np.pi / run.box * np.arange(1, shells + 1))
+              2 * np.pi / run.longer * np.arange(1, shells + 1))
     for name, cone in (("across", across), ("along", along)):
         sums = np.array([(power[kept][:, shell == k] * cone[kept][:, shell == k]).sum() for k in range(shells)])
         terms = np.array([cone[kept][:, shell == k].sum() for k in range(shells)])
@@ -937,6 +943,7 @@ def check_layers(run, table):
                   np.where(terms > 0, sums / np.maximum(terms, 1) / run.n, np.nan))
     amplitude = 4 * power * across / run.n ** 2
     best = int(np.argmax(amplitude[kept].mean(0)))
+    side = run.box[0] if abs(q[best, 0]) > abs(q[best, 1]) else run.box[1]  # across the layers
     number = {}
     for k in range(len(m)):
         number[m[k], n[k]] = number[-m[k], -n[k]] = k
@@ -951,22 +958,23 @@ def check_layers(run, table):
             return amplitude[some][:, k].sum() / times[k] if k is not None and times[k] >= often else None
 
         weight = within(m[best], n[best]) or 0.0
-        centre = weight * np.array([m[best], n[best]], float)
+        to_q = run.longer / run.box
+        centre = weight * q[best]
         for dm, dn in ((1, 0), (0, 1), (1, 1), (1, -1)):
             ends = [(m[best] + s * dm, n[best] + s * dn) for s in (1, -1)]
             powers = [within(*end) for end in ends]
             if (0, 0) in ends or None in powers:
                 continue
             weight += sum(powers)
-            centre += sum(power * np.array(end) for power, end in zip(powers, ends))
+            centre += sum(power * np.array(end) * to_q for power, end in zip(powers, ends))
         waves_to_box = np.linalg.norm(centre) / weight if weight > 0 else size[best]
-        return run.box / waves_to_box, waves_to_box, np.sqrt(mean[best])
+        return run.longer / waves_to_box, side * waves_to_box / run.longer, np.sqrt(mean[best])
 
     value, sem = jackknife(parts, peak)
     floor = 2 * np.sqrt(np.mean([np.mean(np.sin(2 * (run.theta[frames[k]] - run.axis[frames[k]])) ** 2)
                                  for k in kept]) / run.n)
     if value[2] > 2 * floor:  # waves fit the box in steps of one
-        sem[0] = np.hypot(sem[0], value[0] ** 2 / run.box / np.sqrt(12))
+        sem[0] = np.hypot(sem[0], value[0] ** 2 / side / np.sqrt(12))
         sem[1] = np.hypot(sem[1], 1 / np.sqrt(12))
     else:
         value[:2] = sem[:2] = np.nan
@@ -979,16 +987,16 @@ def check_structure(run, table):
     parts = steady_parts(run, frames)
     kept = np.concatenate(parts)
     shells = run.scene["measure"]["structure"]["waves"]
-    m, n = half_plane(shells, everything=True)
-    shell = np.floor(np.hypot(m, n) + 0.5).astype(int) - 1
-    m, n, shell = m[shell < shells], n[shell < shells], shell[shell < shells]
+    m, n, q = half_plane(run.box, shells, everything=True)
+    shell = np.floor(np.linalg.norm(q, axis=1) + 0.5).astype(int) - 1
+    m, n, q, shell = (x[shell < shells] for x in (m, n, q, shell))
     power = np.zeros((len(frames), len(m)))
     cones = {"": np.ones((len(frames), len(m)), bool)}
     cones["_along"], cones["_across"] = (np.zeros((len(frames), len(m)), bool) for _ in range(2))
     for sample in kept:
         f = frames[sample]
         power[sample] = np.abs(wave_sums(run.place[f], np.ones(run.n), m, n, run.box)) ** 2 / run.n
-        to_director = np.abs(fold(np.arctan2(n, m) - run.axis[f]))
+        to_director = np.abs(fold(np.arctan2(q[:, 1], q[:, 0]) - run.axis[f]))
         cones["_along"][sample] = to_director <= np.pi / 6
         cones["_across"][sample] = to_director >= np.pi / 3
 
@@ -1000,7 +1008,7 @@ def check_structure(run, table):
         return means
 
     table.add("/structure/q_per_mm", "definition", run.arrays["/structure/q_per_mm"],
-              2 * np.pi / run.box * np.arange(1, shells + 1))
+              2 * np.pi / run.longer * np.arange(1, shells + 1))
     for name, cone in cones.items():
         value, sem = jackknife(parts, curve(cone))
         table.add(f"/structure/factor{name}", "direct sums", run.arrays[f"/structure/factor{name}"], value)
@@ -1014,9 +1022,10 @@ def check_lattice(run, table):
     frames = run.frames("lattice")
     parts = steady_parts(run, frames)
     found = np.full((len(frames), 4), np.nan)
-    m, n = half_plane(max(1, int(min(128, run.box / (run.width / 2)))), everything=True)
-    size = np.hypot(m, n)
-    keep = (size >= run.box / (2 * run.length)) & (size <= run.box / (run.width / 2))
+    most = min(128 * np.sqrt(run.longer / run.shorter), run.longer / (run.width / 2))
+    m, n, q = half_plane(run.box, max(1, int(most)), everything=True)
+    size = np.linalg.norm(q, axis=1)
+    keep = (size >= run.longer / (2 * run.length)) & (size <= run.longer / (run.width / 2))
     m, n = m[keep], n[keep]
     for sample in np.concatenate(parts):
         f = frames[sample]
@@ -1422,7 +1431,7 @@ def check_van_hove(run, table):
 def check_flow(run, table):
     frames = lag_frames(run, "flow")
     bins = run.scene["measure"]["flow"]["bins"]
-    width = run.box / 2 / bins
+    width = run.shorter / 2 / bins
     step = run.time[frames[1]] - run.time[frames[0]]
     origins = np.arange(len(frames) - 1)
     parts = steady_parts(run, frames[:-1])
@@ -1493,10 +1502,10 @@ def check_fluctuations(run, table):
     frames = run.frames("fluctuations")
     parts = steady_parts(run, frames)
     divisions = [2, 3, 4, 5, 6, 8, 10, 12, 16, 20]
-    counts = {m: np.array([np.histogram2d(p[:, 1], p[:, 0], m, [[0, run.box]] * 2)[0].ravel() for p in run.place[frames]])
+    counts = {m: np.array([np.histogram2d(*p.T, m, [[0, side] for side in run.box])[0].T.ravel() for p in run.place[frames]])
               for m in divisions}
     share = np.array([1 / m ** 2 for m in divisions])
-    fit = run.box / np.array(divisions) >= 2 * run.length * (1 - 1e-6)
+    fit = run.shorter / np.array(divisions) >= 2 * run.length * (1 - 1e-6)
 
     def numbers(some):
         mean = [counts[m][some].mean() for m in divisions]
@@ -1530,10 +1539,10 @@ def check_fluctuations(run, table):
 def check_frank(run, table):
     frames = run.frames("frank")
     parts = steady_parts(run, frames)
-    m, n = half_plane(6, everything=True)
-    unit = 2 * np.pi / run.box
+    m, n, _ = half_plane(run.box, 6, everything=True)
+    unit = 2 * np.pi / run.longer  # of a square box: there is no measure.frank in another
     q_max = max(2 * np.pi / (3 * run.scene["rods"]["length"]), 1.5 * unit)
-    area = run.box ** 2
+    area = run.area
     powers, floors = np.full((len(frames), len(m)), np.nan), np.full(len(frames), np.nan)
     for sample in np.concatenate(parts):
         f = frames[sample]
@@ -1625,24 +1634,23 @@ def winding(q):
 def coarse_field(run, frame, nodes, smoothing):
     """Mean of exp(2 i theta) with Gaussian weights at the nodes (y, x), every rod, every node; and where it is defined:
     where the weights of the rods over those of the nodes are at least half of the mean."""
-    mesh = run.box / nodes
-    grid = np.arange(nodes) * mesh
-    reach = min(4 * smoothing, run.box / 2)
-    weights = []
+    weights, room = [], 1.0
     for k in (0, 1):
-        d = nearest(grid[:, None] - run.place[frame][None, :, k], run.box)
+        grid = np.arange(nodes[k]) * run.box[k] / nodes[k]
+        reach = min(4 * smoothing, run.box[k] / 2)
+        d = nearest(grid[:, None] - run.place[frame][None, :, k], run.box[k])
         weights.append(np.where(np.abs(d) <= reach, np.exp(-d ** 2 / (2 * smoothing ** 2)), 0))
+        distance = np.minimum(grid, run.box[k] - grid)
+        room *= np.sum(np.where(distance <= reach, np.exp(-distance ** 2 / (2 * smoothing ** 2)), 0))
     total = weights[1] @ weights[0].T
     q = (weights[1] * np.exp(2j * run.theta[frame])) @ weights[0].T
-    distance = np.minimum(grid, run.box - grid)
-    room = np.sum(np.where(distance <= reach, np.exp(-distance ** 2 / (2 * smoothing ** 2)), 0)) ** 2
-    return np.where(total > 0, q / np.where(total > 0, total, 1), 0), total / room >= 0.5 * run.n / nodes ** 2
+    return np.where(total > 0, q / np.where(total > 0, total, 1), 0), total / room >= 0.5 * run.n / nodes.prod()
 
 
 def direction_of(q, mesh, x, y, charge, radius):
     """Ray along which the director is radial: from the phase of the winding mode on a ring of 64 points."""
     phi = 2 * np.pi * np.arange(64) / 64
-    on_ring = [scipy.ndimage.map_coordinates(part, [(y + radius * np.sin(phi)) / mesh, (x + radius * np.cos(phi)) / mesh],
+    on_ring = [scipy.ndimage.map_coordinates(part, [(y + radius * np.sin(phi)) / mesh[1], (x + radius * np.cos(phi)) / mesh[0]],
                                              order=1, mode="grid-wrap") for part in (q.real, q.imag)]
     mode = np.mean((on_ring[0] + 1j * on_ring[1]) * np.exp(-2j * charge * phi))
     return np.angle(mode) / 2 / (1 - charge)
@@ -1653,7 +1661,7 @@ def check_defects(run, table):
     plan = run.scene["measure"]["defects"]
     smoothing = plan.get("smoothing") or run.length / 2
     mesh = plan.get("grid") or run.length / 8
-    nodes = max(4, int(np.ceil(run.box / mesh - 1e-9)))
+    nodes = np.maximum(4, np.ceil(run.box / mesh - 1e-9).astype(int))
     mesh = run.box / nodes
     table.add("/defects/time_s", "trajectory", run.arrays["/defects/time_s"], run.time[frames])
     n_plus, n_minus = np.zeros(len(frames)), np.zeros(len(frames))
@@ -1673,7 +1681,7 @@ def check_defects(run, table):
         found = []
         for a, b in zip(j, i):
             # zero of the bilinear Q
-            corner = [[q[(a + y) % nodes, (b + x) % nodes] for x in (0, 1)] for y in (0, 1)]
+            corner = [[q[(a + y) % nodes[1], (b + x) % nodes[0]] for x in (0, 1)] for y in (0, 1)]
 
             def at(p):
                 value = ((1 - p[1]) * ((1 - p[0]) * corner[0][0] + p[0] * corner[0][1])
@@ -1684,20 +1692,20 @@ def check_defects(run, table):
                 core, _, status, _ = scipy.optimize.fsolve(at, start, full_output=True)
                 if status == 1 and (core > -1e-6).all() and (core < 1 + 1e-6).all():
                     break
-            found.append(((b + core[0]) * mesh % run.box, (a + core[1]) * mesh % run.box, charge[a, b]))
+            found.append((*((np.array([b, a]) + core) * mesh % run.box), charge[a, b]))
         found = np.array(found).reshape(-1, 3)
         taken = set()
         for x, y, c in found:
-            d = np.hypot(nearest(rows[:, 1] - x, run.box), nearest(rows[:, 2] - y, run.box))
+            d = np.linalg.norm(nearest(rows[:, 1:3] - [x, y], run.box), axis=1)
             d[(rows[:, 3] != c) | np.isin(np.arange(len(rows)), list(taken))] = np.inf
-            if not d.size or d.min() > mesh * np.sqrt(2):
+            if not d.size or d.min() > np.hypot(*mesh):
                 missed += 1
                 continue
             k = int(np.argmin(d))
             taken.add(k)
             apart.append(d[k])
             # a lone one: its ring is as wide as the smoothing
-            rest = np.hypot(nearest(found[:, 0] - x, run.box), nearest(found[:, 1] - y, run.box))
+            rest = np.linalg.norm(nearest(found[:, :2] - [x, y], run.box), axis=1)
             alone = np.sort(rest)[1] if len(rest) > 1 else np.inf
             if alone >= 2 * smoothing and abs(c) == 0.5:
                 period = np.pi / (1 - c)
@@ -1716,7 +1724,7 @@ def check_defects(run, table):
         table.add("defects: " + name, by, run.summary["defects"][name], count[steady].mean(), doubt / steady.sum())
     if listed and met:
         table.add("/defects/list: not found again", by, missed, 0, doubt)
-        table.add("/defects/list/x_mm, y_mm: 99th percentile", "scipy fsolve", np.quantile(apart, 0.99), 0, 0.02 * mesh)
+        table.add("/defects/list/x_mm, y_mm: 99th percentile", "scipy fsolve", np.quantile(apart, 0.99), 0, 0.02 * mesh.min())
         if turned:
             table.add("/defects/list/direction_rad: median", "winding mode on a ring", np.median(turned), 0, 0.15,
                       f"another estimate; of half its period, {len(turned)} lone ones")
@@ -1728,7 +1736,7 @@ def check_defects(run, table):
 
 def check_tracks(run, table, frames, plan):
     """Tracks of the defects of our list, linked again, and what they come down to."""
-    area, interval = run.box ** 2, run.time[frames[1]] - run.time[frames[0]]
+    area, interval = run.area, run.time[frames[1]] - run.time[frames[0]]
     spans = (1, 2, 4, 8, 16)
     columns = [run.arrays["/defects/list/" + k] for k in ("time_s", "x_mm", "y_mm", "charge", "direction_rad", "track")]
     next_id, alive, ids = 0, [], []
@@ -1739,7 +1747,7 @@ def check_tracks(run, table, frames, plan):
 
     def pairs_of(first, second, allowed):
         """Closest pairs first: (index, index) of rows of positions, where allowed."""
-        d = np.hypot(*(nearest(first[:, None, k] - second[None, :, k], run.box) for k in (0, 1)))
+        d = np.linalg.norm(nearest(first[:, None] - second[None], run.box), axis=-1)
         d = np.where(allowed & (d <= np.inf), d, np.inf)
         result = []
         while d.size and np.isfinite(d.min()):
@@ -1759,7 +1767,7 @@ def check_tracks(run, table, frames, plan):
         limit = {c: min(run.length, 0.5 * np.sqrt(area / max(np.sum(now[:, 3] == c), sum(t["charge"] == c for t in alive), 1)))
                  for c in (0.5, -0.5)}
         before, charges = places(alive), np.array([t["charge"] for t in alive])
-        d = np.hypot(*(nearest(before[:, None, k] - now[None, :, 1 + k], run.box) for k in (0, 1)))
+        d = np.linalg.norm(nearest(before[:, None] - now[None, :, 1:3], run.box), axis=-1)
         same = (charges[:, None] == now[None, :, 3]) if len(alive) else np.zeros((0, len(now)), bool)
         reach = np.where(now[:, 3] > 0, limit[0.5], limit[-0.5])
         links = pairs_of(before, now[:, 1:3], same & (d <= reach[None]))
@@ -1767,7 +1775,7 @@ def check_tracks(run, table, frames, plan):
         both = limit[0.5] + limit[-0.5]
         dead = [t for i, t in enumerate(alive) if i not in goes_on]
         plus, minus = [t for t in dead if t["charge"] > 0], [t for t in dead if t["charge"] < 0]
-        apart = np.hypot(*(nearest(places(plus)[:, None, k] - places(minus)[None, :, k], run.box) for k in (0, 1)))
+        apart = np.linalg.norm(nearest(places(plus)[:, None] - places(minus)[None], run.box), axis=-1)
         met = pairs_of(places(plus), places(minus), apart <= both)
         met_lasting = sum(plus[i]["lasting"] and minus[j]["lasting"] for i, j in met)
         old = sum(t["lasting"] for t in dead)
@@ -1782,8 +1790,7 @@ def check_tracks(run, table, frames, plan):
             if j in source:
                 track = alive[source[j]]
                 last = track["trail"][-1]
-                track["trail"].append((time, last[1] + nearest(row[1] - last[1], run.box),
-                                       last[2] + nearest(row[2] - last[2], run.box), ray))
+                track["trail"].append((time, *(last[1:3] + nearest(row[1:3] - last[1:3], run.box)), ray))
                 sign = "plus" if row[3] > 0 else "minus"
                 for k in spans:
                     if len(track["trail"]) <= k:
@@ -1813,7 +1820,7 @@ def check_tracks(run, table, frames, plan):
         alive = following
         ids.extend(t["id"] for t in alive)
         plus, minus = [t for t in born if t["charge"] > 0], [t for t in born if t["charge"] < 0]
-        apart = np.hypot(*(nearest(places(plus)[:, None, k] - places(minus)[None, :, k], run.box) for k in (0, 1)))
+        apart = np.linalg.norm(nearest(places(plus)[:, None] - places(minus)[None], run.box), axis=-1)
         couples = pairs_of(places(plus), places(minus), apart <= both)
         for i, j in couples:
             plus[i]["partner"], minus[j]["partner"] = minus[j], plus[i]

@@ -21,7 +21,7 @@ from .evidence import Evidence
 from .plan import write_plan
 from .report import tally, write_report
 from .sets import ORDER, SCALES, sweeps
-from .statements import as_json, as_table, findings, of_figures
+from .statements import as_json, as_table, judged, of_figures
 
 OK, FAILED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 
@@ -51,7 +51,8 @@ def parser() -> argparse.ArgumentParser:
     found.add_argument("--runs-per-task", type=int, help="runs that a task of Slurm does, one after the other")
     found.add_argument("--slurm-option", action="append", help="any option of sbatch")
     found.add_argument("--report", type=Path, action="append", default=[],
-                       help="Markdown file whose marked sections are written anew; may be given several times")
+                       help="Markdown file whose marked sections are written anew, and those of the pages in the "
+                       "folder of its name; may be given several times")
     found.add_argument("--json", action="store_true", help="what was made, and the verdicts, as JSON")
     found.add_argument("-y", "--yes", action="store_true", help="do not ask before a start on a terminal")
     return found
@@ -203,7 +204,7 @@ def _run_plan(plan: running.Plan, program: str, out: Path, options: argparse.Nam
 def _draw(options: argparse.Namespace, figures: list[Figure], evidence: Evidence, out: Path) -> None:
     made = draw(figures, evidence, out, width=25.4 * inches(options.width), form=options.format,
                 origin={"Software": "shaken figures"})
-    found = findings(evidence, of_figures({figure.id for figure in figures} if options.figures else ()))
+    found = judged(evidence, of_figures({figure.id for figure in figures} if options.figures else ()))
     (out / "statements.md").write_text(as_table(found))
     (out / "statements.json").write_text(json.dumps(as_json(found), indent=2, ensure_ascii=False) + "\n")
     for report in options.report:

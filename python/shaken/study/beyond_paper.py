@@ -10,7 +10,9 @@ import numpy as np
 
 from ..estimate import Estimate, derived
 from ..run import Run
-from .evidence import BEADS, FREQUENCY, GAMMA, LENGTH, PACKING, SIDE, Evidence, Runs, key_of, number_of
+from .evidence import (BEADS, FREQUENCY, GAMMA, LENGTH, PACKING, SIDE, Evidence, Runs, box_of, box_text, key_of,
+                       number_of)
+from .layer_checks import layered, wavelength
 from .motion_checks import late_velocity_correlation, papers_diffusion, speed_between
 from .rules import text
 from .running import speed
@@ -41,7 +43,7 @@ def seeds(runs: Runs) -> str:
     return f"{len(runs)} × {runs[0].summary['sim_seconds']:.0f} s"
 
 
-PACKED, LONG, BOX = key("φ", PACKING), key("ℓ", LENGTH, " mm"), key("box", SIDE, " mm")
+PACKED, LONG, BOX = key("φ", PACKING), key("ℓ", LENGTH, " mm"), ("box", lambda runs: box_text(runs[0]))
 SEEDS: Column = ("runs", seeds)
 STEP = "time.step"
 
@@ -55,7 +57,7 @@ def by(runs: Runs, *paths: str) -> list[Runs]:
 
 def rods_per_area(runs: Runs) -> float:
     """Number of rods per area of the box [1/mm2]."""
-    return runs[0].summary["n_rods"] / key_of(runs[0], SIDE) ** 2
+    return runs[0].summary["n_rods"] / math.prod(box_of(runs[0]))
 
 
 def beyond_reversal(run: Run) -> Estimate:
@@ -241,6 +243,25 @@ def elastic(evidence: Evidence) -> str:
         PACKED, BOX, SEEDS, number("S", "S"), number("K₃/K₁", "frank_ratio"), number("χ² per point", "frank_chi2")])
 
 
+def strip(evidence: Evidence) -> str:
+    """Layers in a strip that is long across the rods beside those in the square box; nothing where none was run."""
+    strips = evidence["strip"]
+    if not strips:
+        return ""
+    square = evidence["layers"].at(key_of(strips[0], LENGTH), key_of(strips[0], PACKING))
+
+    def step(here: Runs) -> str:
+        _, across = box_of(here[0])
+        found = layered(here).number("wavelength_mm")
+        n = round(across / found.value) if found.is_known else 0
+        return f"{across / n - across / (n + 1):.2g}" if n else "–"
+
+    return "The same rods in a strip, along whose length more wavelengths fit:\n\n" + table([square, strips], [
+        BOX, PACKED, SEEDS, number("S", "S"), number("θ_m (°)", "theta_m_deg"),
+        ("λ (mm)", lambda here: text(layered(here).of(wavelength))), ("step of λ (mm)", step),
+        number("layer order", "layer_order")])
+
+
 @dataclass(frozen=True)
 class Next:
     """Runs at the desk's time step that would decide a question.
@@ -277,7 +298,7 @@ def hours(evidence: Evidence, next_: Next) -> float:
                  if "rod_seconds_per_cpu_second" in run.summary and key_of(run, GAMMA) > 0)
     if not known:
         return math.nan
-    per_area = float(np.median([run.summary["n_rods"] / key_of(run, SIDE) ** 2 / key_of(run, PACKING)
+    per_area = float(np.median([run.summary["n_rods"] / math.prod(box_of(run)) / key_of(run, PACKING)
                                 for run in known]))
     n_rods = per_area * next_.packing * next_.side ** 2
     return next_.runs * n_rods * next_.seconds / speed(known, next_.packing) / 3600

@@ -2,10 +2,12 @@
 """The runs of a study, by the set (the sweep) that asked for them, and numbers at their state points."""
 from __future__ import annotations
 
+import contextlib
 import math
 from collections import Counter
-from dataclasses import replace
-from typing import Callable, Iterable
+from contextvars import ContextVar
+from dataclasses import dataclass, replace
+from typing import Callable, Iterable, Iterator
 
 import numpy as np
 
@@ -13,7 +15,7 @@ from ..estimate import NAN, Estimate, derived, replica_mean
 from ..plots.series import mean_curve
 from ..run import Run
 
-PACKING, LENGTH, SIDE = "rods.area_fraction", "rods.length", "box.side"
+PACKING, LENGTH, SIDE, ASPECT = "rods.area_fraction", "rods.length", "box.side", "box.aspect"
 END, GAP, GAMMA, FREQUENCY, BEADS = ("rods.end_diameter", "box.gap", "plates.gamma", "plates.frequency", "rods.beads")
 
 #: The paper's box [mm]. A narrower box orders more easily: there order is no sign of order in the paper's; disorder is.
@@ -35,6 +37,18 @@ def key_of(run: Run, path: str) -> float:
     return float(value)
 
 
+def box_of(run: Run) -> tuple[float, float]:
+    """The sides of the box along x, which the rods are along at the start, and along y [mm]."""
+    side, aspect = key_of(run, SIDE), key_of(run, ASPECT)
+    return side, side * (aspect if math.isfinite(aspect) else 1.0)
+
+
+def box_text(run: Run) -> str:
+    """The box in words: "33.5 mm" of a square, "21 × 126 mm" of another."""
+    x, y = box_of(run)
+    return f"{x:.3g} mm" if x == y else f"{x:.3g} × {y:.3g} mm"
+
+
 def number_of(run: Run, name: str) -> Estimate:
     """A number of a run. One that does not know whether it is steady, such as a diffusion constant, is as steady as its
     run."""
@@ -50,6 +64,28 @@ def number_of(run: Run, name: str) -> Estimate:
 def _hardly_drifts(order: Estimate) -> bool | None:
     """True where S drifts by less than SMALL_DRIFT with two errors to spare."""
     return True if abs(order.drift) + 2 * order.drift_error < SMALL_DRIFT else None
+
+
+@dataclass(frozen=True)
+class Read:
+    """A number that was taken from some runs."""
+
+    runs: "Runs"
+    number: Estimate
+
+
+_reads: ContextVar[list[Read] | None] = ContextVar("_reads", default=None)
+
+
+@contextlib.contextmanager
+def reads() -> Iterator[list[Read]]:
+    """All that is taken from runs meanwhile and was measured, so that a verdict can say what it stands on."""
+    found: list[Read] = []
+    before = _reads.set(found)
+    try:
+        yield found
+    finally:
+        _reads.reset(before)
 
 
 def mean(estimates: Iterable[Estimate]) -> Estimate:
@@ -96,6 +132,9 @@ class Runs(list[Run]):
         """The mean of what a function makes of each run. What does not know its own drift is as steady as S is, in all
         of these runs together."""
         found = mean([value(run) for run in self])
+        noted = _reads.get()
+        if noted is not None and found.is_known:
+            noted.append(Read(self, found))
         if found.is_known and found.steady is not True and not math.isfinite(found.drift):
             order = mean([run.numbers.get("S", Estimate()) for run in self])
             if math.isfinite(order.drift_error):

@@ -14,8 +14,8 @@ from ..run import Run
 from .beyond_paper import swimming_defects
 from .evidence import FREQUENCY, LENGTH, PACKING, SIDE, Runs, key_of, number_of
 from .material import Material, angle_bar, draw_curves, draw_points, draw_rods, first_snapshot, packing_scale
-from .motion_checks import (FREE_OF_THE_WINDOW, late_velocity_correlation, long_rods, papers_diffusion, short_rods,
-                            speed_between)
+from .motion_checks import (FREE_OF_THE_WINDOW, VELOCITY_WINDOW, late_velocity_correlation, long_rods,
+                            papers_diffusion, short_rods, speed_between)
 
 
 def tilt(material: Material) -> Sheet:
@@ -69,6 +69,7 @@ def paths(material: Material) -> Sheet:
     draw_points(panel, runs.points(PACKING, "persistence_time_s"), "a way persists", 0)
     draw_points(panel, runs.points(PACKING, "n_z_switching_time_s"), "a tilt keeps its sign", 1)
     panel.range(y=(0, None))
+    panel.reference(y=VELOCITY_WINDOW / 2, label="half the window of 400 ms")
     material.stamp(panel, "persistence")
     return sheet
 
@@ -164,7 +165,7 @@ def memory(material: Material) -> Sheet:
                                      (sheet[4], long_, "c_v_along", "along, ℓ = 4.5 mm")):
         panel.titles(names.axis_title("/velocity/lag_s"), names.axis_title(f"/velocity/{name}"), title)
         draw_curves(panel, runs, f"/velocity/{name}", scale, keep=lambda t, c: t < 2.05)
-        panel.zero().reference(x=0.4, label="window of the velocities")
+        panel.zero().reference(x=VELOCITY_WINDOW, label="window of the velocities")
     if scale:
         sheet.colourbar(scale, [sheet[0], sheet[1], sheet[3], sheet[4]])
     low, high = FREE_OF_THE_WINDOW

@@ -211,7 +211,7 @@ def larger_box(material: Material) -> Sheet:
     for panel, runs in ((sheet[0], small), (sheet[1], large)):
         snapshot = first_snapshot(runs)
         if snapshot:
-            draw_rods(panel, snapshot, runs[0].scene, f"L = {snapshot.side:.1f} mm")
+            draw_rods(panel, snapshot, runs[0].scene, f"L = {snapshot.box[0]:.1f} mm")
     angle_bar(sheet, [panel for panel in sheet.panels[:2] if panel.is_used] or sheet.panels[:1])
     _angles(sheet[2], both, SIDE, "P(θ)")
     _cuts_across(sheet[3], both, None, SIDE)

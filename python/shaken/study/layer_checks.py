@@ -9,7 +9,7 @@ import numpy as np
 
 from ..estimate import Estimate
 from ..run import Run
-from .evidence import END, GAP, LENGTH, PACKING, SIDE, Evidence, Runs, key_of, number_of
+from .evidence import END, GAP, LENGTH, PACKING, SIDE, Evidence, Runs, box_of, key_of, number_of
 from .rules import (NOT_RUN, Answer, Finding, above, below, close_to, conclude, larger, listed, no, refutable, text,
                     trend, unknown, yes)
 
@@ -29,12 +29,14 @@ def layered(runs: Runs) -> Runs:
 
 def wavelength(run: Run) -> Estimate:
     """The wavelength of the layers [mm] with the step of the box in its error: the waves that fit into the box are
-    L/n, so that what lies between two of them is not seen. A uniform error over that step is added."""
+    L/n, L being its side across the rods, so that what lies between two of them is not seen. A uniform error over that
+    step is added."""
     found = number_of(run, "wavelength_mm")
     if not found.is_known:
         return found
-    n = round(key_of(run, SIDE) / found.value)
-    step = key_of(run, SIDE) / max(n - 0.5, 0.5) - key_of(run, SIDE) / (n + 0.5)
+    _, across = box_of(run)
+    n = round(across / found.value)
+    step = across / max(n - 0.5, 0.5) - across / (n + 0.5)
     error = math.hypot(found.error if math.isfinite(found.error) else 0.0, step / math.sqrt(12))
     return replace(found, error=error)
 

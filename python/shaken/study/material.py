@@ -102,19 +102,16 @@ def angle_colours() -> Any:
     return ScalarMappable(Normalize(-90, 90), colours)
 
 
-def draw_rods(panel: Panel, snapshot: Snapshot, scene: dict[str, Any], title: str = "", part: float | None = None,
+def draw_rods(panel: Panel, snapshot: Snapshot, scene: dict[str, Any], title: str = "",
               defects: bool = False) -> None:
-    """The rods of an instant, tapered as they are, coloured by their angle to the director, with a scale bar.
-
-    part: the side of the corner that is shown [mm]; all of the box if None
-    """
+    """The rods of an instant, tapered as they are, coloured by their angle to the director, with a scale bar."""
     from matplotlib.collections import PolyCollection
     rods = scene["rods"]
-    side = part or snapshot.side
-    images = np.array([(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)]) * snapshot.side
+    width, height = snapshot.box
+    images = np.array([(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)]) * snapshot.box
     place = (snapshot.positions[None] + images[:, None]).reshape(-1, 2)
     theta = np.tile(snapshot.theta, len(images))
-    near = ((place > -rods["length"] / 2) & (place < side + rods["length"] / 2)).all(axis=1)
+    near = ((place > -rods["length"] / 2) & (place < snapshot.box + rods["length"] / 2)).all(axis=1)
     place, theta = place[near], theta[near]
     director = np.angle(np.exp(2j * snapshot.theta).mean()) / 2
     half, mid, end = rods["length"] / 2, rods["mid_diameter"] / 2, rods["end_diameter"] / 2
@@ -129,16 +126,16 @@ def draw_rods(panel: Panel, snapshot: Snapshot, scene: dict[str, Any], title: st
     axes.set_aspect("equal")
     panel.titles(title=title)
     panel.has_picture = True
-    axes.set_xlim(0, side)
-    axes.set_ylim(0, side)
+    axes.set_xlim(0, width)
+    axes.set_ylim(0, height)
     axes.set_xticks([])
     axes.set_yticks([])
     if defects:
         _draw_defects(panel, snapshot, rods["length"] / 2)
-    bar = next(length for length in (50, 20, 10, 5, 2, 1) if length <= side / 3)
-    axes.plot([side * 0.04, side * 0.04 + bar], [side * 0.05] * 2, color="black", linewidth=2, solid_capstyle="butt",
+    bar = next(length for length in (50, 20, 10, 5, 2, 1) if length <= width / 3)
+    axes.plot([width * 0.04, width * 0.04 + bar], [width * 0.05] * 2, color="black", linewidth=2, solid_capstyle="butt",
               path_effects=_rim(4))
-    axes.text(side * 0.04 + bar / 2, side * 0.07, f"{bar} mm", ha="center", va="bottom", fontsize=6,
+    axes.text(width * 0.04 + bar / 2, width * 0.07, f"{bar} mm", ha="center", va="bottom", fontsize=6,
               path_effects=_rim(2))
     panel.record("rods", snapshot.positions[:, 0], snapshot.positions[:, 1])
     panel.is_used = True
@@ -151,20 +148,20 @@ def _rim(width: float) -> list[Any]:
 
 def defects_of(snapshot: Snapshot, smoothing: float, cells: int | None = None) -> np.ndarray:
     """(n, 3) x, y [mm] and charge (+-1/2) of the defects of the director field: exp(2i theta) of the rods, smoothed by
-    a Gaussian of width `smoothing` [mm] on a periodic grid, turns by +-pi around them."""
+    a Gaussian of width `smoothing` [mm] on a periodic grid of `cells` along x, turns by +-pi around them."""
     from scipy.ndimage import gaussian_filter
-    n = cells or max(8, int(snapshot.side / smoothing * 4))
-    at = np.minimum((snapshot.positions / snapshot.side * n).astype(int), n - 1)
-    field = np.zeros((n, n), dtype=complex)
+    per_mm = (cells or max(8, int(snapshot.box[0] / smoothing * 4))) / snapshot.box[0]
+    n = np.rint(snapshot.box * per_mm).astype(int)
+    at = np.minimum((snapshot.positions / snapshot.box * n).astype(int), n - 1)
+    field = np.zeros(n, dtype=complex)
     np.add.at(field, (at[:, 0], at[:, 1]), np.exp(2j * snapshot.theta))
-    width = smoothing / snapshot.side * n
+    width = smoothing / snapshot.box * n
     field = gaussian_filter(field.real, width, mode="wrap") + 1j * gaussian_filter(field.imag, width, mode="wrap")
     corner = [field, np.roll(field, -1, 0), np.roll(np.roll(field, -1, 0), -1, 1), np.roll(field, -1, 1)]
     turn = sum(np.angle(corner[(k + 1) % 4] / corner[k]) for k in range(4)) / (4 * np.pi)
-    i, j = np.nonzero(np.abs(turn) > 0.25)
-    return np.column_stack([(i + 1.0) / n * snapshot.side % snapshot.side,
-                            (j + 1.0) / n * snapshot.side % snapshot.side,
-                            np.round(2 * turn[i, j]) / 2])
+    nodes = np.argwhere(np.abs(turn) > 0.25)
+    places = (nodes + 1.0) / n * snapshot.box % snapshot.box
+    return np.column_stack([places, np.round(2 * turn[tuple(nodes.T)]) / 2])
 
 
 def _draw_defects(panel: Panel, snapshot: Snapshot, smoothing: float) -> None:

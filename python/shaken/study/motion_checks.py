@@ -191,7 +191,10 @@ def c2_levels_off(evidence: Evidence) -> Finding:
                     listed(points, "φ"))
 
 
-#: Lags of C_v that the average over 400 ms does not reach [s].
+#: Over which velocities are averaged, as in the paper [s]. Where rods have no memory beyond it, correlations
+#: fall to 0 over it in about a straight line, and half of it comes out as the persistence time.
+VELOCITY_WINDOW = 0.4
+#: Lags of C_v that the average does not reach [s].
 FREE_OF_THE_WINDOW = (0.8, 2.8)
 
 

@@ -2,18 +2,20 @@
 """What is written about the runs of a study: verdicts, sets and their cost, versions; as tables of Markdown."""
 from __future__ import annotations
 
+import functools
 import re
 import textwrap
 from collections import Counter
 from pathlib import Path
-from typing import Callable, Mapping
+from typing import Callable, Iterable, Mapping
 
 from ..errors import ShakenError
-from .beyond_paper import SECTIONS
+from .beyond_paper import SECTIONS, strip
 from .evidence import Evidence
-from .figures import FIGURES
+from .figures import FIGURES, Figure
+from .pages import PAGES, content, index, page_of
 from .sets import ORDER
-from .statements import STATEMENTS, as_table, findings
+from .statements import STATEMENTS, Statement, Verdict, as_table, judged
 from .time_step import differences, prices
 
 
@@ -47,7 +49,11 @@ def sets_table(evidence: Evidence) -> str:
 
 def tally(evidence: Evidence) -> str:
     """How many statements agree, and so on, in a sentence."""
-    counts = Counter(finding.verdict for _, finding in findings(evidence))
+    return _tally(judged(evidence))
+
+
+def _tally(found: list[Verdict]) -> str:
+    counts = Counter(verdict.finding.verdict for verdict in found)
     words = {"agrees": ("agrees", "agree"),
              "consistent": ("is consistent with the runs, which could only refute it",
                             "are consistent with the runs, which could only refute them"),
@@ -65,16 +71,15 @@ _PHASES = ("ordered", "disordered", "short", "transition")
 def phases(evidence: Evidence) -> str:
     """The paper's words on the phase diagram and what was found, for a page that shows the figure; in Markdown."""
     lines = ["| the paper says | found here | verdict |", "|---|---|---|"]
-    for statement, finding in findings(evidence, [s for s in STATEMENTS if s.id in _PHASES]):
-        why = f": {finding.why}" if finding.why else ""
-        lines.append(f"| {statement.says} | {finding.found or '–'} | {finding.verdict}{why} |")
+    for verdict in judged(evidence, [s for s in STATEMENTS if s.id in _PHASES]):
+        lines.append(f"| {verdict.statement.says} | {verdict.finding.found or '–'} | {verdict.words} |")
     return "\n".join(lines) + "\n"
 
 
-def figures_list(evidence: Evidence, folder: str) -> str:
-    """The figures in `folder`, and which are still to come for want of runs."""
+def images(evidence: Evidence, figures: Iterable[Figure], folder: str) -> list[str]:
+    """The figures in `folder`, each a paragraph of Markdown, and which are still to come for want of runs."""
     shown, missing = [], []
-    for figure in FIGURES:
+    for figure in figures:
         name = f"figure {figure.number}, `{figure.name}`" if figure.number else f"`{figure.name}`"
         if not any(evidence[set_] for set_ in figure.sets):
             missing.append(name)
@@ -85,7 +90,7 @@ def figures_list(evidence: Evidence, folder: str) -> str:
                      f"\n![{figure.title}]({folder}/{figure.file}.png)\n")
     if missing:
         shown.append(_wrapped(f"Still to come, for none of their runs is in the archive yet: {'; '.join(missing)}."))
-    return "\n".join(shown)
+    return shown
 
 
 def _wrapped(text: str) -> str:
@@ -93,14 +98,32 @@ def _wrapped(text: str) -> str:
     return textwrap.fill(text, 120, break_long_words=False, break_on_hyphens=False) + "\n"
 
 
-def sections(evidence: Evidence, folder: str = "figures") -> dict[str, Callable[[], str]]:
-    """What makes each section that a page may have, by the names of their marks."""
-    return {"origin": lambda: origin(evidence), "tally": lambda: tally(evidence),
-            "claims": lambda: as_table(findings(evidence)),
-            "phases": lambda: phases(evidence), "sweeps": lambda: sets_table(evidence),
-            "figures": lambda: figures_list(evidence, folder), "time step": lambda: differences(evidence),
+def sections(evidence: Evidence, folder: str = "figures", pages: str = "validation") -> dict[str, Callable[[], str]]:
+    """What makes each section that a page may have, by the names of their marks.
+
+    folder: where the figures are, as seen from the page; pages: where those of the validation are
+    """
+    @functools.cache
+    def found() -> list[Verdict]:
+        return judged(evidence)
+
+    def link(statement: Statement) -> str:
+        return f"[{statement.figure}]({pages}/{page_of(statement).name}.md)"
+
+    on_pages = {id_ for page in PAGES for id_ in page.figures}
+    beyond = [figure for figure in FIGURES if figure.id not in on_pages]
+    return {"origin": lambda: origin(evidence), "tally": lambda: _tally(found()),
+            "claims": lambda: as_table(found(), link), "phases": lambda: phases(evidence),
+            "sweeps": lambda: sets_table(evidence), "index": lambda: index(found(), pages),
+            "figures beyond": lambda: "\n".join(images(evidence, beyond, folder)),
+            **{page.name: lambda page=page: content(page, images(evidence, page.drawn, folder), found())
+               for page in PAGES},
+            "strip": lambda: strip(evidence), "time step": lambda: differences(evidence),
             "price of errors": lambda: prices(evidence),
             **{name: lambda make=make: make(evidence) for name, make in SECTIONS.items()}}
+
+
+_MARK = r"<!-- (.+?): (?:begin|end) -->"
 
 
 def with_sections(document: str, known: Mapping[str, Callable[[], str]], where: str = "the report") -> str:
@@ -108,7 +131,7 @@ def with_sections(document: str, known: Mapping[str, Callable[[], str]], where: 
 
     Raises ShakenError where it has no marks, marks of a section that is not known, or only one of two.
     """
-    names = re.findall(r"<!-- (.+?): (?:begin|end) -->", document)
+    names = re.findall(_MARK, document)
     problems = [f"{where} has marks of '{name}', which is no section" for name in dict.fromkeys(names)
                 if name not in known]
     problems += [f"{where} lacks one of <!-- {name}: begin --> and <!-- {name}: end -->, or their order is wrong"
@@ -130,9 +153,18 @@ def _marks(name: str) -> str:
 
 
 def write_report(path: Path, evidence: Evidence) -> None:
-    """Writes the marked sections of a Markdown file anew."""
+    """Writes the marked sections of a Markdown file anew, and those of its pages: the files with marks in the folder
+    beside it that has its name, where there is one."""
+    _write(path, sections(evidence))
+    of_pages = sections(evidence, "../figures", ".")
+    for page in sorted(path.with_suffix("").glob("*.md")):
+        if re.search(_MARK, page.read_text()):
+            _write(page, of_pages)
+
+
+def _write(path: Path, known: Mapping[str, Callable[[], str]]) -> None:
     try:
         document = path.read_text()
     except OSError as error:
         raise ShakenError(f"{path}: {error.strerror}") from None
-    path.write_text(with_sections(document, sections(evidence), str(path)))
+    path.write_text(with_sections(document, known, str(path)))

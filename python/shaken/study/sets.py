@@ -13,7 +13,7 @@ from ..errors import ShakenError
 #: Every set, those first that decide most for their price. The letters are those of docs/validation.md.
 ORDER: tuple[tuple[str, str], ...] = (
     ("A", "long-rods"), ("B", "dilute"), ("G", "layers"), ("C", "mechanism"), ("D", "shaking"), ("E", "crossings"),
-    ("F", "size"), ("H", "gaps"), ("J", "diffusion-along"), ("I", "layer-trends"), ("K", "short-rods"),
+    ("F", "size"), ("H", "gaps"), ("J", "diffusion-along"), ("AA", "strip"), ("I", "layer-trends"), ("K", "short-rods"),
     ("M", "larger-box"), ("L", "no-order"), ("U", "frequency"), ("V", "phases"), ("W", "density"), ("X", "beads"),
     ("R", "elasticity"), ("S", "turned"), ("T", "diffusion"), ("O", "wavelength-length"), ("P", "wavelength-end"),
     ("N", "wavelength-packing"), ("Q", "long-range"), ("Y", "equilibrium"), ("Z", "movies"))

@@ -6,12 +6,13 @@ Each check takes the Evidence and returns a Finding; the checks are in `order_ch
 """
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any, Callable, Iterable
 
 from . import layer_checks, motion_checks, order_checks, structure_checks
-from .evidence import Evidence
-from .rules import Finding
+from .evidence import Evidence, Read, box_of, box_text, reads
+from .rules import NO_DATA, Finding
 
 
 @dataclass(frozen=True)
@@ -94,7 +95,9 @@ STATEMENTS: tuple[Statement, ...] = (
     Statement("sideways", "10", "Across the rod ⟨v⟩ = 0 at every tilt", motion_checks.no_motion_sideways),
     Statement("switching", "10", "The tilt of a rod switches from one sign to the other", motion_checks.tilt_switches),
     Statement("persistence", "11", "Ways of single rods persist longer at 0.85 than at 0.65",
-              motion_checks.persists_when_dense),
+              motion_checks.persists_when_dense,
+              "0.2 s below φ = 0.70 is half the window of 400 ms over which velocities are averaged: no memory is seen "
+              "there"),
     Statement("diffusion-rises", "9", "Short rods diffuse faster when denser", motion_checks.diffusion_rises,
               "asked from 0.65 on: the paper's own fit has its minimum at 0.64, and here D falls up to there"),
     Statement("diffusion-law", "9", "D = 1.7 + 480 (φ − 0.64)² mm²/s for ℓ = 2.5 mm", motion_checks.diffusion_law,
@@ -133,22 +136,91 @@ def of_figures(figures: Iterable[str] = ()) -> list[Statement]:
     return [statement for statement in STATEMENTS if not wanted or statement.figure in wanted]
 
 
-def findings(evidence: Evidence, statements: Iterable[Statement] = STATEMENTS) -> list[tuple[Statement, Finding]]:
+@dataclass(frozen=True)
+class Basis:
+    """What a verdict stands on; each is the smallest and the largest of its state points, or empty.
+
+    samples: independent samples, of all seeds together
+    seeds:   runs of a state point
+    boxes:   in words, the smallest area and the largest
+    seconds: simulated, of a run, its transient included
+    """
+
+    samples: tuple[float, ...] = ()
+    seeds: tuple[int, ...] = ()
+    boxes: tuple[str, ...] = ()
+    seconds: tuple[float, ...] = ()
+
+    @staticmethod
+    def of(taken: Iterable[Read]) -> "Basis":
+        taken = list(taken)
+        runs = [run for read in taken for run in read.runs]
+        boxes = sorted({box_of(run) for run in runs}, key=math.prod)
+        named = {box_of(run): box_text(run) for run in runs}
+        return Basis(_ends(read.number.n_eff for read in taken if math.isfinite(read.number.n_eff)),
+                     _ends(len(read.runs) for read in taken), tuple(named[box] for box in _ends_of_list(boxes)),
+                     _ends(run.summary["sim_seconds"] for run in runs))
+
+    def cells(self) -> list[str]:
+        """Independent samples, seeds, box and time of a table."""
+        return [_range(f"{n:.0f}" for n in self.samples), _range(f"{n}" for n in self.seeds), _range(self.boxes, " mm"),
+                _range((f"{t:.0f} s" for t in self.seconds), " s")]
+
+
+def _ends(values: Iterable[Any]) -> tuple[Any, ...]:
+    return _ends_of_list(sorted(set(values)))
+
+
+def _ends_of_list(values: list[Any]) -> tuple[Any, ...]:
+    return (values[0], values[-1]) if len(values) > 1 else tuple(values)
+
+
+def _range(words: Iterable[str], unit: str = "") -> str:
+    """One word, or the first and the last with the unit of both behind them: "33.5 to 67 mm"."""
+    first, *other = dict.fromkeys(words) or ["–"]
+    return f"{first.removesuffix(unit)} to {other[0]}" if other else first
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """A statement, what the runs say to it, and on what that stands."""
+
+    statement: Statement
+    finding: Finding
+    basis: Basis
+
+    @property
+    def words(self) -> str:
+        """The verdict and its reason, for a table of Markdown."""
+        word = f"**{self.finding.verdict}**" if self.finding.verdict == "disagrees" else self.finding.verdict
+        return f"{word}: {self.finding.why}" if self.finding.why else word
+
+
+def judged(evidence: Evidence, statements: Iterable[Statement] = STATEMENTS) -> list[Verdict]:
     """Each statement with what the runs say to it."""
-    return [(statement, statement.check(evidence)) for statement in statements]
+    found = []
+    for statement in statements:
+        with reads() as taken:
+            finding = statement.check(evidence)
+        found.append(Verdict(statement, finding, Basis() if finding.verdict == NO_DATA else Basis.of(taken)))
+    return found
 
 
-def as_json(found: Iterable[tuple[Statement, Finding]]) -> list[dict[str, Any]]:
-    return [{"statement": statement.id, "figure": statement.figure, "says": statement.says, "verdict": finding.verdict,
-             "found": finding.found, "why": finding.why, "note": statement.note} for statement, finding in found]
+def as_json(found: Iterable[Verdict]) -> list[dict[str, Any]]:
+    return [{"statement": v.statement.id, "figure": v.statement.figure, "says": v.statement.says,
+             "verdict": v.finding.verdict, "found": v.finding.found, "why": v.finding.why, "note": v.statement.note,
+             "independent_samples": v.basis.samples, "seeds": v.basis.seeds, "boxes": v.basis.boxes,
+             "sim_seconds": v.basis.seconds} for v in found]
 
 
-def as_table(found: Iterable[tuple[Statement, Finding]]) -> str:
-    """A table of Markdown."""
-    lines = ["| figure | the paper says | found here | verdict |", "|---|---|---|---|"]
-    for statement, finding in found:
+def as_table(found: Iterable[Verdict], figure: Callable[[Statement], str] | None = lambda s: s.figure) -> str:
+    """A table of Markdown; `figure` is what its first column says, which is left out if that is None."""
+    head = ["the paper says", "found here", "n_eff", "seeds", "box", "time", "verdict"]
+    rows = []
+    for verdict in found:
+        statement = verdict.statement
         note = f". *Note:* {statement.note}" if statement.note else ""
-        verdict = f"**{finding.verdict}**" if finding.verdict == "disagrees" else finding.verdict
-        why = f": {finding.why}" if finding.why else ""
-        lines.append(f"| {statement.figure} | {statement.says}{note} | {finding.found} | {verdict}{why} |")
-    return "\n".join(lines) + "\n"
+        cells = [f"{statement.says}{note}", verdict.finding.found or "–", *verdict.basis.cells(), verdict.words]
+        rows.append(([figure(statement)] if figure else []) + cells)
+    head = (["figure"] if figure else []) + head
+    return "\n".join("| " + " | ".join(cells) + " |" for cells in [head, ["---"] * len(head), *rows]) + "\n"
