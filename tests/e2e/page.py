@@ -231,6 +231,13 @@ def use(page, address, live, downloads):
           const answer = await fetched(`/runs/${run}/picture?frame=0`);
           done([answer.status, answer.headers.get("Content-Type"), (await answer.arrayBuffer()).byteLength]);
         });""")
+    axes = page.execute_async_script("""
+        const done = arguments[arguments.length - 1];
+        const stages = [[1, 0.4, 1.2], [2, 0.5, 1.2], [3, 0.4, 1.2], [1, 0.4, 1.4], [2, 0.5, 1.4], [3, 0.4, 1.4]];
+        import("/page/results.js").then(({sweptParameters}) => done(sweptParameters(stages.map(
+          ([stage, fraction, gap]) => ({parameters: {stage, "rods.area_fraction": fraction, "box.gap": gap}})))
+          .map(({key}) => key)));""")
+    check(axes == ["stage", "box.gap"], f"what the stages of a protocol set is no axis beside them: {axes}")
     check(picture[0] == 200 and picture[1] == "image/png" and picture[2] > 10000, f"a frame is drawn as a PNG: {picture}")
     find("#draw").click()
     eventually(lambda: page.execute_script("return document.querySelector('#shown img')?.naturalWidth") == 1280,

@@ -49,6 +49,16 @@ export function replicaMean(values, errors) {
   return {mean, error: errors.every(Number.isFinite) ? Math.max(within, scatter) : NaN};
 }
 
+/** Whether `key` is the same in all jobs of a stage, as what the stages of a protocol set is: no axis beside theirs. */
+function isSetByStages(key, jobs) {
+  const values = new Map();
+  return key !== "stage" && jobs.every(({parameters}) => {
+    const {stage} = parameters;
+    if (!values.has(stage)) values.set(stage, parameters[key]);
+    return stage !== undefined && values.get(stage) === parameters[key];
+  });
+}
+
 /** Parameters that differ between jobs and are numbers, those with most values first; the seed is no axis. */
 export function sweptParameters(jobs) {
   const values = new Map();
@@ -57,7 +67,7 @@ export function sweptParameters(jobs) {
       if (typeof value === "number" && key !== "time.seed") values.set(key, (values.get(key) ?? new Set()).add(value));
     }
   }
-  return [...values].filter(([, set]) => set.size > 1).sort(([, a], [, b]) => b.size - a.size)
+  return [...values].filter(([key, set]) => set.size > 1 && !isSetByStages(key, jobs)).sort(([, a], [, b]) => b.size - a.size)
     .map(([key, set]) => ({key, values: [...set].sort((a, b) => a - b)}));
 }
 
