@@ -38,7 +38,7 @@ void Protocol::name_the_rest(const RunPlan& plan, nlohmann::ordered_json& parame
       if (parameters.contains(axis.path)) continue;
       if (scene.contains(place)) {
         parameters[axis.path] = scene.at(place);  // with what has been derived
-      } else {  // left out there, for it has its default
+      } else {                                    // left out there, for it has its default
         const Field& field = field_at(axis.path);
         parameters[axis.path] = keys::to_json(field, fields().value(plan, field));
       }
@@ -79,9 +79,10 @@ std::string cannot_follow(const RunPlan& plan, const RunPlan& former) {
   const Tick end = total_ticks(former);
   const double off = off_the_beat(former.system, end);
   if (std::abs(off) <= 0.5 * dt * (1 + 1e-6)) return "";
-  return fmt::format("that ends in the middle of a vibration, at {:.10g} s, and the plates would jump; the nearest whole "
-                     "one ends at {:.10g} s",
-                     static_cast<double>(end) * dt, static_cast<double>(end) * dt - off);
+  return fmt::format(
+      "that ends in the middle of a vibration, at {:.10g} s, and the plates would jump; the nearest whole "
+      "one ends at {:.10g} s",
+      static_cast<double>(end) * dt, static_cast<double>(end) * dt - off);
 }
 
 }  // namespace shaken::scene

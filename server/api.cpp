@@ -300,6 +300,8 @@ Api::Answer Api::extend(const Call& call) const {
   for (const Job& job : jobs) {
     const std::string present = queue_.scene(job.id);
     std::string why = refuse_scene(job.id, present);
+    const std::vector<std::string> next = queue_.starting_from(job.id);
+    if (why.empty() && !next.empty()) why = "job " + next.front() + " is to start from its end";
     if (why.empty()) {
       const auto longer = extended_scene("job " + job.id, present, settings);
       if (longer) {

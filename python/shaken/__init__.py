@@ -7,6 +7,7 @@
     lag = run["/msd/total_mm2"].axis
     for frame in run.frames(every="0.1 s"): print(frame.time, frame.order)
 """
+from .about import FieldAbout, field_about
 from .archive import ArchivedRun, Snapshot, archived_runs
 from .bus import LiveFrame, LiveObservables, live
 from .daemon import Daemon
@@ -18,7 +19,7 @@ from .run import open_run as open  # noqa: A001, as in numpy's and h5py's own na
 from .sweep import Point, Sweep, results
 
 __version__ = "0.1.0"
-__all__ = ["ArchivedRun", "Array", "Daemon", "DirectoryRun", "Estimate", "Frame", "LiveFrame", "LiveObservables",
+__all__ = ["ArchivedRun", "Array", "Daemon", "DirectoryRun", "Estimate", "FieldAbout", "Frame", "LiveFrame", "LiveObservables",
            "Point",
-           "Run", "ShakenError", "Snapshot", "Sweep", "Trajectory", "archived_runs", "live", "open", "replica_mean",
+           "Run", "ShakenError", "Snapshot", "Sweep", "Trajectory", "archived_runs", "field_about", "live", "open", "replica_mean",
            "results"]

@@ -84,6 +84,10 @@ class Queue {
   std::vector<std::string> ids_beginning_with(const std::string& prefix, int limit) const {
     return read(&QueueStore::ids_beginning_with, prefix, limit);
   }
+  /// Jobs that have not begun, and start from the end of this one.
+  std::vector<std::string> starting_from(const std::string& id) const {
+    return read(&QueueStore::ids_starting_from, id);
+  }
   /// The canonical scene of a job.
   std::string scene(const std::string& id) const { return read(&QueueStore::scene, id); }
   JobCounts counts() const { return read(&QueueStore::counts); }

@@ -937,6 +937,14 @@ TEST_F(ApiTest, StagesAreChainsThatRunBesideEachOther) {
   const Response same = submit({{"text", stages}, {"name", "ramp"}, {"replicas", 3}});
   EXPECT_EQ(same.json["counts"]["new"], 0);
 
+  // one that others are to start from ends when they expect it to
+  const Response longer = post("/v1/sweeps/ramp/extend", R"({"measure": "20 s"})");
+  EXPECT_EQ(longer.json["extended"], 4) << "the last of each chain, and the first of one whose second runs";
+  ASSERT_EQ(longer.json["refused"].size(), 8U);
+  EXPECT_EQ(longer.json["refused"][0]["job"], jobs[1]["id"]);
+  EXPECT_EQ(longer.json["refused"][0]["reason"],
+            "job " + jobs[3]["id"].get<std::string>() + " is to start from its end");
+
   const std::string other = R"({"sweep": [{"stages": [{}, {"plates.gamma": 6}]},
                                           {"stages": [{"time.measure": "2 s"}, {"plates.gamma": 5}]}]})";
   EXPECT_THAT(submit({{"text", other}, {"name", "other"}}).error(),
