@@ -19,7 +19,6 @@ from .run import open_run as open  # noqa: A001, as in numpy's and h5py's own na
 from .sweep import Point, Sweep, results
 
 __version__ = "0.1.0"
-__all__ = ["ArchivedRun", "Array", "Daemon", "DirectoryRun", "Estimate", "FieldAbout", "Frame", "LiveFrame", "LiveObservables",
-           "Point",
-           "Run", "ShakenError", "Snapshot", "Sweep", "Trajectory", "archived_runs", "field_about", "live", "open", "replica_mean",
-           "results"]
+__all__ = ["ArchivedRun", "Array", "Daemon", "DirectoryRun", "Estimate", "FieldAbout", "Frame", "LiveFrame",
+           "LiveObservables", "Point", "Run", "ShakenError", "Snapshot", "Sweep", "Trajectory", "archived_runs",
+           "field_about", "live", "open", "replica_mean", "results"]
