@@ -93,7 +93,7 @@ class Loop {
     if (fresh) {
       if (auto done = sample(); !done) return finish_without_disk(done.error());
       // the run that it starts from may be extended or removed, and what was compressed need not be so again
-      if (plan_.start || plan_.system.start == Start::kCompressed) {
+      if (plan_.start || is_compressed(plan_.system.start)) {
         if (auto done = checkpoint(); !done) return finish_without_disk(done.error());
       }
     }
@@ -337,7 +337,7 @@ class Loop {
 };
 
 /// Whether the run begins with work.
-bool is_compressed(const scene::RunPlan& plan) { return !plan.start && plan.system.start == Start::kCompressed; }
+bool begins_with_compression(const scene::RunPlan& plan) { return !plan.start && is_compressed(plan.system.start); }
 
 struct Opened {
   OpenRun run;
@@ -385,7 +385,8 @@ Result<Opened> open_run(const scene::RunPlan& plan, const RunDirectory& director
   const double cpu_begin = process_cpu_seconds();
   Result<OpenRun> run = start_run(plan, directory, scene_text(plan), go_on);
   if (!run) return run.error();
-  if (is_compressed(plan)) spdlog::info("compressed the rods in {:.2f} CPU-s", process_cpu_seconds() - cpu_begin);
+  if (begins_with_compression(plan))
+    spdlog::info("compressed the rods in {:.2f} CPU-s", process_cpu_seconds() - cpu_begin);
   return Opened{std::move(run).value(), true};
 }
 
@@ -468,7 +469,7 @@ RunOutcome run_owned(const scene::RunPlan& plan, const RunOptions& options, cons
   {
     const GoOn go_on = [&options] { return options.stop == nullptr || !*options.stop; };
     Result<Opened> opened = open_run(plan, directory, go_on);
-    if (!opened && is_compressed(plan) && !go_on()) {  // nothing is there to be saved
+    if (!opened && begins_with_compression(plan) && !go_on()) {  // nothing is there to be saved
       report_end(options, callbacks, "stopped", "asked to stop");
       return {RunState::kStopped, ""};
     }

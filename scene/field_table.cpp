@@ -83,26 +83,50 @@ Field steady() {
 Field rods_start() {
   Field field =
       choice<Start>("rods.start", sys<&System::start>,
-                    {{"aligned", Start::kAligned}, {"random", Start::kRandom}, {"compressed", Start::kCompressed}},
+                    {{"aligned", Start::kAligned},
+                     {"random", Start::kRandom},
+                     {"compressed", Start::kCompressed},
+                     {"polydomain", Start::kPolydomain},
+                     {"defect_pair", Start::kDefectPair}},
                     "Whether rods start in rows, side by side; or at random places and directions (for dilute "
-                    "systems); or so in a larger box, which is then compressed (dense and disordered).");
+                    "systems); or so in a larger box, which is then compressed (dense and disordered); or compressed "
+                    "along the directors of several domains, or of a pair of defects.");
   field.fallback = "aligned";
   field.fetch = [always = field.fetch](const RunPlan& plan) { return plan.start ? Value() : always(plan); };
   return field;
 }
 
-/// The same, and nothing where there are no rows.
+/// A key that means something with some starts only: nothing with others, and where another run has left the rods.
+Field of_starts(Field field, std::initializer_list<Start> starts) {
+  field.fetch = [always = field.fetch, of = std::vector<Start>(starts)](const RunPlan& plan) {
+    return plan.start || std::ranges::find(of, plan.system.start) == of.end() ? Value() : always(plan);
+  };
+  return field;
+}
+
 Field rods_start_angle() {
   Field field =
       quantity("rods.start_angle", sys<&System::start_angle>, kPlain, -90, 90,
-               "Angle in degrees of the rods of an aligned start to the x axis. If it is 0 the rows lie along "
-               "x, every other one shifted by half a rod; else they close around the periodic box as best "
-               "they can.");
+               "Angle in degrees to the x axis: of the rods of an aligned start, or of the director beyond a pair of "
+               "defects. If it is 0 aligned rows lie along x, every other one shifted by half a rod; else they close "
+               "around the periodic box as best they can.");
   field.fallback = 0.0;
-  field.fetch = [always = field.fetch](const RunPlan& plan) {
-    return plan.start || plan.system.start != Start::kAligned ? Value() : always(plan);
-  };
-  return later(field);
+  return later(of_starts(std::move(field), {Start::kAligned, Start::kDefectPair}));
+}
+
+Field rods_start_domains() {
+  Field field = whole("rods.start_domains", sys<&System::start_domains>, 1, 10000,
+                      "Number of domains of a polydomain start, of equal rank: their places and directors are random.");
+  field.fallback = static_cast<double>(System{}.start_domains);
+  return of_starts(std::move(field), {Start::kPolydomain});
+}
+
+Field rods_start_separation() {
+  Field field = derived(quantity("rods.start_separation", sys<&System::start_separation>, kLength, 0.1, 2000,
+                                 "Distance of the two defects of a pair, along the longer side of the box (x of a "
+                                 "square)."),
+                        "half the longer side");
+  return of_starts(std::move(field), {Start::kDefectPair});
 }
 
 Field start_run() {
@@ -228,6 +252,8 @@ std::vector<std::vector<Field>> groups() {
     derived(whole("rods.count", sys<&System::n_rods>, 1, 1e6, "Number of rods."), "from area_fraction and side"),
     rods_start(),
     rods_start_angle(),
+    rods_start_domains(),
+    rods_start_separation(),
     }, added_rods<0>("rods_2"), added_rods<1>("rods_3"), {
     block("start", at<&RunPlan::start>, false,
           "The rods begin where another run has left them, in place of rows or random places; times count from there."),

@@ -93,7 +93,7 @@ std::optional<double> nearest_side(const System& system) {
 std::optional<Problem> placement_problem(const RunPlan& plan, const std::string& file, const std::string& label) {
   if (plan.start) return std::nullopt;  // nothing is placed
   // That takes as long as it takes, and depends on the seed: the run itself says it. Its limits have been checked.
-  if (plan.system.start == Start::kCompressed) return std::nullopt;
+  if (is_compressed(plan.system.start)) return std::nullopt;
   const Result<World> world = make_world(plan.system);
   if (world) return std::nullopt;
   std::string message = label.empty() ? world.error().message : label + ": " + world.error().message;

@@ -12,7 +12,7 @@
 namespace shaken::scene {
 
 /// The problem that the simulation cannot place the rods of `plan`, if so. It is asked: this costs as much as a start.
-/// Only a compressed start, which takes CPU seconds, is left to the run.
+/// Only a start that is compressed, which takes CPU seconds, is left to the run.
 /// `file` and, of a sweep's point, `label` are for the message.
 std::optional<Problem> placement_problem(const RunPlan& plan, const std::string& file, const std::string& label = {});
 

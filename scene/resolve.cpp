@@ -18,6 +18,7 @@ std::optional<RunPlan> resolve(const Draft& draft, std::vector<Problem>& problem
   if (shapes_are_known) {
     if (resolve_arena(scene)) resolve_numbers(scene);
     check_box(scene);
+    resolve_start_pattern(scene);
   }
   check_gap(scene);
   check_base(scene);

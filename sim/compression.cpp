@@ -10,8 +10,10 @@
 #include <vector>
 
 #include "base/core/check.h"
+#include "sim/aligning_field.h"
 #include "sim/balance.h"
 #include "sim/contact/bead_contacts.h"
+#include "sim/director_patterns.h"
 #include "sim/initial.h"
 #include "sim/neighbors/neighbor_list.h"
 #include "sim/stepping/stepper.h"
@@ -28,14 +30,20 @@ constexpr double kThicker = 0.01;  ///< diameters of beads while the box shrinks
 constexpr double kWay = 0.0025;    ///< of a rod in a tick, at the speed of a start
 constexpr double kPushed = 0.025;  ///< deepest overlap that a step may make
 
-constexpr double kMostChange = 0.003;  ///< of the side, and of the gap, in one step
-constexpr double kLeastChange = 1e-5;  ///< else the rods first fly on
-constexpr int kTicksBetween = 20;      ///< of two steps: a few times the way that a step has pushed rods together
-constexpr int kStepsToJam = 400;       ///< if side and gap come nearer to their aims by less than this meanwhile:
+constexpr double kMostChange = 0.003;     ///< of the side, and of the gap, in one step
+constexpr double kLeastChange = 1e-5;     ///< else the rods first fly on
+constexpr int kTicksBetween = 20;         ///< of two steps: a few times the way that a step has pushed rods together
+constexpr int kTicksBetweenAligned = 60;  ///< the same of rods that follow a pattern
+constexpr int kStepsToJam = 400;          ///< if side and gap come nearer to their aims by less than this meanwhile:
 constexpr double kStandstill = 0.001;
 constexpr int kTicksToSettle = 5;
 constexpr int kMostSettling = 2000;
-constexpr int kFinerAfter = 50;  ///< attempts to shorten_bound, with half the tick
+constexpr int kFinerAfter = 50;  ///< attempts to settle, with half the tick
+
+// of rods that follow a pattern
+constexpr double kTurnTime = 0.0025;  ///< in which they turn by sin 2 delta, delta being the angle to it [s]
+constexpr double kTipSpeed = 6.0;     ///< of the tip of a rod that turns, in speeds of a start
+constexpr double kSmoothing = 1.0;    ///< of the field that turns them, in lengths of the longest rod
 
 /// Thicker and longer by `more` all around the beads, whose centres stay where they are [mm].
 RodShape thicker(RodShape rod, double more) {
@@ -61,12 +69,16 @@ double step_towards(double aim, double now, double by) {
 /// Rods that fly about in a box that changes.
 class Compression {
  public:
-  Compression(const System& system, const GoOn& go_on) : system_(system), go_on_(go_on), aim_(empty_world(system)) {
+  Compression(const System& system, const GoOn& go_on)
+      : system_(system), go_on_(go_on), pattern_(start_pattern(system)), aim_(empty_world(system)) {
+    double longest = 0;
     for (const Species& species : aim_.species) {
       const auto [thin, thick] = std::minmax_element(species.bead_radius.begin(), species.bead_radius.end());
       thinnest_ = std::min(thinnest_, *thin);
       thickest_ = std::max(thickest_, *thick);
+      longest = std::max({longest, 2.0 * *thick, 2.0 * species.half_length});
     }
+    if (pattern_) field_.emplace(system.box(), pattern_, kSmoothing * longest);
   }
 
   /// From random places in a larger box.
@@ -78,6 +90,7 @@ class Compression {
 
   /// From where they are in `left`.
   Result<World> from_rods_of(const World& left) {
+    field_.reset();  // what they have is theirs
     System loose = gas();
     loose.box_side = left.system.box_side;
     loose.gap = left.system.gap;
@@ -112,7 +125,7 @@ class Compression {
       }
       if (auto done = may_go_on(goes_on); !done) return done.error();
       approach();
-      if (auto done = fly(kTicksBetween); !done) return done.error();
+      if (auto done = fly(field_ ? kTicksBetweenAligned : kTicksBetween); !done) return done.error();
     }
     for (int tries = 1;; ++tries) {
       if (auto flights = settled()) {
@@ -169,7 +182,9 @@ class Compression {
     double wanted = kLoose;
     for (int k = 1;; ++k, wanted *= kLooser) {
       loose.box_side = system_.box_side * std::max(1.0, std::sqrt(fraction / wanted));
-      Result<World> made = make_world(loose);
+      const double scale = system_.box_side / loose.box_side;
+      const auto widened = [&](const Vec2& place) { return pattern_(scale * place); };
+      Result<World> made = pattern_ ? make_world_along(loose, widened) : make_world(loose);
       if (!made && k < kLoosenings) continue;
       if (!made) return made.error();
       world_ = std::move(made).value();
@@ -247,6 +262,7 @@ class Compression {
   /// Begins flights where the rods were when they were looked at last, their centres scaled with the box and the gap.
   void fly_anew_in(double side, double gap) {
     const double wide = side / world_.system.box_side, high = gap / world_.system.gap;
+    if (field_) follow_field();
     world_.system.box_side = side;
     if (gap != world_.system.gap) {
       world_.system.gap = gap;
@@ -264,14 +280,30 @@ class Compression {
     world_.tick = 0;
   }
 
+  /// Turns rods towards the directors of their places, as an aligning field would in a viscous medium, and keeps their
+  /// velocities at those of a start, to which turns and hits would add.
+  void follow_field() {
+    double sum = 0;
+    for (const Motion& motion : motions_) sum += motion.velocity.head<2>().squaredNorm();
+    const double pace = kStartSpeed * std::sqrt(2.0 * static_cast<double>(motions_.size()) / sum);
+    const double scale = system_.box_side / world_.system.box_side;
+    for (std::size_t i = 0; i < poses_.size(); ++i) {
+      const double fastest = kTipSpeed * kStartSpeed / std::max(thickest_, world_.species_of(i).half_length);
+      const double turn =
+          field_->torque(scale * poses_[i].position.head<2>(), poses_[i].director.head<2>()) / kTurnTime;
+      motions_[i].velocity *= pace;
+      motions_[i].angular_velocity *= pace;
+      motions_[i].angular_velocity.z() = std::clamp(turn, -fastest, fastest);
+    }
+  }
+
   Result<void> may_go_on(bool there_is_hope) const {
     if (go_on_ && !go_on_()) return Error{"stopped"};
     if (there_is_hope) return {};
     char text[160];
-    std::snprintf(text, sizeof text,
-                  "the rods jammed at area fraction %.3f, before they were compressed to %.3f; rods.start \"aligned\" "
-                  "packs more",
-                  area_of(aim_) / world_.system.box().area(), area_of(aim_) / system_.box().area());
+    std::snprintf(text, sizeof text, "the rods jammed at area fraction %.3f, before they were compressed to %.3f%s",
+                  area_of(aim_) / world_.system.box().area(), area_of(aim_) / system_.box().area(),
+                  aim_.species.size() > 1 ? "" : "; rods.start \"aligned\" packs more");
     return Error{text};
   }
 
@@ -315,8 +347,10 @@ class Compression {
 
   const System& system_;
   const GoOn& go_on_;
-  World aim_;    ///< without its rods
-  World world_;  ///< in which they fly about
+  DirectorAt pattern_;                  ///< of the box that is wanted; or none
+  std::optional<AligningField> field_;  ///< that turns rods towards it
+  World aim_;                           ///< without its rods
+  World world_;                         ///< in which they fly about
   double thinnest_ = INFINITY;
   double thickest_ = 0;
   double gap_ = 0;  ///< aim of the gap while they do [mm]

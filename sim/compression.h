@@ -12,14 +12,18 @@ namespace shaken {
 /// Asked now and then during long work; once it says false, the work is given up.
 using GoOn = std::function<bool()>;
 
-/// The world at tick 0 of a dense and disordered start (Start::kCompressed): random places and directions in a box in
-/// which the rods are dilute; then this box shrinks in small steps, and all centres with it, while the rods fly about
-/// and hit each other. It ends as a hard-particle gas that has been compressed too fast to order.
+/// The world at tick 0 of a start that is_compressed(), dense and disordered or along a pattern: random places and
+/// directions in a box in which the rods are dilute; then this box shrinks in small steps, and all centres with it,
+/// while the rods fly about and hit each other. Without a pattern it ends as a hard-particle gas that has been
+/// compressed too fast to order.
 ///
 /// Model:    between the steps the simulator itself moves the rods, between two plates at rest that are at most
 ///           one and a half thicknesses apart, without gravity and friction, with restitution 1. A step may push rods
 ///           into each other by a small part of a bead's radius; their next impulses drive them apart. Beads are a
 ///           hundredth thicker meanwhile, so that true rods are apart at the end, which is checked.
+/// Patterns: where rods start along domains or a pair of defects (sim/director_patterns.h), they are inserted along the
+///           director of their place, with the head at either end, and turned towards it between the steps by a field
+///           (sim/aligning_field.h). Turns that hits give them last until the next step.
 /// Source:   as the quick compression of hard particles of HOOMD-blue (Anderson et al. 2020), with impulses in place
 ///           of Monte Carlo moves.
 /// Numerics: depends on the system alone: bitwise the same at every compiler and number of threads.

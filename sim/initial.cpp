@@ -253,8 +253,13 @@ double most_tilt(const System& system, const Species& species) {
   return std::min(0.02, 0.3 * room / species.half_length);
 }
 
+Vec2 unit_vector(double angle) {
+  const SinCos along = sincos(angle);
+  return {along.cos, along.sin};
+}
+
 /// Height and tilt that keep the rod off both plates, and a random motion.
-void lift_and_push(Flight& flight, const Placement& rods, const Species& species, double in_plane_angle, bool flat,
+void lift_and_push(Flight& flight, const Placement& rods, const Species& species, const Vec2& in_plane, bool flat,
                    Rng& rng) {
   const System& system = rods.system;
   const bool planar = system.is_planar();
@@ -263,9 +268,8 @@ void lift_and_push(Flight& flight, const Placement& rods, const Species& species
   flight.position.z() = base + 0.5 * system.gap + (planar ? 0.0 : 0.3 * room * rng.uniform(-1, 1));
   const double most = flat ? 0.0 : most_tilt(system, species);
   const double tilt = most > 0 ? most * rng.uniform(-1, 1) : 0.0;
-  const SinCos plane = sincos(in_plane_angle);
   const double level = std::sqrt(1.0 - tilt * tilt);
-  flight.director = {level * plane.cos, level * plane.sin, tilt};
+  flight.director = {level * in_plane.x(), level * in_plane.y(), tilt};
   push_at_start(flight, system, rng);
 }
 
@@ -284,13 +288,19 @@ Error does_not_fit(const Placement& rods, const std::string& why) {
   return {amount(rods, rods.n_rods()) + " do not fit into the " + (rods.system.walls ? "arena" : "box") + ": " + why};
 }
 
+/// Each site of a lattice has room for the largest of all kinds, which a mixture mostly does not need.
+std::string denser_mixture(const Placement& rods) {
+  const bool can_be_compressed = rods.species.size() > 1 && !rods.system.walls;
+  return can_be_compressed ? "; rods.start \"compressed\" packs mixtures more densely" : "";
+}
+
 /// A lattice with a site for every rod, along x.
 Result<Lattice> lattice_along_x(const Placement& rods) {
   auto lattice = find_lattice(rods);
   if (!lattice) lattice = find_winding_lattice(rods);
   if (lattice) return *lattice;
   const int most = most_in_winding_rows(rods, most_usable_sites(rods));
-  return does_not_fit(rods, "in rows at most " + amount(rods, most) + " can be placed");
+  return does_not_fit(rods, "in rows at most " + amount(rods, most) + " can be placed" + denser_mixture(rods));
 }
 
 /// The same of rods that lie at the angle of the start.
@@ -307,7 +317,8 @@ Result<Lattice> lattice_at_angle(const Placement& rods, const SinCos& angle) {
   char degrees[32];
   std::snprintf(degrees, sizeof degrees, "%.10g", system.start_angle);
   return does_not_fit(rods, std::string("in rows of rods at ") + degrees + " degrees at most " +
-                                amount(rods, turned.most_below(rods.n_rods())) + " can be placed");
+                                amount(rods, turned.most_below(rods.n_rods())) + " can be placed" +
+                                denser_mixture(rods));
 }
 
 Result<std::vector<Flight>> place_aligned(const Placement& rods) {
@@ -333,12 +344,12 @@ Result<std::vector<Flight>> place_aligned(const Placement& rods) {
     }
     // polar rods point either way
     const bool turned = Placement::is_polar(rods.species_of(i)) && rng.uniform() < 0.5;
-    lift_and_push(flights[i], rods, rods.species_of(i), turned ? angle + kPi : angle, false, rng);
+    lift_and_push(flights[i], rods, rods.species_of(i), unit_vector(turned ? angle + kPi : angle), false, rng);
   }
   return flights;
 }
 
-Result<std::vector<Flight>> place_random(const Placement& rods) {
+Result<std::vector<Flight>> place_random(const Placement& rods, const DirectorAt& directors) {
   const System& system = rods.system;
   std::vector<Flight> flights;
   std::vector<BeadContact> contacts;
@@ -387,11 +398,12 @@ Result<std::vector<Flight>> place_random(const Placement& rods) {
     for (int attempt = 0; attempt < kMaxInsertions && !placed; ++attempt) {
       candidate.position = {box.x() * place.uniform(), box.y() * place.uniform(), 0};
       const double angle = (Placement::is_polar(rods.species_of(i)) ? 2.0 * kPi : kPi) * place.uniform();
-      const SinCos plane = sincos(angle);
-      candidate.director = {plane.cos, plane.sin, 0};
+      Vec2 in_plane = unit_vector(angle);
+      if (directors) in_plane = (angle < kPi ? 1.0 : -1.0) * directors(candidate.position.head<2>());
+      candidate.director = {in_plane.x(), in_plane.y(), 0};
       if (!is_free(candidate, rods.species_of(i))) continue;
       Rng rng(system.seed, RngStream::kVelocity, 0, static_cast<std::uint64_t>(i));
-      lift_and_push(candidate, rods, rods.species_of(i), angle, true, rng);
+      lift_and_push(candidate, rods, rods.species_of(i), in_plane, true, rng);
       placed = true;
     }
     if (!placed) {
@@ -420,14 +432,15 @@ void push_at_start(Flight& flight, const System& system, Rng& rng) {
 }
 
 Result<std::vector<Flight>> initial_flights(const System& system, std::span<const Species> species,
-                                            std::span<const std::uint8_t> species_of_rod) {
-  SHAKEN_CHECK(system.start != Start::kCompressed, "sim/compression.h makes that");
+                                            std::span<const std::uint8_t> species_of_rod, const DirectorAt& directors) {
+  SHAKEN_CHECK(!is_compressed(system.start), "sim/compression.h makes that");
+  SHAKEN_CHECK(!directors || system.start == Start::kRandom, "only rods at random places follow a pattern");
   const Placement rods(system, species, species_of_rod);
   if (system.gap < 2.0 * rods.max_radius()) return Error{"the gap is smaller than the thickest bead"};
   if (const double least = least_box_side(species); system.box().shorter() < least * (1.0 - 1e-9)) {
     return Error{"the box is too small: rods might meet two images of another below " + std::to_string(least) + " mm"};
   }
-  auto flights = system.start == Start::kAligned ? place_aligned(rods) : place_random(rods);
+  auto flights = system.start == Start::kAligned ? place_aligned(rods) : place_random(rods, directors);
   if (!flights) return flights;
 
   // what was promised is checked, not believed
@@ -444,9 +457,11 @@ Result<std::vector<Flight>> initial_flights(const System& system, std::span<cons
   return flights;
 }
 
-Result<World> make_world(const System& system) {
+Result<World> make_world(const System& system) { return make_world_along(system, {}); }
+
+Result<World> make_world_along(const System& system, const DirectorAt& directors) {
   World world = empty_world(system);
-  auto flights = initial_flights(system, world.species, world.species_of_rod);
+  auto flights = initial_flights(system, world.species, world.species_of_rod, directors);
   if (!flights) return flights.error();
   world.rods = std::move(flights).value();
   world.start = content(world);

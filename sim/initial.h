@@ -6,6 +6,7 @@
 
 #include "base/core/result.h"
 #include "base/core/rng.h"
+#include "sim/director_patterns.h"
 #include "sim/motion/flight.h"
 #include "sim/rod/species.h"
 #include "sim/system.h"
@@ -24,20 +25,24 @@ inline constexpr double kStartSpeed = 20.0;
 ///           for n_rods the roomiest is taken; sites left over are vacancies at random places. Where none has, rows
 ///           shifted by other parts of a rod are tried, which wind around the periodic box several times. At an angle
 ///           to x, any lattice that tiles the box will do (sim/turned_rows.h).
-/// kRandom:  random places and directions one after the other (random sequential insertion).
-/// kCompressed is not for this function, nor for make_world(): sim/compression.h makes it.
+/// kRandom:  random places and directions one after the other (random sequential insertion); along `directors` if they
+///           are given, with the head at either end.
+/// Compressed starts are not for this function, nor for make_world(): sim/compression.h makes them.
 /// Errors:   the rods do not fit; the message names the most that can be placed in rows, or how many had been placed at
 ///           random when there was no room for another.
 /// Several species share one lattice, roomy enough for any two of them side by side. Of an arena, the sites within it
 /// are used. In a planar scene (System::is_planar) velocities are planar too.
 Result<std::vector<Flight>> initial_flights(const System& system, std::span<const Species> species,
-                                            std::span<const std::uint8_t> species_of_rod);
+                                            std::span<const std::uint8_t> species_of_rod,
+                                            const DirectorAt& directors = {});
 
 /// Gives a rod whose place and direction are set the random motion of a start, and prepares its flight.
 void push_at_start(Flight& flight, const System& system, Rng& rng);
 
 /// The world at tick 0, with the rods placed so. Fails as initial_flights() does.
 Result<World> make_world(const System& system);
+/// The same of a random start along `directors`.
+Result<World> make_world_along(const System& system, const DirectorAt& directors);
 
 /// The world at tick 0 with its rods where, and as fast as, they are in `left` at its tick: what a run begins with that
 /// goes on from another under other conditions. Heights are kept as those over the base. Rods of several species keep

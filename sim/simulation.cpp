@@ -17,7 +17,7 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
 
 Result<Simulation> Simulation::start(const System& system, const GoOn& go_on) {
-  auto world = system.start == Start::kCompressed ? make_compressed_world(system, go_on) : make_world(system);
+  auto world = is_compressed(system.start) ? make_compressed_world(system, go_on) : make_world(system);
   if (!world) return world.error();
   return Simulation(std::move(world).value());
 }

@@ -75,7 +75,11 @@ enum class Start {
   kAligned,     ///< rods in rows, along x or at an angle to it
   kRandom,      ///< random places and directions, one after the other (dilute systems)
   kCompressed,  ///< the same in a larger box, which then shrinks while the rods fly about (dense and disordered)
+  kPolydomain,  ///< compressed, along the directors of several domains
+  kDefectPair,  ///< compressed, along a director field with one defect of +1/2 and one of -1/2
 };
+/// Whether the rods are compressed into their box (sim/compression.h).
+constexpr bool is_compressed(Start start) { return start != Start::kAligned && start != Start::kRandom; }
 
 enum class Arena { kDisc, kSquare, kAnnulus };
 /// What scenes, files and messages call them.
@@ -133,7 +137,9 @@ struct System {
   double dt = 4e-6;  ///< the tick [s]: the accuracy knob
   StepperKind stepper = StepperKind::kScheduled;
   Start start = Start::kAligned;
-  double start_angle = 0.0;  ///< of the rods of an aligned start to the x axis [degrees]
+  double start_angle = 0.0;  ///< to the x axis: of aligned rods; of the director beyond a pair of defects [degrees]
+  int start_domains = 4;     ///< of a polydomain start
+  double start_separation = 41.865;  ///< of the two defects of a pair [mm]
   std::uint64_t seed = 1;
 
   int n_all_rods() const {

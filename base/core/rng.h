@@ -21,7 +21,8 @@ enum class RngStream : std::uint64_t {
   kReferences = 7,
   kPoints = 8,
   kKicks = 9,
-  kSamples = 10
+  kSamples = 10,
+  kDomains = 11
 };
 
 /// Random numbers keyed by (seed, stream, tick, index): what a rod draws depends on nothing but its own index and the

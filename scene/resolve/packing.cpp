@@ -148,7 +148,7 @@ void resolve_numbers(Resolution& scene) {
                              in_rows  ? "in rows"
                              : random ? "at random"
                                       : "by compression",
-                             most, in_rows ? "" : "; start \"aligned\" packs more"));
+                             most, in_rows || groups.size() > 1 ? "" : "; start \"aligned\" packs more"));
   } else {
     for (const RodGroup& group : groups) {
       scene.check_derived(group.path("area_fraction"),

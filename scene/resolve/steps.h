@@ -31,6 +31,11 @@ void check_box(Resolution& scene);
 /// Rods must fit between the plates.
 void check_gap(Resolution& scene);
 
+// start_patterns.cpp
+
+/// Domains and defects that rods start along, and the distance of these. Needs the box.
+void resolve_start_pattern(Resolution& scene);
+
 // times.cpp
 
 /// The step that a word for accuracy stands for.

@@ -94,16 +94,16 @@ namespace {
 void check_placing(Resolution& scene) {
   const System& system = scene.plan.system;
   if (!scene.ok({"rods.start", "rods.start_angle"})) return;
-  if (system.start_angle != 0 && system.start != Start::kAligned) {
+  if (system.start_angle != 0 && system.start != Start::kAligned && system.start != Start::kDefectPair) {
     scene.report({"rods.start_angle", "rods.start"},
-                 "only rods that start in rows have an angle: remove rods.start_angle, or set rods.start to "
-                 "\"aligned\"");
-  } else if (system.start_angle != 0 && system.walls) {
+                 "only rods that start in rows, and the director beyond a pair of defects, have an angle: remove "
+                 "rods.start_angle, or set rods.start to \"aligned\" or \"defect_pair\"");
+  } else if (system.start_angle != 0 && system.start == Start::kAligned && system.walls) {
     scene.report({"rods.start_angle", "walls"},
                  "rows at an angle close around a periodic box, which walls take the place of: remove "
                  "rods.start_angle or walls");
   }
-  if (system.start == Start::kCompressed && system.walls) {
+  if (is_compressed(system.start) && system.walls) {
     scene.report({"rods.start", "walls"},
                  "what is compressed is a periodic box, and walls would stand in the way: set rods.start to "
                  "\"aligned\" or \"random\", or remove walls");
@@ -118,10 +118,11 @@ void check_start(Resolution& scene) {
   for (const char* path : {"start.run", "start.time"}) {
     if (!scene.draft.find(path)) scene.report({"start"}, fmt::format("{} is missing", path));
   }
-  if (scene.given("rods.start") || scene.given("rods.start_angle")) {
-    const char* given = scene.given("rods.start") ? "rods.start" : "rods.start_angle";
+  for (const char* given : {"rods.start", "rods.start_angle", "rods.start_domains", "rods.start_separation"}) {
+    if (!scene.given(given)) continue;
     scene.report({given, "start"},
                  fmt::format("rods start in rows, at random, or from another run: remove {} or start", given));
+    break;
   }
 }
 

@@ -50,6 +50,8 @@ TEST(GoldenHash, TrajectoriesAreWhatTheyWere) {
       {"the smallest box", scene_of(2.5, 5.5, 8), 40000, 0x397aa841b294fade},
       {"rows at an angle", scene_of(3.5, 15, 70), 5000, 0x5c82de3eaf839572},
       {"compressed", scene_of(3.5, 15, 80), 5000, 0x65a05dd256fdf0c5},
+      {"domains", scene_of(3.5, 18, 90), 5000, 0x8c7c153ef3dad8e5},
+      {"a pair of defects", scene_of(3.5, 18, 90), 5000, 0x8a9e2297f8de8d92},
   };
   cases[1].system.start = Start::kRandom;
   cases[2].system.rod = {.length = 0.8, .mid_diameter = 0.8, .end_diameter = 0.8, .n_beads = 1};
@@ -65,6 +67,10 @@ TEST(GoldenHash, TrajectoriesAreWhatTheyWere) {
   cases[8].system.rod = {.length = 2.5, .bead_diameters{0.9, 0.8, 0.6, 0.4, 0.5, 0.7, 0.5, 0.3}};
   cases[10].system.start_angle = 30;
   cases[11].system.start = Start::kCompressed;
+  cases[12].system.start = Start::kPolydomain;
+  cases[13].system.start = Start::kDefectPair;
+  cases[13].system.start_separation = 8;
+  cases[13].system.start_angle = 90;
   for (const Golden& golden : cases) {
     auto simulation = Simulation::start(golden.system);
     ASSERT_TRUE(static_cast<bool>(simulation)) << simulation.error().message;

@@ -185,6 +185,19 @@ void draw_start(std::uint64_t seed, Json& scene) {
   }
 }
 
+/// Starts along domains and pairs of defects, by numbers of their own.
+void draw_start_pattern(std::uint64_t seed, Json& scene) {
+  SceneDraw draw(seed + 3'000'000'019);
+  if (scene["rods"].contains("start") || scene["rods"].contains("start_angle") || scene.contains("walls")) return;
+  if (draw.chance(0.06)) {
+    scene["rods"]["start"] = "polydomain";
+    scene["rods"]["start_domains"] = draw.integer(1, 6);
+  } else if (draw.chance(0.06)) {
+    scene["rods"]["start"] = "defect_pair";
+    if (draw.chance(0.5)) scene["rods"]["start_angle"] = draw.plain(-90, 90);
+  }
+}
+
 /// Boxes that are not square, by numbers of their own.
 void draw_box(std::uint64_t seed, Json& scene) {
   SceneDraw draw(seed + 2'000'000'011);
@@ -251,6 +264,7 @@ SceneCase draw_scene_case(std::uint64_t seed) {
   if (draw.chance(0.15)) one.spin = draw.by_size(1, 2000);
   draw_start(seed, scene);
   draw_box(seed, scene);
+  draw_start_pattern(seed, scene);
   return one;
 }
 

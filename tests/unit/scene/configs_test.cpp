@@ -7,8 +7,8 @@
 #include "scene/load.h"
 #include "scene/observables.h"
 #include "scene/sweep.h"
-#include "sim/initial.h"
 #include "sim/rod/species.h"
+#include "sim/simulation.h"
 #include "tests/unit/scene/scene_support.h"
 
 namespace shaken::scene {
@@ -26,8 +26,8 @@ TEST(Configs, AreAllValidAndCanStart) {
     EXPECT_TRUE(sweep) << to_string(sweep.error());
     if (!sweep) continue;
     for (const SweepPoint& point : sweep->points) {
-      const auto flights = make_world(point.plan.system);
-      EXPECT_TRUE(flights) << entry.path() << " " << point.label << ": " << flights.error().message;
+      const auto started = Simulation::start(point.plan.system);
+      EXPECT_TRUE(started) << entry.path() << " " << point.label << ": " << started.error().message;
     }
   }
   EXPECT_GE(n_files, 5);

@@ -89,5 +89,48 @@ TEST(Start, CompressesPeriodicBoxesToAnAreaFractionOf085) {
   EXPECT_NE(problem_of("{}", {"rods.start=compressed", "walls={}"}).find("or remove walls"), std::string::npos);
 }
 
+TEST(Start, OfDomainsAndOfAPairOfDefectsHasKeysOfItsOwn) {
+  const RunPlan domains = plan_of("{}", {"rods.start=polydomain", "rods.start_domains=7"});
+  EXPECT_EQ(domains.system.start, Start::kPolydomain);
+  EXPECT_EQ(domains.system.start_domains, 7);
+  EXPECT_EQ(to_json(domains)["rods"]["start_domains"], 7);
+  EXPECT_EQ(to_json(plan_of("{}", {"rods.start=polydomain"}))["rods"]["start_domains"], 4);
+  const RunPlan pair = plan_of("{}", {"rods.start=defect_pair", "box.side=30", "box.aspect=2", "rods.start_angle=90"});
+  EXPECT_EQ(pair.system.start_separation, 30) << "half the longer side";
+  EXPECT_EQ(to_json(pair)["rods"]["start_separation"], 30.0);
+  EXPECT_EQ(to_json(pair)["rods"]["start_angle"], 90.0);
+  EXPECT_FALSE(to_json(pair)["rods"].contains("start_domains"));
+  EXPECT_EQ(run_id(plan_of("{}", {"rods.start=defect_pair", "box.side=30", "rods.start_separation=15"})),
+            run_id(plan_of("{}", {"rods.start=defect_pair", "box.side=30"})));
+  for (const char* start : {"aligned", "random", "compressed"}) {
+    const auto rods = to_json(plan_of("{}", {std::string("rods.start=") + start, "rods.area_fraction=0.3"}))["rods"];
+    EXPECT_FALSE(rods.contains("start_domains") || rods.contains("start_separation"))
+        << "older scenes keep their names";
+  }
+}
+
+TEST(Start, OfDomainsAndOfAPairOfDefectsIsRefusedWhereItMakesNoSense) {
+  const auto expect_refused = [](const std::vector<std::string>& settings, const char* why) {
+    EXPECT_NE(problem_of("{}", settings).find(why), std::string::npos) << problem_of("{}", settings);
+  };
+  const std::string domains = "rods.start=polydomain", pair = "rods.start=defect_pair", small = "box.side=25";
+  expect_refused({"rods.start_domains=3"}, "only a polydomain start has domains");
+  expect_refused({"rods.start_separation=9"}, "only a pair of defects has a separation");
+  expect_refused({domains, "rods.start_separation=9"}, "only a pair of defects has a separation");
+  expect_refused({domains, "rods.start_angle=9"}, "only rods that start in rows, and the director beyond a pair");
+  expect_refused({domains, small, "rods.start_domains=50"}, "at most 30 have room");
+  EXPECT_EQ(plan_of("{}", {domains, small, "rods.start_domains=30"}).system.start_domains, 30);
+  expect_refused({pair, small, "rods.start_separation=13"}, "at most half its longer side, 12.5 mm");
+  expect_refused({pair, small, "rods.start_separation=4"}, "at least 4.5 mm");
+  for (const std::string& start : {domains, pair}) {
+    expect_refused({start, "walls={}"}, "what is compressed is a periodic box");
+    expect_refused({start, "rods.beads=1"}, "spheres have no director");
+    expect_refused({start, "rods.area_fraction=0.88"}, "by compression at most 0.86");
+  }
+  EXPECT_NE(problem_of(R"({"rods": {"start_domains": 3}, "start": {"run": "0123456789abcdef", "time": 1}})")
+                .find("remove rods.start_domains or start"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace shaken::scene

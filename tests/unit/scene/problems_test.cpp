@@ -62,10 +62,11 @@ TEST(Problems, WrongKindsOfValues) {
   EXPECT_EQ(problem_of(R"({"rods": {"count": {}}})"),
             "run.json:1:20: /rods/count: expected a whole number, not an object");
   EXPECT_EQ(problem_of(R"({"rods": {"start": 1}})"),
-            "run.json:1:20: /rods/start: expected one of \"aligned\", \"random\", \"compressed\", not the number 1");
+            "run.json:1:20: /rods/start: expected one of \"aligned\", \"random\", \"compressed\", \"polydomain\", "
+            "\"defect_pair\", not the number 1");
   EXPECT_EQ(problem_of(R"({"rods": {"start": "randm"}})"),
-            "run.json:1:20: /rods/start: \"randm\" is not one of \"aligned\", \"random\", \"compressed\"; did you mean "
-            "random?");
+            "run.json:1:20: /rods/start: \"randm\" is not one of \"aligned\", \"random\", \"compressed\", "
+            "\"polydomain\", \"defect_pair\"; did you mean random?");
   EXPECT_EQ(problem_of(R"({"time": {"steady": "aut"}})"),
             "run.json:1:21: /time/steady: \"aut\" is neither \"auto\" nor a number in s or a text with a unit; "
             "did you mean auto?");
@@ -221,8 +222,8 @@ TEST(Problems, AreListedAllAtOnceInTheOrderOfTheText) {
   "movie": { "size": [1281, 719] } })",
                   {"plates.gama=3", "time.measure=0 s"}),
       ElementsAre("run.json:2:13: /rods/lenght: unknown key; did you mean rods.length?",
-                  "run.json:2:37: /rods/start: \"randm\" is not one of \"aligned\", \"random\", \"compressed\"; did "
-                  "you mean random?",
+                  "run.json:2:37: /rods/start: \"randm\" is not one of \"aligned\", \"random\", \"compressed\", "
+                  "\"polydomain\", \"defect_pair\"; did you mean random?",
                   "run.json:3:19: /box/gap: a gap of 0.7 mm is too small for rods 0.8 mm thick",
                   "run.json:3:37: /box/side: \"Hz\" is a unit of frequency, not of length; use mm, m, cm, um",
                   "run.json:4:21: /time/step: 4 s is outside [0.1, 100] us; did you mean 4 us?",

@@ -385,7 +385,8 @@ TEST(Schema, SaysOfEachKeyWhatTheReferenceSays) {
   EXPECT_EQ(length.at("minimum"), 0.05);
   EXPECT_EQ(length.at("maximum"), 50);
   EXPECT_EQ(scene.at("properties").at("rods").at("properties").at("length").at("$ref"), "#/$defs/rods.length");
-  EXPECT_EQ(scene.at("$defs").at("rods.start").at("enum"), Json::array({"aligned", "random", "compressed", nullptr}));
+  EXPECT_EQ(scene.at("$defs").at("rods.start").at("enum"),
+            Json::array({"aligned", "random", "compressed", "polydomain", "defect_pair", nullptr}));
   for (const Field& field : fields()) {
     EXPECT_EQ(scene.at("$defs").contains(field.path), field.form != Form::kBlock) << field.path;
   }

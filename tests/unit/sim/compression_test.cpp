@@ -10,6 +10,8 @@
 #include "sim/balance.h"
 #include "sim/checkpoint.h"
 #include "sim/contact/bead_contacts.h"
+#include "sim/director_patterns.h"
+#include "sim/initial.h"
 #include "sim/neighbors/neighbor_list.h"
 #include "sim/simulation.h"
 
@@ -82,15 +84,75 @@ TEST(Compression, ReachesArea085FreeOfOverlapsAndAsDisorderedAsGroupsOfAFewRods)
   }
 }
 
+/// Mean of cos 2 delta of the rods whose places `is_counted`, delta being the angle to the director of their place.
+template <class IsCounted>
+double order_along(const World& world, const DirectorAt& directors, const IsCounted& is_counted) {
+  double sum = 0, n = 0;
+  for (const Flight& rod : world.rods) {
+    const Vec2 place = rod.position.head<2>();
+    if (!is_counted(place)) continue;
+    const double cosine = rod.director.head<2>().normalized().dot(directors(place));
+    sum += 2 * cosine * cosine - 1;
+    n += 1;
+  }
+  return sum / n;
+}
+
+// Within a domain the order is that of a nematic: its rods, but for those within a rod length of a seam.
+TEST(Compression, KeepsToTheDirectorsOfDomains) {
+  for (const double fraction : {0.6, 0.85}) {
+    for (const double aspect : {1.0, 0.5}) {
+      for (const std::uint64_t seed : {1, 2}) {
+        SCOPED_TRACE(testing::Message() << "area fraction " << fraction << ", aspect " << aspect << ", seed " << seed);
+        System system = scene_at(2.5, fraction, 30 / std::sqrt(aspect), seed);
+        system.box_aspect = aspect;
+        system.n_rods = static_cast<int>(system.n_rods * aspect);
+        system.start = Start::kPolydomain;
+        const auto world = make_compressed_world(system);
+        ASSERT_TRUE(world) << world.error().message;
+        expect_free(*world);
+        const DirectorAt directors = start_pattern(system);
+        const auto is_inside = [&](const Vec2& place) {
+          for (const Vec2& step : {Vec2(1, 0), Vec2(0, 1), Vec2(-1, 0), Vec2(0, -1)}) {
+            if (directors(place + system.rod.length * step) != directors(place)) return false;
+          }
+          return true;
+        };
+        EXPECT_GT(order_along(*world, directors, is_inside), 0.98);
+        EXPECT_LT(std::sqrt(order_squared(*world)), 0.35) << "domains point all ways";
+      }
+    }
+  }
+}
+
+TEST(Compression, KeepsToTheDirectorsRoundAPairOfDefects) {
+  for (const double angle : {0.0, 90.0}) {
+    for (const std::uint64_t seed : {1, 2}) {
+      System system = scene_at(3.5, 0.75, 33, seed);
+      system.start = Start::kDefectPair;
+      system.start_separation = 14;
+      system.start_angle = angle;
+      const auto world = make_compressed_world(system);
+      ASSERT_TRUE(world) << world.error().message;
+      expect_free(*world);
+      EXPECT_GT(order_along(*world, start_pattern(system), [](const Vec2&) { return true; }), 0.95);
+    }
+  }
+}
+
 TEST(Compression, DependsOnTheSeedAlone) {
   const auto hash_of = [](const System& system) { return std::move(Simulation::start(system)).value().state_hash(); };
-  System system = scene_at(4.5, 0.7, 15);
-  const std::uint64_t one = hash_of(system);
-  EXPECT_EQ(hash_of(system), one);
-  system.stepper = StepperKind::kReference;
-  EXPECT_EQ(hash_of(system), one);
-  system.seed = 2;
-  EXPECT_NE(hash_of(system), one);
+  for (const Start start : {Start::kCompressed, Start::kPolydomain, Start::kDefectPair}) {
+    System system = scene_at(4.5, 0.7, 15);
+    system.start = start;
+    system.start_separation = 7.5;
+    const std::uint64_t one = hash_of(system);
+    EXPECT_EQ(hash_of(system), one);
+    system.stepper = StepperKind::kReference;
+    EXPECT_EQ(hash_of(system), one);
+    system.seed = 2;
+    EXPECT_NE(hash_of(system), one);
+  }
 }
 
 TEST(Compression, VelocitiesAreThoseOfAnyStart) {
@@ -122,7 +184,12 @@ TEST(Compression, TakesSeveralSpeciesNarrowAndHighGapsAndScenesInThePlane) {
   planar.base = planar.lid = false;
   planar.gravity = 0;
   planar.amplitude = 0;
-  for (const System& system : {mixture, narrow, high, planar}) {
+  System domains = mixture;
+  domains.start = Start::kPolydomain;
+  System defects = planar;
+  defects.start = Start::kDefectPair;
+  defects.start_separation = 7.5;
+  for (const System& system : {mixture, narrow, high, planar, domains, defects}) {
     SCOPED_TRACE(testing::Message() << "a gap of " << system.gap << ", planar: " << system.is_planar());
     const auto world = make_compressed_world(system);
     ASSERT_TRUE(world) << world.error().message;
@@ -135,6 +202,25 @@ TEST(Compression, TakesSeveralSpeciesNarrowAndHighGapsAndScenesInThePlane) {
         EXPECT_EQ(rod.velocity.z(), 0);
       }
     }
+  }
+}
+
+// In rows each site has room for the largest of all kinds: half long and half short rods reach 0.64, and with spheres
+// in place of the short ones 0.3.
+TEST(Compression, PacksMixturesAsDenselyAsOneKind) {
+  System mixture = scene_at(4.5, 0.425, 25);
+  for (const RodShape& other : {RodShape{.length = 2.5, .n_beads = 9}, RodShape{.length = 0.8, .n_beads = 1}}) {
+    SCOPED_TRACE(testing::Message() << "with rods of " << other.length << " mm");
+    mixture.added[0] = AddedRods{other, static_cast<int>(std::round(0.425 * 625 / make_species(other).area))};
+    const auto world = make_compressed_world(mixture);
+    ASSERT_TRUE(world) << world.error().message;
+    expect_free(*world);
+    System rows = mixture;
+    rows.start = Start::kAligned;
+    const auto refused = make_world(rows);
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("rods.start \"compressed\" packs mixtures more densely"), std::string::npos)
+        << refused.error().message;
   }
 }
 
