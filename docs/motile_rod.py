@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""A few motile rods among apolar ones: their tracks, and the flow about them (docs/findings.md).
+"""A few motile rods among apolar ones: their tracks, and the flow about them (docs/examples.md).
 
     shaken run configs/motile.json --out motile
     python3 docs/motile_rod.py motile motile.png
