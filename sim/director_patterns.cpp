@@ -49,7 +49,8 @@ std::complex<double> half_phase(const std::complex<double>& z) {
   const double length = std::sqrt(z.real() * z.real() + z.imag() * z.imag());
   if (!(length > 0)) return 1;
   const double c = z.real() / length;
-  return {std::sqrt(std::max(0.0, 0.5 * (1.0 + c))), std::copysign(std::sqrt(std::max(0.0, 0.5 * (1.0 - c))), z.imag())};
+  return {std::sqrt(std::max(0.0, 0.5 * (1.0 + c))),
+          std::copysign(std::sqrt(std::max(0.0, 0.5 * (1.0 - c))), z.imag())};
 }
 
 }  // namespace

@@ -24,10 +24,10 @@ void check_domains(Resolution& scene, double longest) {
   if (!scene.ok({"rods.start_domains"})) return;
   const double width = std::sqrt(system.box().area() / system.start_domains);
   if (width >= longest) return;
-  scene.report({"rods.start_domains", "box.side", "rods.start"},
-               fmt::format("{} domains are {} wide, less than a rod is long: at most {} have room",
-                           system.start_domains, length_text(width),
-                           std::max(1, static_cast<int>(system.box().area() / (longest * longest)))));
+  scene.report(
+      {"rods.start_domains", "box.side", "rods.start"},
+      fmt::format("{} domains are {} wide, less than a rod is long: at most {} have room", system.start_domains,
+                  length_text(width), std::max(1, static_cast<int>(system.box().area() / (longest * longest)))));
 }
 
 void check_separation(Resolution& scene, double longest) {
@@ -66,7 +66,8 @@ void resolve_start_pattern(Resolution& scene) {
   if (!has_domains && !has_defects) return;
   const double longest = longest_axis(system);
   if (longest == 0) {
-    scene.report({"rods.start"}, "spheres have no director: set rods.start to \"compressed\", \"random\" or \"aligned\"");
+    scene.report({"rods.start"},
+                 "spheres have no director: set rods.start to \"compressed\", \"random\" or \"aligned\"");
   } else if (scene.ok({"box.side", "box.aspect"})) {
     has_domains ? check_domains(scene, longest) : check_separation(scene, longest);
   }
