@@ -90,7 +90,8 @@ class Compression {
 
   /// From where they are in `left`.
   Result<World> from_rods_of(const World& left) {
-    field_.reset();  // what they have is theirs
+    field_.reset();
+    are_placed_ = false;
     System loose = gas();
     loose.box_side = left.system.box_side;
     loose.gap = left.system.gap;
@@ -300,17 +301,22 @@ class Compression {
   Result<void> may_go_on(bool there_is_hope) const {
     if (go_on_ && !go_on_()) return Error{"stopped"};
     if (there_is_hope) return {};
+    return Error{jammed()};
+  }
+
+  std::string jammed() const {
     char text[160];
+    const bool could_be_aligned = are_placed_ && aim_.species.size() == 1;
     std::snprintf(text, sizeof text, "the rods jammed at area fraction %.3f, before they were compressed to %.3f%s",
                   area_of(aim_) / world_.system.box().area(), area_of(aim_) / system_.box().area(),
-                  aim_.species.size() > 1 ? "" : "; rods.start \"aligned\" packs more");
-    return Error{text};
+                  could_be_aligned ? "; rods.start \"aligned\" packs more" : "");
+    return text;
   }
 
   Result<void> fly(int ticks) {
     const auto stepper = make_stepper(world_, 1, 1);
     if (const auto trouble = stepper->advance_to(world_, world_.tick + ticks)) {
-      return Error{"the rods could not be compressed: " + trouble->what};
+      return Error{jammed() + " (" + trouble->what + ")"};
     }
     return {};
   }
@@ -353,7 +359,8 @@ class Compression {
   World world_;                         ///< in which they fly about
   double thinnest_ = INFINITY;
   double thickest_ = 0;
-  double gap_ = 0;  ///< aim of the gap while they do [mm]
+  double gap_ = 0;          ///< aim of the gap while they do [mm]
+  bool are_placed_ = true;  ///< as the scene says, not as another run has left them
   std::vector<Pose> poses_;
   std::vector<Motion> motions_;
 };

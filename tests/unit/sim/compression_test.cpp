@@ -315,7 +315,7 @@ TEST(Resized, IsRefusedWhereItCannotBe) {
   system = before.world().system;
   system.box_side *= std::sqrt(0.6 / 1.6);
   const std::string jam = refusal(system);
-  EXPECT_TRUE(jam.starts_with("the rods jammed at area fraction 0.")) << jam;
+  EXPECT_TRUE(jam.starts_with("the rods jammed at area fraction 1.")) << jam;
   EXPECT_EQ(refusal(system, [] { return false; }), "stopped");
 }
 
