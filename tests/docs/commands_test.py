@@ -158,6 +158,9 @@ def shortened(command, job):
     command = re.sub(r"--cpu \d+", "--cpu 0.2", command)
     command = re.sub(r"-o (\w+\.lcmlog)", r"-o \1 --for 1s --force", command) if "record" in command else command
     command = command.replace("replay-log run.lcmlog", "replay-log live.lcmlog")
+    if command.startswith("shaken submit configs/"):
+        command = re.sub(r" (-s time\.\S+|--replicas \d+)", "", command)
+        command += " --replicas 1 -s time.steady=0 -s time.measure=200ms -s trajectory.every=100ms"
     if command.startswith("shaken run ") and not re.search("--out (full|mechanism)", command):  # others need these as they are
         command += " -s time.steady=0 -s time.measure=60ms -s trajectory.every=10ms"
     return command
