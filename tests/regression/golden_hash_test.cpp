@@ -50,6 +50,8 @@ TEST(GoldenHash, TrajectoriesAreWhatTheyWere) {
       {"the smallest box", scene_of(2.5, 5.5, 8), 40000, 0x397aa841b294fade},
       {"rows at an angle", scene_of(3.5, 15, 70), 5000, 0x5c82de3eaf839572},
       {"compressed", scene_of(3.5, 15, 80), 5000, 0x65a05dd256fdf0c5},
+      {"restitution that falls with speed", scene_of(2.5, 14, 60), 10000, 0x7978c5d0918dacef},
+      {"species with contacts of their own in a disc", mixed(Arena::kDisc), 30000, 0x89768fba3fa03079},
   };
   cases[1].system.start = Start::kRandom;
   cases[2].system.rod = {.length = 0.8, .mid_diameter = 0.8, .end_diameter = 0.8, .n_beads = 1};
@@ -65,6 +67,11 @@ TEST(GoldenHash, TrajectoriesAreWhatTheyWere) {
   cases[8].system.rod = {.length = 2.5, .bead_diameters{0.9, 0.8, 0.6, 0.4, 0.5, 0.7, 0.5, 0.3}};
   cases[10].system.start_angle = 30;
   cases[11].system.start = Start::kCompressed;
+  cases[12].system.rod_rod.restitution_speed = cases[12].system.rod_lid.restitution_speed = 20;
+  cases[12].system.rod_base.restitution_speed = 60;
+  cases[13].system.rod_rod.own[Contacts::place(0, 1)] = {0.3, 0.8, {}};
+  cases[13].system.rod_base.own[Contacts::place(0, 2)] = {0.2, {}, 40.0};
+  cases[13].system.walls->contact.own[Contacts::place(0, 1)].restitution = 0.7;
   for (const Golden& golden : cases) {
     auto simulation = Simulation::start(golden.system);
     ASSERT_TRUE(static_cast<bool>(simulation)) << simulation.error().message;
