@@ -169,6 +169,9 @@ Field bead_diameters(const std::string& path, Access access) {
           [access](RunPlan& p, const Value& value) { access(p) = std::get<std::vector<double>>(value); }};
 }
 
+constexpr double kMostFriction = 1000;
+constexpr double kMostRestitutionSpeed = 1e6;  // [mm/s]
+
 /// Area fraction of the rods added as number k + 2.
 template <std::size_t k>
 Value added_fraction(const RunPlan& p) {
@@ -217,15 +220,59 @@ std::vector<Field> added_rods(const std::string& name) {
   return rows;
 }
 
-/// Friction and restitution of the contacts at `member` of the system.
-template <auto member>
+/// What the pair of species a and b, or a surface and species b, has of its own; the contacts lie at `steps` of the
+/// system and have their keys beneath `name`.
+template <std::size_t a, std::size_t b, auto... steps>
+void add_own_contact(std::vector<Field>& rows, const std::string& name, const std::string& partners,
+                     const std::string& between) {
+  constexpr std::size_t place = Contacts::place(a, b);
+  const std::string path = name + "." + partners;
+  rows.push_back(derived(
+    quantity(path + ".friction", sys<steps..., &Contacts::own, place, &OwnContact::friction>, kPlain, 0, kMostFriction,
+             "Coefficient of Coulomb friction between " + between + "."), "that of " + name));
+  rows.push_back(derived(
+    quantity(path + ".restitution", sys<steps..., &Contacts::own, place, &OwnContact::restitution>, kPlain, 0, 1,
+             "Coefficient of restitution between " + between + "."), "that of " + name));
+  rows.push_back(derived(
+    quantity(path + ".restitution_speed", sys<steps..., &Contacts::own, place, &OwnContact::restitution_speed>, kPlain,
+             0, kMostRestitutionSpeed, "The speed that `restitution_speed` is, between " + between + "."),
+    "that of " + name));
+}
+
+/// Friction and restitution of the contacts at `steps` of the system, with keys beneath `name`.
+template <auto... steps>
 std::vector<Field> contact(const std::string& name, const std::string& between) {
   return {
-    quantity("contacts." + name + ".friction", sys<member, &ContactParameters::friction>, kPlain, 0, 1000,
+    quantity(name + ".friction", sys<steps..., &ContactParameters::friction>, kPlain, 0, kMostFriction,
              "Coefficient of Coulomb friction between " + between + "."),
-    quantity("contacts." + name + ".restitution", sys<member, &ContactParameters::restitution>, kPlain, 0, 1,
+    quantity(name + ".restitution", sys<steps..., &ContactParameters::restitution>, kPlain, 0, 1,
              "Coefficient of restitution between " + between + "."),
+    later(quantity(name + ".restitution_speed", sys<steps..., &ContactParameters::restitution_speed>, kPlain, 0,
+                   kMostRestitutionSpeed,
+                   "Speed in mm/s at which `restitution` is the coefficient, which falls with the speed of the impact "
+                   "(docs/physics.md); 0: it is the same at every speed.")),
   };
+}
+
+/// Those of a surface, and what it has with each added species.
+template <auto... steps>
+std::vector<Field> surface_contact(const std::string& name, const std::string& surface) {
+  std::vector<Field> rows = contact<steps...>(name, "rod and " + surface);
+  add_own_contact<0, 1, steps...>(rows, name, "rods_2", "`rods_2` and " + surface);
+  add_own_contact<0, 2, steps...>(rows, name, "rods_3", "`rods_3` and " + surface);
+  return rows;
+}
+
+/// Those of two rods, and what each pair with an added species has.
+std::vector<Field> rod_contact() {
+  const std::string name = "contacts.rod_rod";
+  std::vector<Field> rows = contact<&System::rod_rod>(name, "two rods");
+  add_own_contact<0, 1, &System::rod_rod>(rows, name, "rods_rods_2", "`rods` and `rods_2`");
+  add_own_contact<1, 1, &System::rod_rod>(rows, name, "rods_2_rods_2", "two of `rods_2`");
+  add_own_contact<0, 2, &System::rod_rod>(rows, name, "rods_rods_3", "`rods` and `rods_3`");
+  add_own_contact<1, 2, &System::rod_rod>(rows, name, "rods_2_rods_3", "`rods_2` and `rods_3`");
+  add_own_contact<2, 2, &System::rod_rod>(rows, name, "rods_3_rods_3", "two of `rods_3`");
+  return rows;
 }
 
 /// The blocks of all observables.
@@ -289,14 +336,11 @@ std::vector<std::vector<Field>> groups() {
                      "Diameter of the disc or of the outer wall, or side of the square."),
             "as large as box.side allows"),
     inner_wall(),
-    quantity("walls.friction", sys<&System::walls, &SideWalls::contact, &ContactParameters::friction>, kPlain, 0, 1000,
-             "Coefficient of Coulomb friction between rod and wall."),
-    quantity("walls.restitution", sys<&System::walls, &SideWalls::contact, &ContactParameters::restitution>, kPlain,
-             0, 1, "Coefficient of restitution between rod and wall."),
     },
-    contact<&System::rod_rod>("rod_rod", "two rods"),
-    contact<&System::rod_base>("rod_base", "rod and base"),
-    contact<&System::rod_lid>("rod_lid", "rod and lid"), {
+    surface_contact<&System::walls, &SideWalls::contact>("walls", "wall"),
+    rod_contact(),
+    surface_contact<&System::rod_base>("contacts.rod_base", "base"),
+    surface_contact<&System::rod_lid>("contacts.rod_lid", "lid"), {
     choice<ImpulseLaw>("contacts.law", sys<&System::law>,
                        {{"newton", ImpulseLaw::kNewton},
                         {"poisson", ImpulseLaw::kPoisson},

@@ -22,6 +22,7 @@ std::optional<RunPlan> resolve(const Draft& draft, std::vector<Problem>& problem
   }
   check_gap(scene);
   check_base(scene);
+  resolve_contacts(scene);
   if (scene.ok({"time.step"})) {
     const bool step_is_fine = check_step(scene);
     if (step_is_fine && shapes_are_known && shaking_is_known) check_plates_in_a_tick(scene);

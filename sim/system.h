@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -41,12 +42,53 @@ struct AddedRods {
   friend bool operator==(const AddedRods&, const AddedRods&) = default;
 };
 
-/// Restitution and Coulomb's friction of one kind of contact; what restitution is of, the impulse law says.
+/// Restitution and Coulomb's friction of two materials; what restitution is of, the impulse law says.
 struct ContactParameters {
-  double friction = 0.0;     ///< mu >= 0
-  double restitution = 1.0;  ///< e in [0, 1]
+  double friction = 0.0;           ///< mu >= 0
+  double restitution = 1.0;        ///< e in [0, 1]
+  double restitution_speed = 0.0;  ///< at which e is so (sim/contact/restitution.h); 0: at every speed [mm/s]
   bool has_friction() const { return friction > 0; }
+  /// Rods that do not bounce at all do not at any speed.
+  bool has_restitution_speed() const { return restitution_speed > 0 && restitution > 0; }
   friend bool operator==(const ContactParameters&, const ContactParameters&) = default;
+};
+
+/// What one pair of materials has in place of the values that its kind of contact has in common.
+struct OwnContact {
+  std::optional<double> friction, restitution, restitution_speed;
+
+  ContactParameters over(const ContactParameters& common) const {
+    return {friction.value_or(common.friction), restitution.value_or(common.restitution),
+            restitution_speed.value_or(common.restitution_speed)};
+  }
+  friend bool operator==(const OwnContact&, const OwnContact&) = default;
+};
+
+/// The species that a scene may have: rods, rods_2, rods_3, with the numbers 0, 1, 2.
+inline constexpr std::size_t kMostSpecies = 3;
+
+/// All contacts of one kind, such as those of two rods or of rod and base: what they have in common, which the first
+/// species has, and what the added species have of their own.
+struct Contacts : ContactParameters {
+  Contacts() = default;
+  Contacts(const ContactParameters& common)  // NOLINT(google-explicit-constructor): the same for all species
+      : ContactParameters(common) {}
+  Contacts(double mu, double e) : ContactParameters{mu, e} {}
+
+  /// Of each pair with an added species: (0, 1), (1, 1), (0, 2), (1, 2), (2, 2). A surface meets species b as (0, b).
+  std::array<OwnContact, 5> own{};
+  /// The place of species a and b, in either order, of which one is added.
+  static constexpr std::size_t place(std::size_t a, std::size_t b) {
+    return a <= b ? b * (b + 1) / 2 + a - 1 : place(b, a);
+  }
+  /// Of rods of species a and b.
+  ContactParameters of(std::size_t a, std::size_t b) const {
+    return a + b > 0 ? own[place(a, b)].over(*this) : ContactParameters(*this);
+  }
+  /// Of a surface and rods of species b.
+  ContactParameters of(std::size_t b) const { return of(0, b); }
+
+  friend bool operator==(const Contacts&, const Contacts&) = default;
 };
 
 /// What becomes of the relative velocity at a contact (sim/contact/impulse_law.h).
@@ -97,7 +139,7 @@ struct SideWalls {
   Arena arena = Arena::kDisc;
   double size = 40.0;   ///< diameter of the disc or of the annulus' outer wall, side of the square [mm]
   double inner = 10.0;  ///< diameter of the annulus' inner wall [mm]
-  ContactParameters contact{0.01, 0.3};
+  Contacts contact{0.01, 0.3};
   /// Area that the rods have to share [mm^2].
   double area() const {
     if (arena == Arena::kSquare) return size * size;
@@ -123,9 +165,9 @@ struct System {
   bool lid = true;              ///< whether there is one above
   std::optional<SideWalls> walls;
 
-  ContactParameters rod_rod{0.05, 0.3};
-  ContactParameters rod_base{0.01, 0.3};
-  ContactParameters rod_lid{0.01, 0.3};
+  Contacts rod_rod{0.05, 0.3};
+  Contacts rod_base{0.01, 0.3};
+  Contacts rod_lid{0.01, 0.3};
   ImpulseLaw law = ImpulseLaw::kNewton;
   int solver_sweeps = 1;  ///< passes over the contacts of one tick
   ContactOrder order = ContactOrder::kSorted;
@@ -147,6 +189,8 @@ struct System {
     for (const auto& more : added) n += more ? more->count : 0;
     return n;
   }
+  /// Species `number` is there: the first always, others where they are added.
+  bool has_species(std::size_t number) const { return number == 0 || added[number - 1].has_value(); }
   bool has_rotational_noise() const { return rotational_noise > 0; }
   bool has_impacts_at_instant() const { return impacts == ImpactTime::kAtInstant; }
   Box box() const { return Box::of_aspect(box_side, box_aspect); }

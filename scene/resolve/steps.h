@@ -20,6 +20,11 @@ bool resolve_shaking(Resolution& scene);
 /// Rods fall out of a cell without a base, if they have weight.
 void check_base(Resolution& scene);
 
+// contacts.cpp
+
+/// Contacts of species of their own need these species; one that is as for all rods is not kept as their own.
+void resolve_contacts(Resolution& scene);
+
 // packing.cpp; all but the last need the shapes of the rods.
 
 /// Arena and box, which must fit into each other.

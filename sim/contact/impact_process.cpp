@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "sim/contact/impulse.h"
+#include "sim/contact/restitution.h"
 
 namespace shaken {
 namespace {
@@ -199,7 +200,8 @@ void ImpactProcess::restore_work(double work) {
   if (!contact.has_friction()) return newton_coulomb_impulse(K, normal, u, contact);
   ImpactProcess impact(K, normal, u, contact.friction);
   impact.compress();
-  if (contact.restitution > 0) impact.restore_impulse(contact.restitution * impact.normal_impulse());
+  const double e = restitution_at(contact, -u.dot(normal));
+  if (e > 0) impact.restore_impulse(e * impact.normal_impulse());
   return impact.impulse();
 }
 
@@ -208,7 +210,8 @@ void ImpactProcess::restore_work(double work) {
   if (!contact.has_friction()) return newton_coulomb_impulse(K, normal, u, contact);
   ImpactProcess impact(K, normal, u, contact.friction);
   impact.compress();
-  if (contact.restitution > 0) impact.restore_work(-contact.restitution * contact.restitution * impact.normal_work());
+  const double e = restitution_at(contact, -u.dot(normal));
+  if (e > 0) impact.restore_work(-e * e * impact.normal_work());
   return impact.impulse();
 }
 

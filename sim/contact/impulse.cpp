@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/contact/cofactors.h"
+#include "sim/contact/restitution.h"
 
 namespace shaken {
 InverseInertia inverse_inertia(const Species& species) {
@@ -12,7 +13,7 @@ InverseInertia inverse_inertia(const Species& species) {
 
 Vec3 newton_coulomb_impulse(const Mat3& K, const Vec3& normal, const Vec3& u, const ContactParameters& contact) {
   const double u_n = u.dot(normal);
-  const double bounce = -(1.0 + contact.restitution) * u_n;  // change of normal velocity wanted, > 0
+  const double bounce = -(1.0 + restitution_at(contact, -u_n)) * u_n;  // change of normal velocity wanted, > 0
   const double mu = contact.friction;
 
   // a frictionless contact needs neither the sticking impulse nor a slip direction

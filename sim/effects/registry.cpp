@@ -5,6 +5,9 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <optional>
+#include <type_traits>
+#include <vector>
 
 namespace shaken {
 namespace {
@@ -99,23 +102,80 @@ struct Taper {
 
 struct RodRod {
   static constexpr const char* kKey = "contacts.rod_rod";
-  static constexpr auto kParameters = &System::rod_rod;
   static constexpr auto kImpulses = &Counters::impulses_rod_rod;
+  static constexpr bool kIsOfTwoRods = true;
+  static bool is_there(const System&) { return true; }
+  static auto& of(auto& system) { return system.rod_rod; }
 };
 struct RodBase {
   static constexpr const char* kKey = "contacts.rod_base";
-  static constexpr auto kParameters = &System::rod_base;
   static constexpr auto kImpulses = &Counters::impulses_rod_base;
   static constexpr const char* kPlate = "plates.base";
   static constexpr auto kIsThere = &System::base;
+  static constexpr bool kIsOfTwoRods = false;
+  static bool is_there(const System& system) { return system.base; }
+  static auto& of(auto& system) { return system.rod_base; }
 };
 struct RodLid {
   static constexpr const char* kKey = "contacts.rod_lid";
-  static constexpr auto kParameters = &System::rod_lid;
   static constexpr auto kImpulses = &Counters::impulses_rod_lid;
   static constexpr const char* kPlate = "plates.lid";
   static constexpr auto kIsThere = &System::lid;
+  static constexpr bool kIsOfTwoRods = false;
+  static bool is_there(const System& system) { return system.lid; }
+  static auto& of(auto& system) { return system.rod_lid; }
 };
+struct RodWall {
+  static constexpr const char* kKey = "walls";
+  static constexpr auto kImpulses = &Counters::impulses_rod_wall;
+  static constexpr bool kIsOfTwoRods = false;
+  static bool is_there(const System& system) { return system.walls.has_value(); }
+  static auto& of(auto& system) { return system.walls->contact; }
+};
+
+/// Does something with every kind of contact.
+template <class Do>
+void each_kind(const Do& act) {
+  act(RodRod{});
+  act(RodBase{});
+  act(RodLid{});
+  act(RodWall{});
+}
+
+/// One pair of materials that may meet in a scene.
+struct Pairing {
+  std::string key;  ///< "contacts.rod_rod", "contacts.rod_base.rods_2"
+  ContactParameters contact;
+  OwnContact own;  ///< what is not as for the first species
+};
+
+std::string species_name(std::size_t number) { return number == 0 ? "rods" : "rods_" + std::to_string(number + 1); }
+
+/// All of a kind, that of the first species in front; none where one of its bodies is missing.
+template <class Contact>
+std::vector<Pairing> pairings(const System& system) {
+  if (!Contact::is_there(system)) return {};
+  const Contacts& contacts = Contact::of(system);
+  std::vector<Pairing> all{{Contact::kKey, contacts, {}}};
+  for (std::size_t b = 1; b < kMostSpecies; ++b) {
+    for (std::size_t a = 0; a <= (Contact::kIsOfTwoRods ? b : 0); ++a) {
+      if (!system.has_species(a) || !system.has_species(b)) continue;
+      const std::string partners = (Contact::kIsOfTwoRods ? species_name(a) + "_" : "") + species_name(b);
+      all.push_back(
+          {std::string(Contact::kKey) + "." + partners, contacts.of(a, b), contacts.own[Contacts::place(a, b)]});
+    }
+  }
+  return all;
+}
+
+/// The first of those for which `asks` holds.
+template <class Contact, class Asks>
+std::optional<Pairing> first_pairing(const System& system, const Asks& asks) {
+  for (const Pairing& one : pairings<Contact>(system)) {
+    if (asks(one)) return one;
+  }
+  return std::nullopt;
+}
 
 struct RodCollisions {
   static bool is_on(const System& system) { return system.n_all_rods() > 1; }
@@ -134,38 +194,6 @@ struct PlateCollisions {
   static void switch_off(System& system) { system.*Contact::kIsThere = false; }
 };
 
-/// Both bodies of a kind of contact are there.
-template <class Contact>
-bool is_there(const System& system) {
-  if constexpr (requires { Contact::kIsThere; }) {
-    return system.*Contact::kIsThere;
-  } else {
-    return true;
-  }
-}
-
-template <class Contact>
-struct Friction {
-  static double mu(const System& system) { return (system.*Contact::kParameters).friction; }
-  static bool is_on(const System& system) {
-    return is_there<Contact>(system) && (system.*Contact::kParameters).has_friction();
-  }
-  static std::string why(const System& system) { return setting(std::string(Contact::kKey) + ".friction", mu(system)); }
-  static std::int64_t work(const World& world) { return world.counters.*Contact::kImpulses; }
-  static void switch_off(System& system) { (system.*Contact::kParameters).friction = 0; }
-};
-
-template <class Contact>
-struct Restitution {
-  static double e(const System& system) { return (system.*Contact::kParameters).restitution; }
-  static bool is_on(const System& system) { return is_there<Contact>(system) && e(system) > 0; }
-  static std::string why(const System& system) {
-    return setting(std::string(Contact::kKey) + ".restitution", e(system));
-  }
-  static std::int64_t work(const World& world) { return world.counters.*Contact::kImpulses; }
-  static void switch_off(System& system) { (system.*Contact::kParameters).restitution = 0; }
-};
-
 struct WallCollisions {
   static bool is_on(const System& system) { return system.walls.has_value(); }
   static std::string why(const System& system) {
@@ -175,15 +203,101 @@ struct WallCollisions {
   static void switch_off(System& system) { system.walls.reset(); }
 };
 
-struct WallFriction {
-  static bool is_on(const System& system) { return system.walls && system.walls->contact.has_friction(); }
-  static std::string why(const System& system) {
-    return system.walls ? setting("walls.friction", system.walls->contact.friction) : WallCollisions::why(system);
+/// A value of contacts that is on where any pair of materials has it above 0.
+template <class Contact, auto value, auto own_value>
+struct ContactValue {
+  static auto first(const System& system) {
+    return first_pairing<Contact>(system, [](const Pairing& one) { return one.contact.*value > 0; });
   }
-  static std::int64_t work(const World& world) { return world.counters.impulses_rod_wall; }
+  static bool is_on(const System& system) { return first(system).has_value(); }
+  static std::string why(const System& system, const char* name) {
+    if (const auto one = first(system)) return setting(one->key + name, one->contact.*value);
+    if constexpr (std::is_same_v<Contact, RodWall>) {
+      if (!system.walls) return WallCollisions::why(system);
+    }
+    return setting(std::string(Contact::kKey) + name, Contact::of(system).*value);
+  }
+  static std::int64_t work(const World& world) { return world.counters.*Contact::kImpulses; }
   static void switch_off(System& system) {
-    if (system.walls) system.walls->contact.friction = 0;
+    if constexpr (std::is_same_v<Contact, RodWall>) {
+      if (!system.walls) return;
+    }
+    Contacts& contacts = Contact::of(system);
+    contacts.*value = 0;
+    for (OwnContact& own : contacts.own) (own.*own_value).reset();
   }
+};
+
+template <class Contact>
+struct Friction : ContactValue<Contact, &ContactParameters::friction, &OwnContact::friction> {
+  static std::string why(const System& system) {
+    return ContactValue<Contact, &ContactParameters::friction, &OwnContact::friction>::why(system, ".friction");
+  }
+};
+
+template <class Contact>
+struct Restitution : ContactValue<Contact, &ContactParameters::restitution, &OwnContact::restitution> {
+  static std::string why(const System& system) {
+    return ContactValue<Contact, &ContactParameters::restitution, &OwnContact::restitution>::why(system,
+                                                                                                 ".restitution");
+  }
+};
+
+/// An effect on contacts of every kind, which is on where any pair of materials `has` it.
+template <class Effect>
+struct OnContacts {
+  static bool is_on(const System& system) {
+    bool any = false;
+    each_kind([&](auto kind) { any |= first_pairing<decltype(kind)>(system, Effect::has).has_value(); });
+    return any;
+  }
+  static std::string why(const System& system) {
+    std::string key;
+    each_kind([&](auto kind) {
+      const auto found = first_pairing<decltype(kind)>(system, Effect::has);
+      if (found && key.empty()) key = Effect::setting_of(*found);
+    });
+    return key.empty() ? Effect::kOtherwise : key;
+  }
+  /// Impulses of the kinds of contact that have it.
+  static std::int64_t work(const World& world) {
+    std::int64_t sum = 0;
+    each_kind([&](auto kind) {
+      if (first_pairing<decltype(kind)>(world.system, Effect::has)) sum += world.counters.*decltype(kind)::kImpulses;
+    });
+    return sum;
+  }
+  static void switch_off(System& system) {
+    each_kind([&](auto kind) {
+      if constexpr (std::is_same_v<decltype(kind), RodWall>) {
+        if (!system.walls) return;
+      }
+      Effect::remove(decltype(kind)::of(system));
+    });
+  }
+};
+
+struct RestitutionSpeed : OnContacts<RestitutionSpeed> {
+  static constexpr const char* kOtherwise = "every restitution_speed = 0";
+  static bool has(const Pairing& one) { return one.contact.has_restitution_speed(); }
+  static std::string setting_of(const Pairing& one) {
+    return setting(one.key + ".restitution_speed", one.contact.restitution_speed, " mm/s");
+  }
+  static void remove(Contacts& contacts) {
+    contacts.restitution_speed = 0;
+    for (OwnContact& own : contacts.own) own.restitution_speed.reset();
+  }
+};
+
+struct SpeciesContacts : OnContacts<SpeciesContacts> {
+  static constexpr const char* kOtherwise = "all species alike";
+  static bool has(const Pairing& one) { return one.own != OwnContact{}; }
+  static std::string setting_of(const Pairing& one) {
+    if (one.own.friction) return setting(one.key + ".friction", *one.own.friction);
+    if (one.own.restitution) return setting(one.key + ".restitution", *one.own.restitution);
+    return setting(one.key + ".restitution_speed", *one.own.restitution_speed, " mm/s");
+  }
+  static void remove(Contacts& contacts) { contacts.own = {}; }
 };
 
 struct RotationalNoise {
@@ -204,29 +318,29 @@ struct ImpactsAtInstant {
 
 /// A rod's spin about its own axis: an impulse along the normal passes through that axis, so only friction changes it.
 struct Spin {
-  template <class Contact>
-  static std::int64_t rubbed(const World& world) {
-    return Friction<Contact>::is_on(world.system) ? world.counters.*Contact::kImpulses : 0;
-  }
   static bool is_on(const System& system) {
-    return Friction<RodRod>::is_on(system) || Friction<RodBase>::is_on(system) || Friction<RodLid>::is_on(system) ||
-           WallFriction::is_on(system);
+    bool any = false;
+    each_kind([&](auto kind) { any |= Friction<decltype(kind)>::is_on(system); });
+    return any;
   }
   static std::string why(const System& system) {
-    if (Friction<RodRod>::is_on(system)) return Friction<RodRod>::why(system);
-    if (Friction<RodBase>::is_on(system)) return Friction<RodBase>::why(system);
-    if (Friction<RodLid>::is_on(system)) return Friction<RodLid>::why(system);
-    return WallFriction::is_on(system) ? WallFriction::why(system) : "every friction = 0";
+    std::string key;
+    each_kind([&](auto kind) {
+      using OfKind = Friction<decltype(kind)>;
+      if (key.empty() && OfKind::is_on(system)) key = OfKind::why(system);
+    });
+    return key.empty() ? "every friction = 0" : key;
   }
   static std::int64_t work(const World& world) {
-    return rubbed<RodRod>(world) + rubbed<RodBase>(world) + rubbed<RodLid>(world) +
-           (WallFriction::is_on(world.system) ? WallFriction::work(world) : 0);
+    std::int64_t sum = 0;
+    each_kind([&](auto kind) {
+      using OfKind = Friction<decltype(kind)>;
+      if (OfKind::is_on(world.system)) sum += OfKind::work(world);
+    });
+    return sum;
   }
   static void switch_off(System& system) {
-    Friction<RodRod>::switch_off(system);
-    Friction<RodBase>::switch_off(system);
-    Friction<RodLid>::switch_off(system);
-    WallFriction::switch_off(system);
+    each_kind([&](auto kind) { Friction<decltype(kind)>::switch_off(system); });
   }
 };
 
@@ -259,7 +373,9 @@ constexpr std::array kEffects{
     line<Friction<RodLid>>("rod_lid_friction", "impulses", "Coulomb's friction between rod and lid."),
     line<Restitution<RodLid>>("rod_lid_restitution", "impulses", "Rods bounce off the lid."),
     line<WallCollisions>("side_walls", "impulses", "Walls round an arena."),
-    line<WallFriction>("side_wall_friction", "impulses", "Coulomb's friction between rod and side wall."),
+    line<Friction<RodWall>>("side_wall_friction", "impulses", "Coulomb's friction between rod and side wall."),
+    line<RestitutionSpeed>("restitution_speed", "impulses", "Restitution falls with the speed of an impact."),
+    line<SpeciesContacts>("species_contacts", "impulses", "Species have friction and restitution of their own."),
     line<RotationalNoise>("rotational_noise", "kicks", "Rough plates turn rods at random."),
     line<ImpactsAtInstant>("impacts_at_instant", "impulses", "Impacts take place at their own instant in a tick."),
 };

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "sim/contact/restitution.h"
 #include "sim/tick/tick.h"
 
 /// One impact, of a bead on a surface (tick/surface_impacts.h) or on another bead (tick/rod_impacts.h).
@@ -58,7 +59,7 @@ inline double work_lost(const Vec3& P, const Vec3& u, const Mat3& K) {
 /// Without friction: u_n' = -e u_n.
 inline Impulse frictionless(const Vec3& normal, const Vec3& u, double compliance, const ContactParameters& contact) {
   const double u_n = u.dot(normal);
-  const double p = -(1.0 + contact.restitution) * u_n / compliance;
+  const double p = -(1.0 + restitution_at(contact, -u_n)) * u_n / compliance;
   return {p * normal, -p * (u_n + 0.5 * p * compliance)};
 }
 

@@ -29,7 +29,9 @@ constexpr std::string_view kKnownEffects[] = {"gravity",
                                               "side_walls",
                                               "side_wall_friction",
                                               "rotational_noise",
-                                              "impacts_at_instant"};
+                                              "impacts_at_instant",
+                                              "restitution_speed",
+                                              "species_contacts"};
 
 using lanes::Doubles;
 using lanes::kDoubleLanes;
@@ -237,8 +239,8 @@ struct PlateHitKernel {
       angular_velocity = {add(angular_velocity.x, turns.x), add(angular_velocity.y, turns.y),
                           add(angular_velocity.z, turns.z)};
     };
-    if (rules.has_base) meet_plate({1.0, plates.base, plates.velocity, rules.rod_base}, hits.of_plate[0]);
-    if (rules.has_lid) meet_plate({-1.0, plates.lid, plates.velocity, rules.rod_lid}, hits.of_plate[1]);
+    if (rules.has_base) meet_plate({1.0, plates.base, plates.velocity, species.base}, hits.of_plate[0]);
+    if (rules.has_lid) meet_plate({-1.0, plates.lid, plates.velocity, species.lid}, hits.of_plate[1]);
     hits.velocity.store(l, velocity);
     hits.angular_velocity.store(l, angular_velocity);
     lanes::store(hits.is_other + l, other);
@@ -287,12 +289,14 @@ BeadsInPlates PlateHits::beads(int lane) const {
   return beads;
 }
 
-/// Whether the lanes give impulses as these plates do.
-bool are_usual(const TickRules& rules) {
-  const bool has_friction =
-      (!rules.has_base || rules.rod_base.has_friction()) && (!rules.has_lid || rules.rod_lid.has_friction());
-  return has_friction && rules.impulse == &newton_coulomb_impulse && !rules.impacts_at_instant &&
-         !rules.has_rotational_noise && !rules.rest.matters();
+/// Whether the lanes give impulses as these plates do to rods of a species.
+bool are_usual(const TickRules& rules, const SpeciesMechanics& species) {
+  const auto is_usual = [](const ContactParameters& contact) {
+    return contact.has_friction() && !contact.has_restitution_speed();
+  };
+  return (!rules.has_base || is_usual(species.base)) && (!rules.has_lid || is_usual(species.lid)) &&
+         rules.impulse == &newton_coulomb_impulse && !rules.impacts_at_instant && !rules.has_rotational_noise &&
+         !rules.rest.matters();
 }
 
 }  // namespace
@@ -319,7 +323,7 @@ LeftByLanes meet_plates_in_lanes(std::span<const int> rods, const std::vector<Fl
   PlateHits hits;
   for (PlateHits::OfPlate& of_plate : hits.of_plate) std::fill_n(of_plate.overlap, kDoubleLanes, 0.0);
   const SpeciesMechanics& species = rules.species_of(rods.front());
-  const bool gives_impulses = are_usual(rules);
+  const bool gives_impulses = are_usual(rules, species);
   if (gives_impulses) {
     lanes::with_widest_doubles(PlateHitKernel<true>{species, rules, plates, in, since, n, hits});
   } else {

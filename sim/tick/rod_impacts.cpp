@@ -12,18 +12,18 @@ namespace {
 
 /// Gives both rods an impulse if their beads approach.
 [[gnu::always_inline]] inline bool collide(const impact::Bead& i, const impact::Bead& j, const Vec3& normal,
-                                           const TickRules& rules, Ledger& ledger) {
+                                           const ContactParameters& contact, ImpulseFunction law, Ledger& ledger) {
   const Vec3 u = j.velocity() - i.velocity();
   if (!(u.dot(normal) < 0)) return false;
   impact::Impulse impulse;
-  if (rules.rod_rod.has_friction()) {
+  if (contact.has_friction()) {
     const Mat3 K = i.compliance() + j.compliance();
-    impulse.P = rules.impulse(K, normal, u, rules.rod_rod);
+    impulse.P = law(K, normal, u, contact);
     impulse.lost = impact::work_lost(impulse.P, u, K);
     j.apply(impulse.P);
     i.apply(-impulse.P);
   } else {
-    impulse = impact::frictionless(normal, u, i.compliance_along(normal) + j.compliance_along(normal), rules.rod_rod);
+    impulse = impact::frictionless(normal, u, i.compliance_along(normal) + j.compliance_along(normal), contact);
     j.apply_along_normal(impulse.P);
     i.apply_along_normal(-impulse.P);
   }
@@ -43,8 +43,8 @@ namespace {
   const double radius_j = species_j.bead_radius[beads.bead_j];
   const auto collide_along = [&](const Vec3& normal) {
     return collide({species_i, rod_i, offset_i, offset_i * rod_i.pose.director + radius_i * normal},
-                   {species_j, rod_j, offset_j, offset_j * rod_j.pose.director - radius_j * normal}, normal, rules,
-                   counters.ledger);
+                   {species_j, rod_j, offset_j, offset_j * rod_j.pose.director - radius_j * normal}, normal,
+                   rules.rod_rod(contact.i, contact.j), rules.impulse, counters.ledger);
   };
   if (!rules.impacts_at_instant) {
     if (collide_along(beads.normal)) ++counters.impulses_rod_rod;

@@ -34,7 +34,7 @@ impact::Impulse impulse_with_friction(const Surface& surface, const Vec3& u, con
 
 impact::Impulse impulse_without_friction(const Surface& surface, const Vec3& u, double compliance) {
   const double u_n = u.dot(surface.normal);
-  if (surface.rest_speed > -surface.contact.restitution * u_n) {
+  if (surface.rest_speed > -restitution_at(surface.contact, -u_n) * u_n) {
     const double p = (surface.rest_speed - u_n) / compliance;
     return {p * surface.normal, -p * (u_n + 0.5 * p * compliance)};
   }
@@ -146,7 +146,7 @@ struct PlateVisit {
       const Vec3 arm = species.bead_offset[bead] * rod.pose.director - species.bead_radius[bead] * side * Vec3::UnitZ();
       speed = std::abs(point_velocity(rod.motion, arm).z() - plates.velocity);
     }
-    const ContactParameters& contact = side > 0 ? rules.rod_base : rules.rod_lid;
+    const ContactParameters& contact = side > 0 ? species.base : species.lid;
     if (!collide_with(Vec3(0, 0, side), bead, overlap, contact, rod, species, plates, rules, counters)) return;
     ++(side > 0 ? counters.impulses_rod_base : counters.impulses_rod_lid);
     if (rules.has_rotational_noise) turn_at_random(index, n_hits, rod, species, speed, now, rules, counters);
@@ -247,7 +247,7 @@ std::optional<NumericalTrouble> meet_side_walls(int index, RodAtTick& rod, const
     evaluate_motion(rod, flight, now, species, rules);
     counters.max_overlap_rod_plate = std::max(counters.max_overlap_rod_plate, overlap);
     const Vec3 normal = seen_by(bead).walls[deepest.item() % 2].normal;
-    if (collide_with(normal, bead, overlap, walls.contact, rod, species, plates, rules, counters))
+    if (collide_with(normal, bead, overlap, species.wall, rod, species, plates, rules, counters))
       ++counters.impulses_rod_wall;
   }
 }

@@ -20,14 +20,30 @@ double max_speed(const World& world) {
   return std::min(kMaxSpeedFactor * usual, thinnest / system.dt);
 }
 
+namespace {
+
+/// Species that a scene leaves out are not counted among `species`.
+void set_contacts(const System& system, std::vector<SpeciesMechanics>& species) {
+  std::vector<std::size_t> numbers;
+  for (std::size_t number = 0; number < kMostSpecies; ++number) {
+    if (system.has_species(number)) numbers.push_back(number);
+  }
+  for (std::size_t k = 0; k < species.size(); ++k) {
+    species[k].base = system.rod_base.of(numbers[k]);
+    species[k].lid = system.rod_lid.of(numbers[k]);
+    if (system.walls) species[k].wall = system.walls->contact.of(numbers[k]);
+    for (std::size_t other = 0; other < species.size(); ++other)
+      species[k].rods[other] = system.rod_rod.of(numbers[k], numbers[other]);
+  }
+}
+
+}  // namespace
+
 TickRules::TickRules(const World& world)
     : species_of_rod(world.species_of_rod),
       gravity(world.system.gravity),
       dt(world.system.dt),
       box(world.system.box()),
-      rod_rod(world.system.rod_rod),
-      rod_base(world.system.rod_base),
-      rod_lid(world.system.rod_lid),
       impulse(impulse_function(world.system.law)),
       impacts_at_instant(world.system.has_impacts_at_instant()),
       has_base(world.system.base),
@@ -38,6 +54,7 @@ TickRules::TickRules(const World& world)
       seed(world.system.seed),
       plates(world.plates) {
   for (const Species& one : world.species) species.emplace_back(one);
+  set_contacts(world.system, species);
   max_speed2 = max_speed(world) * max_speed(world);
   if (plates.peak_acceleration() < gravity) rest = {0.5 * gravity * dt, kRiseRate};
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -29,7 +30,7 @@
 /// the same predicate of the scene (sim/system.h) that the registry of effects asks (sim/effects/registry.h).
 namespace shaken {
 
-/// A species with what impulses need to know of it.
+/// A species with what impulses need to know of it and its contacts.
 struct SpeciesMechanics : Species {
   explicit SpeciesMechanics(const Species& species)
       : Species(species),
@@ -37,6 +38,8 @@ struct SpeciesMechanics : Species {
         inertia_ratio(species.inertia_par / species.inertia_perp) {}
   InverseInertia inverse;
   double inertia_ratio;  ///< I_par / I_perp
+  ContactParameters base{}, lid{}, wall{};
+  std::array<ContactParameters, kMostSpecies> rods{};  ///< with each species, as TickRules counts them
 };
 
 /// Rate at which rods at rest on the base come out of it again [1/s].
@@ -54,13 +57,16 @@ struct TickRules {
   explicit TickRules(const World& world);
 
   const SpeciesMechanics& species_of(int i) const { return species[species_of_rod[static_cast<std::size_t>(i)]]; }
+  /// Of two rods.
+  const ContactParameters& rod_rod(int i, int j) const {
+    return species_of(i).rods[species_of_rod[static_cast<std::size_t>(j)]];
+  }
 
   std::vector<SpeciesMechanics> species;
   std::vector<std::uint8_t> species_of_rod;  ///< (n_rods)
   double gravity;
   double dt;
-  Box box;  ///< sides along x and y [mm]
-  ContactParameters rod_rod, rod_base, rod_lid;
+  Box box;                  ///< sides along x and y [mm]
   ImpulseFunction impulse;  ///< of contacts with friction
   bool impacts_at_instant;
   bool has_base, has_lid;

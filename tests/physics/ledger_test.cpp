@@ -55,6 +55,18 @@ INSTANTIATE_TEST_SUITE_P(
                            s.law = ImpulseLaw::kEnergetic;
                            s.rod_rod.friction = 1;
                          }},
+                    Case{"RestitutionOfSpeed",
+                         [](System& s) {
+                           s.rod_rod.restitution_speed = 20;
+                           s.rod_base.restitution_speed = s.rod_lid.restitution_speed = 60;
+                         }},
+                    Case{"SpeciesOfTheirOwn",
+                         [](System& s) {
+                           s.n_rods = 40;
+                           s.added[1] = AddedRods{{.length = 0.8, .n_beads = 1}, 20};
+                           s.rod_rod.own[Contacts::place(0, 2)] = {0.5, 0.9, {}};
+                           s.rod_base.own[Contacts::place(0, 2)] = {0.3, {}, 40.0};
+                         }},
                     Case{"AsHeavyAsAllowed",
                          [](System& s) {
                            s.rod = {.length = 40, .mid_diameter = 15, .end_diameter = 12, .n_beads = 9, .density = 100};

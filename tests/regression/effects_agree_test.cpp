@@ -171,6 +171,36 @@ INSTANTIATE_TEST_SUITE_P(
                            s.rod_base.friction = s.rod_lid.friction = 0;
                            s.impacts = ImpactTime::kAtInstant;
                          }},
+                    Case{"RestitutionOfSpeed",
+                         [](System& s) {
+                           s.rod_rod.restitution_speed = 20;
+                           s.rod_base.restitution_speed = s.rod_lid.restitution_speed = 60;
+                         }},
+                    Case{"RestitutionOfSpeedFrictionlessAtRest",
+                         [](System& s) {
+                           s.amplitude = 0;
+                           s.rod_base = s.rod_lid = {0.0, 0.5};
+                           s.rod_base.restitution_speed = s.rod_lid.restitution_speed = 5;
+                         },
+                         0.5, 3000},
+                    Case{"RestitutionOfSpeedByTheEnergeticLaw",
+                         [](System& s) {
+                           s.law = ImpulseLaw::kEnergetic;
+                           s.impacts = ImpactTime::kAtInstant;
+                           s.rod_rod = {0.5, 0.6};
+                           s.rod_rod.restitution_speed = s.rod_base.restitution_speed = 10;
+                         }},
+                    Case{"SpeciesOfTheirOwn",
+                         [](System& s) {
+                           s.n_rods = 20;
+                           s.added = {AddedRods{kPolarRod, 8}, AddedRods{kSphere, 12}};
+                           s.walls = SideWalls{Arena::kDisc, 15.0};
+                           s.rod_rod.own[Contacts::place(0, 1)] = {0.5, 0.9, {}};
+                           s.rod_rod.own[Contacts::place(2, 2)].friction = 0.0;
+                           s.rod_base.own[Contacts::place(0, 1)].friction = 0.0;  // the others go by lanes
+                           s.rod_lid.own[Contacts::place(0, 2)].restitution_speed = 30.0;
+                           s.walls->contact.own[Contacts::place(0, 2)] = {1.0, 0.0, {}};
+                         }},
                     Case{"NoLid", [](System& s) { s.lid = false; }},
                     Case{"Planar",
                          [](System& s) {
@@ -215,6 +245,10 @@ System draw_mix() {
   if (maybe()) system.rotational_noise = 0.05;
   if (maybe()) system.rod_base.friction = system.rod_lid.friction = 0;
   if (maybe()) system.rod_rod.friction = 0;
+  if (maybe()) system.rod_rod.restitution_speed = *rc::gen::inRange(1, 100);
+  if (maybe()) system.rod_base.restitution_speed = *rc::gen::inRange(1, 100);
+  if (maybe()) system.rod_base.own[Contacts::place(0, 1)].friction = 0.1 * *rc::gen::inRange(0, 5);
+  if (maybe()) system.rod_rod.own[Contacts::place(1, 2)].restitution = 0.1 * *rc::gen::inRange(0, 11);
   if (maybe()) system.lid = false;
   system.gap = 1.0 + 0.2 * *rc::gen::inRange(0, 10);
   system.dt = 1e-6 * *rc::gen::inRange(1, 41);

@@ -52,6 +52,8 @@ TEST(GoldenHash, TrajectoriesAreWhatTheyWere) {
       {"compressed", scene_of(3.5, 15, 80), 5000, 0x65a05dd256fdf0c5},
       {"domains", scene_of(3.5, 18, 90), 5000, 0x8c7c153ef3dad8e5},
       {"a pair of defects", scene_of(3.5, 18, 90), 5000, 0x8a9e2297f8de8d92},
+      {"restitution that falls with speed", scene_of(2.5, 14, 60), 10000, 0x7978c5d0918dacef},
+      {"species with contacts of their own in a disc", mixed(Arena::kDisc), 30000, 0x89768fba3fa03079},
   };
   cases[1].system.start = Start::kRandom;
   cases[2].system.rod = {.length = 0.8, .mid_diameter = 0.8, .end_diameter = 0.8, .n_beads = 1};
@@ -71,6 +73,11 @@ TEST(GoldenHash, TrajectoriesAreWhatTheyWere) {
   cases[13].system.start = Start::kDefectPair;
   cases[13].system.start_separation = 8;
   cases[13].system.start_angle = 90;
+  cases[14].system.rod_rod.restitution_speed = cases[14].system.rod_lid.restitution_speed = 20;
+  cases[14].system.rod_base.restitution_speed = 60;
+  cases[15].system.rod_rod.own[Contacts::place(0, 1)] = {0.3, 0.8, {}};
+  cases[15].system.rod_base.own[Contacts::place(0, 2)] = {0.2, {}, 40.0};
+  cases[15].system.walls->contact.own[Contacts::place(0, 1)].restitution = 0.7;
   for (const Golden& golden : cases) {
     auto simulation = Simulation::start(golden.system);
     ASSERT_TRUE(static_cast<bool>(simulation)) << simulation.error().message;

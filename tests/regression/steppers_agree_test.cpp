@@ -147,8 +147,8 @@ TEST(SteppersAgree, WhereRodsSlideThatRest) {
       system.box_side = 30;
       system.amplitude = 0;
       system.gap = 1.2;
-      system.rod_rod = {.friction = 0, .restitution = 1};
-      system.rod_base = system.rod_lid = {.friction = 0, .restitution = 0.3};
+      system.rod_rod = {0, 1};
+      system.rod_base = system.rod_lid = {0, 0.3};
       World world = empty_world(system);
       world.rods.resize(3);
       constexpr double kY[3] = {10, 11.5, 13.3};

@@ -204,6 +204,31 @@ void draw_box(std::uint64_t seed, Json& scene) {
   if (!scene.contains("walls") && draw.chance(0.25)) scene["box"]["aspect"] = draw.by_size(0.2, 5);
 }
 
+/// Restitution that falls with speed, and species with contacts of their own, by numbers of their own.
+void draw_contacts(std::uint64_t seed, Json& scene) {
+  SceneDraw draw(seed + 4'000'000'007);
+  const auto of_kind = [&](Json& kind, const std::vector<std::string>& partners) {
+    if (draw.chance(0.1)) kind["restitution_speed"] = draw.by_size(0.1, 1000);
+    for (const std::string& name : partners) {
+      if (draw.chance(0.6)) continue;
+      const Json own = draw_contact(draw);
+      if (draw.chance(0.7)) kind[name]["friction"] = own["friction"];
+      if (draw.chance(0.7)) kind[name]["restitution"] = own["restitution"];
+      if (draw.chance(0.2)) kind[name]["restitution_speed"] = draw.by_size(0.1, 1000);
+    }
+  };
+  std::vector<std::string> species, pairs;
+  if (scene.contains("rods_2")) species = {"rods_2"}, pairs = {"rods_rods_2", "rods_2_rods_2"};
+  if (scene.contains("rods_3")) {
+    species.emplace_back("rods_3");
+    for (const char* pair : {"rods_rods_3", "rods_2_rods_3", "rods_3_rods_3"}) pairs.emplace_back(pair);
+  }
+  of_kind(scene["contacts"]["rod_rod"], pairs);
+  of_kind(scene["contacts"]["rod_base"], species);
+  of_kind(scene["contacts"]["rod_lid"], species);
+  if (scene.contains("walls")) of_kind(scene["walls"], species);
+}
+
 }  // namespace
 
 SceneCase draw_scene_case(std::uint64_t seed) {
@@ -265,6 +290,7 @@ SceneCase draw_scene_case(std::uint64_t seed) {
   draw_start(seed, scene);
   draw_box(seed, scene);
   draw_start_pattern(seed, scene);
+  draw_contacts(seed, scene);
   return one;
 }
 

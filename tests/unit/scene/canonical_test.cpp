@@ -140,5 +140,17 @@ TEST(RunId, DependsOnEverythingButTheLengthAndTheStream) {
   }
 }
 
+// What a pair of species has as all rods have is not its own.
+TEST(Canonical, ContactsAsForAllRodsAreLeftOut) {
+  const RunPlan own = plan_of(R"({"rods_2": {"count": 9}, "contacts": {"rod_base": {"restitution_speed": 30,
+                                  "rods_2": {"friction": 0.2, "restitution": 0.3}}}})");
+  const nlohmann::ordered_json base = to_json(own).at("contacts").at("rod_base");
+  EXPECT_EQ(base.dump(), R"({"friction":0.01,"restitution":0.3,"restitution_speed":30.0,"rods_2":{"friction":0.2}})");
+  const std::string common = R"({"rods_2": {"count": 9}})";
+  EXPECT_EQ(run_id(plan_of(common)),
+            run_id(plan_of(common, {"contacts.rod_lid.rods_2.friction=0.01", "contacts.rod_rod.restitution_speed=0"})));
+  EXPECT_NE(run_id(plan_of(common)), run_id(plan_of(common, {"contacts.rod_lid.rods_2.friction=0.02"})));
+}
+
 }  // namespace
 }  // namespace shaken::scene

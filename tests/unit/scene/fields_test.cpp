@@ -39,7 +39,8 @@ TEST(Fields, KnowTheTreeOfNames) {
   EXPECT_EQ(fields().names_in(""), (std::vector<std::string>{"rods", "rods_2", "rods_3", "start", "box", "plates",
                                                              "gravity", "walls", "contacts", "accuracy", "time",
                                                              "until", "measure", "trajectory", "stream", "movie"}));
-  EXPECT_EQ(fields().names_in("contacts.rod_lid"), (std::vector<std::string>{"friction", "restitution"}));
+  EXPECT_EQ(fields().names_in("contacts.rod_lid"),
+            (std::vector<std::string>{"friction", "restitution", "restitution_speed", "rods_2", "rods_3"}));
   EXPECT_TRUE(fields().is_group("contacts.rod_lid"));
   EXPECT_FALSE(fields().is_group("movie"));
   EXPECT_FALSE(fields().is_group("contacts.rod"));

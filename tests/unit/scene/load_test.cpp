@@ -17,9 +17,9 @@ TEST(LoadScene, AnEmptyObjectIsThePapersSystem) {
   EXPECT_EQ(system.frequency, 200);
   EXPECT_EQ(system.gravity, 9810);
   EXPECT_NEAR(system.amplitude, 0.043486, 1e-6);  // Gamma = 7
-  EXPECT_EQ(system.rod_rod, (ContactParameters{0.05, 0.3}));
-  EXPECT_EQ(system.rod_base, (ContactParameters{0.01, 0.3}));
-  EXPECT_EQ(system.rod_lid, (ContactParameters{0.01, 0.3}));
+  EXPECT_EQ(system.rod_rod, (Contacts{0.05, 0.3}));
+  EXPECT_EQ(system.rod_base, (Contacts{0.01, 0.3}));
+  EXPECT_EQ(system.rod_lid, (Contacts{0.01, 0.3}));
   EXPECT_EQ(system.dt, 4e-6);
   EXPECT_EQ(system.start, Start::kAligned);
   EXPECT_EQ(system.seed, 1u);

@@ -29,6 +29,15 @@ TEST(Problems, DuplicateKeys) {
             "run.json:2:1: /box/gap: duplicate key, first given at 1:10");
 }
 
+TEST(Problems, ContactsOfRodsThatAreNotThere) {
+  EXPECT_EQ(problem_of(R"({"contacts": {"rod_base": {"rods_2": {"friction": 0.3}}}})"),
+            "run.json:1:51: /contacts/rod_base/rods_2/friction: contacts.rod_base.rods_2.friction is about rods_2, "
+            "which the scene does not have; add rods_2 or remove the key");
+  EXPECT_EQ(problem_of(R"({"rods_2": {"count": 5}, "contacts": {"rod_rod": {"rods_2_rods_3": {"restitution": 0.3}}}})"),
+            "run.json:1:84: /contacts/rod_rod/rods_2_rods_3/restitution: contacts.rod_rod.rods_2_rods_3.restitution is "
+            "about rods_3, which the scene does not have; add rods_3 or remove the key");
+}
+
 TEST(Problems, MapsBeyondHalfTheBox) {
   EXPECT_EQ(problem_of(R"({"box": {"side": 20}, "measure": {"pairs": {"range": 10.1}}})"),
             "run.json:1:54: /measure/pairs/range: a map of 10.1 mm each way reaches beyond half the box, 10 mm: "

@@ -15,7 +15,7 @@ TEST(Settings, ReplaceWhatTheFileSays) {
   EXPECT_EQ(plan_of(text, {"time.steady=auto"}).steady, std::nullopt);
   EXPECT_EQ(plan_of(text, {"time.steady=2 s"}).steady, 2.0);
   EXPECT_EQ(plan_of(text, {"rods.start=random", "rods.area_fraction=0.1"}).system.start, Start::kRandom);
-  EXPECT_EQ(plan_of(text, {"contacts.rod_rod={\"friction\":0.2}"}).system.rod_rod, (ContactParameters{0.2, 0.3}));
+  EXPECT_EQ(plan_of(text, {"contacts.rod_rod={\"friction\":0.2}"}).system.rod_rod, (Contacts{0.2, 0.3}));
 }
 
 TEST(Settings, SwitchBlocksOnAndOff) {

@@ -21,6 +21,11 @@ System everything_on() {
   system.added[0] = AddedRods{{.length = 2.5, .n_beads = 9, .profile = Profile::kPolar}, 25};
   system.added[1] = AddedRods{{.length = 0.8, .n_beads = 1}, 10};
   system.walls = SideWalls{Arena::kSquare, 18.0, 1.0, {0.1, 0.3}};
+  system.walls->contact.own[Contacts::place(0, 1)].restitution = 0.6;
+  system.rod_rod.own[Contacts::place(1, 1)].friction = 0.2;
+  system.rod_base.own[Contacts::place(0, 1)] = {0.1, 0.5, {}};
+  system.rod_lid.own[Contacts::place(0, 2)].restitution_speed = 20.0;
+  system.rod_rod.restitution_speed = 50;
   system.rotational_noise = 0.05;
   system.impacts = ImpactTime::kAtInstant;
   return system;
@@ -40,6 +45,15 @@ const Effect& effect_named(std::string_view name) {
   throw std::out_of_range(std::string(name));
 }
 
+void no_friction(Contacts& contacts) {
+  contacts.friction = 0.0;
+  for (OwnContact& own : contacts.own) own.friction.reset();
+}
+void no_restitution(Contacts& contacts) {
+  contacts.restitution = 0.0;
+  for (OwnContact& own : contacts.own) own.restitution.reset();
+}
+
 /// The neutral parameter of each effect that can be switched off, by hand.
 const std::map<std::string_view, void (*)(System&)>& neutral_by_hand() {
   static const std::map<std::string_view, void (*)(System&)> table{
@@ -57,7 +71,7 @@ const std::map<std::string_view, void (*)(System&)>& neutral_by_hand() {
       {"rod_base_collisions", [](System& s) { s.base = false; }},
       {"rod_lid_collisions", [](System& s) { s.lid = false; }},
       {"side_walls", [](System& s) { s.walls = std::nullopt; }},
-      {"side_wall_friction", [](System& s) { s.walls->contact.friction = 0.0; }},
+      {"side_wall_friction", [](System& s) { no_friction(s.walls->contact); }},
       {"rotational_noise", [](System& s) { s.rotational_noise = 0.0; }},
       {"impacts_at_instant", [](System& s) { s.impacts = ImpactTime::kTickEnd; }},
       {"taper",
@@ -68,14 +82,23 @@ const std::map<std::string_view, void (*)(System&)>& neutral_by_hand() {
        }},
       {"spin",
        [](System& s) {
-         s.rod_rod.friction = s.rod_base.friction = s.rod_lid.friction = s.walls->contact.friction = 0.0;
+         for (Contacts* contacts : {&s.rod_rod, &s.rod_base, &s.rod_lid, &s.walls->contact}) no_friction(*contacts);
        }},
-      {"rod_rod_friction", [](System& s) { s.rod_rod.friction = 0.0; }},
-      {"rod_rod_restitution", [](System& s) { s.rod_rod.restitution = 0.0; }},
-      {"rod_base_friction", [](System& s) { s.rod_base.friction = 0.0; }},
-      {"rod_base_restitution", [](System& s) { s.rod_base.restitution = 0.0; }},
-      {"rod_lid_friction", [](System& s) { s.rod_lid.friction = 0.0; }},
-      {"rod_lid_restitution", [](System& s) { s.rod_lid.restitution = 0.0; }},
+      {"rod_rod_friction", [](System& s) { no_friction(s.rod_rod); }},
+      {"rod_rod_restitution", [](System& s) { no_restitution(s.rod_rod); }},
+      {"rod_base_friction", [](System& s) { no_friction(s.rod_base); }},
+      {"rod_base_restitution", [](System& s) { no_restitution(s.rod_base); }},
+      {"rod_lid_friction", [](System& s) { no_friction(s.rod_lid); }},
+      {"rod_lid_restitution", [](System& s) { no_restitution(s.rod_lid); }},
+      {"restitution_speed",
+       [](System& s) {
+         s.rod_rod.restitution_speed = 0.0;
+         s.rod_lid.own[Contacts::place(0, 2)].restitution_speed.reset();
+       }},
+      {"species_contacts",
+       [](System& s) {
+         for (Contacts* contacts : {&s.rod_rod, &s.rod_base, &s.rod_lid, &s.walls->contact}) contacts->own = {};
+       }},
   };
   return table;
 }
@@ -136,6 +159,15 @@ TEST(Effects, TellWhatSwitchesThem) {
   effect_named("spin").switch_off(system);
   EXPECT_EQ(effect_named("spin").why(system), "every friction = 0");
   EXPECT_EQ(effect_named("gravity").why(system), "gravity = 9810 mm/s^2");
+  EXPECT_EQ(effect_named("restitution_speed").why(system), "every restitution_speed = 0");
+  system.rod_lid.restitution_speed = 30;
+  EXPECT_EQ(effect_named("restitution_speed").why(system), "contacts.rod_lid.restitution_speed = 30 mm/s");
+  EXPECT_EQ(effect_named("species_contacts").why(system), "all species alike");
+  system.rod_rod.own[Contacts::place(2, 1)].friction = 0.25;
+  EXPECT_EQ(effect_named("species_contacts").why(system), "all species alike");  // those species are not there
+  system.added = {AddedRods{}, AddedRods{}};
+  EXPECT_EQ(effect_named("species_contacts").why(system), "contacts.rod_rod.rods_2_rods_3.friction = 0.25");
+  EXPECT_EQ(effect_named("rod_rod_friction").why(system), "contacts.rod_rod.rods_2_rods_3.friction = 0.25");
 }
 
 TEST(Effects, FrictionlessRodsDoNotSpin) {

@@ -42,7 +42,7 @@ struct RodsNearPlates {
     System system = draw_system(draw);
     if (draw.integer(0, 1) == 0) return system;
     for (int n = draw.integer(1, 2); n > 0; --n) {
-      const int kind = draw.integer(0, 6);
+      const int kind = draw.integer(0, 8);
       if (kind == 0) system.impacts = ImpactTime::kAtInstant;
       if (kind == 1) system.law = ImpulseLaw::kPoisson;
       if (kind == 2) system.law = ImpulseLaw::kEnergetic;
@@ -50,6 +50,8 @@ struct RodsNearPlates {
       if (kind == 4) system.rod_lid.friction = 0;
       if (kind == 5) system.rotational_noise = 0.1;
       if (kind == 6) system.amplitude = 0;  // rods rest
+      if (kind == 7) system.rod_base.restitution_speed = 50;
+      if (kind == 8) system.rod_lid.restitution_speed = 2;
     }
     return system;
   }

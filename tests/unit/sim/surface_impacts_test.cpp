@@ -20,7 +20,7 @@ TEST(SurfaceImpacts, ARodThatTheBaseDisplacesMeetsTheLidInTheSameTick) {
   system.gravity = 0;
   system.dt = 64e-6;
   system.impacts = ImpactTime::kAtInstant;
-  system.rod_base = system.rod_lid = {.friction = 0, .restitution = 1};
+  system.rod_base = system.rod_lid = {0, 1};
   const World world = empty_world(system);
   const TickRules rules(world);
   const PlateState plates = world.plates.at(0);
