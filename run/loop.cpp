@@ -30,14 +30,23 @@
 namespace shaken::run {
 namespace {
 
-/// What measurements of collisions take differences of.
-analysis::CollisionTotals totals_of(const World& world) {
+/// What measurements of impacts take differences of.
+RunTotals totals_of(const scene::RunPlan& plan, const World& world, const Snapshot& now) {
   const Counters& counters = world.counters;
   const Ledger& ledger = counters.ledger;
-  return {{static_cast<double>(counters.impulses_rod_rod), static_cast<double>(counters.impulses_rod_base),
-           static_cast<double>(counters.impulses_rod_lid), static_cast<double>(counters.impulses_rod_wall),
-           ledger.given.value() + ledger.noise.value(), ledger.lost_rod_rod.value(), ledger.lost_surfaces.value()},
-          static_cast<double>(world.rods.size())};
+  RunTotals totals;
+  totals.collisions = {
+      {static_cast<double>(counters.impulses_rod_rod), static_cast<double>(counters.impulses_rod_base),
+       static_cast<double>(counters.impulses_rod_lid), static_cast<double>(counters.impulses_rod_wall),
+       ledger.given.value() + ledger.noise.value(), ledger.lost_rod_rod.value(), ledger.lost_surfaces.value()},
+      static_cast<double>(world.rods.size())};
+  if (plan.stress) {
+    std::vector<double> masses;
+    for (std::size_t i = 0; i < now.velocity.size(); ++i) masses.push_back(world.species_of(i).mass);
+    totals.stress.momentum_flux = analysis::momentum_flux(masses, now.velocity);
+    for (std::size_t k = 0; k < ledger.virial.size(); ++k) totals.stress.virial[k] = ledger.virial[k].value();
+  }
+  return totals;
 }
 
 /// Length of the pieces that the run is stepped in, at most: short enough to answer a signal, long enough not to
@@ -177,7 +186,7 @@ class Loop {
     const bool show = publisher_ && frame_pacer_.take(WallClock::now());
     if (!record && !measure && !show) return {};
     const Snapshot snapshot = run_.simulation.snapshot();
-    if (measure) run_.measurements.sample(snapshot, totals_of(run_.simulation.world()));
+    if (measure) run_.measurements.sample(snapshot, totals_of(plan_, run_.simulation.world(), snapshot));
     if (record) {
       if (auto done = run_.frames->append(shaken::run::record(snapshot)); !done) return done.error();
     }

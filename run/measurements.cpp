@@ -66,7 +66,7 @@ Tick Measurements::next_due(Tick from) const {
   return next;
 }
 
-void Measurements::sample(const Snapshot& snapshot, const analysis::CollisionTotals& totals) {
+void Measurements::sample(const Snapshot& snapshot, const RunTotals& totals) {
   for (OfSpecies& rods : species_) {
     const auto is_due = [&](const Timed& timed) { return timed.cadence.due(snapshot.tick); };
     if (std::ranges::none_of(rods.timed, is_due)) continue;

@@ -33,7 +33,7 @@ class Measurements {
   /// The first tick >= `from` at which a sample is due; kNever if nothing is measured.
   Tick next_due(Tick from) const;
   /// Takes the samples that are due at the snapshot's tick; `totals` are of the run up to it.
-  void sample(const Snapshot& snapshot, const analysis::CollisionTotals& totals = {});
+  void sample(const Snapshot& snapshot, const RunTotals& totals = {});
 
   /// Mean of S over the second half of the run so far; 0 where it is not measured.
   double order_running_mean() const;

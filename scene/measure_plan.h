@@ -156,6 +156,12 @@ struct MeasureCollisions {
   double every = 0.1;  ///< [s]
   friend bool operator==(const MeasureCollisions&, const MeasureCollisions&) = default;
 };
+/// The pressure tensor in the plane.
+struct MeasureStress {
+  double every = 0.1;  ///< [s]
+  SamplePhases phases = SamplePhases::kSpread;
+  friend bool operator==(const MeasureStress&, const MeasureStress&) = default;
+};
 
 // clang-format off
 /// Every observable by its name and settings, in the order in which it stands in canonical scenes, samples and is
@@ -182,7 +188,8 @@ struct MeasureCollisions {
   X(van_hove, MeasureVanHove) \
   X(flow, MeasureFlow) \
   X(clusters, MeasureClusters) \
-  X(collisions, MeasureCollisions)
+  X(collisions, MeasureCollisions) \
+  X(stress, MeasureStress)
 // clang-format on
 
 /// Whose observables are measured.

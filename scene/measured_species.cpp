@@ -15,6 +15,7 @@ std::vector<MeasuredRods> measured_species(const RunPlan& plan) {
       rods.plan.system.rod = added->rod;
       rods.plan.system.n_rods = added->count;
       rods.plan.collisions.reset();  // of all rods, whatever their species
+      rods.plan.stress.reset();      // the same
       found.push_back(std::move(rods));
     }
   }

@@ -39,6 +39,13 @@ double Sizes::for_lags(double columns, double quantities) const {
 
 namespace {
 
+template <class Access>
+Field phases(Access access) {
+  return choice<SamplePhases>("phases", access, {{"spread", SamplePhases::kSpread}, {"locked", SamplePhases::kLocked}},
+                              "Whether each sample is taken at a random instant of its interval, and so all of them at "
+                              "all phases of the vibration alike, or at whole multiples of `every`.");
+}
+
 /// Wave vectors up to `waves` of them to the longer side of the box, one of each pair +-q (analysis/wave_sums.h).
 double half_plane(double waves, const Box& box) {
   const Vec2 most = (waves / box.longer() * box.sides() * (1 + 1e-12)).array().floor();
@@ -133,10 +140,7 @@ Observable tilt() {
     .axis = AxisUse::kNeeded,
     .every_doc = "Mean time between samples.",
     .keys = {
-      choice<SamplePhases>("phases", at<&Plan::tilt, &MeasureTilt::phases>,
-                           {{"spread", SamplePhases::kSpread}, {"locked", SamplePhases::kLocked}},
-                           "Whether each sample is taken at a random instant of its interval, and so all of them at "
-                           "all phases of the vibration alike, or at whole multiples of `every`."),
+      phases(at<&Plan::tilt, &MeasureTilt::phases>),
       whole("bins", at<&Plan::tilt, &MeasureTilt::bins>, 2, 10000,
             "Number of bins, from the largest downward to the largest upward tilt that the gap allows.")},
     .memory = [](const Sizes& s) -> MeasureMemory {
@@ -292,10 +296,7 @@ Observable polar() {
     .axis = AxisUse::kNeeded,
     .every_doc = "Mean time between samples.",
     .keys = {
-      choice<SamplePhases>("phases", at<&Plan::polar, &MeasurePolar::phases>,
-                           {{"spread", SamplePhases::kSpread}, {"locked", SamplePhases::kLocked}},
-                           "Whether each sample is taken at a random instant of its interval, and so all of them at "
-                           "all phases of the vibration alike, or at whole multiples of `every`.")},
+      phases(at<&Plan::polar, &MeasurePolar::phases>)},
     // t, P, and P times cosine and sine of the direction, which the file holds as one angle
     .memory = [](const Sizes& s) -> MeasureMemory {
       return {"", s.series(4) + s.in_blocks(100), 0, s.series(3), s.spare_series(4)}; },
@@ -308,10 +309,7 @@ Observable temperatures() {
     .axis = AxisUse::kPartly,
     .every_doc = "Mean time between samples.",
     .keys = {
-      choice<SamplePhases>("phases", at<&Plan::temperatures, &MeasureTemperatures::phases>,
-                           {{"spread", SamplePhases::kSpread}, {"locked", SamplePhases::kLocked}},
-                           "Whether each sample is taken at a random instant of its interval, and so all of them at "
-                           "all phases of the vibration alike, or at whole multiples of `every`.")},
+      phases(at<&Plan::temperatures, &MeasureTemperatures::phases>)},
     .memory = [](const Sizes& s) -> MeasureMemory {
       return {"", s.series(9) + s.in_blocks(150), 0, s.series(9), s.spare_series(9)}; },
     .remedy = "a longer `every`"};
@@ -381,6 +379,18 @@ Observable collisions() {
     .every_doc = "Time between samples, over which rates are means.",
     .memory = [](const Sizes& s) -> MeasureMemory {
       return {"", s.series(8) + s.in_blocks(100), 0, s.series(8), s.spare_series(8)}; },
+    .remedy = "a longer `every`"};
+}
+
+Observable stress() {
+  return {
+    .doc = "Pressure in the plane: what motion and impacts of rods carry of momentum, along the director and across "
+           "it; of all rods, whatever their species.",
+    .axis = AxisUse::kPartly,
+    .every_doc = "Mean time between samples, over which momentum that impacts carry is summed.",
+    .keys = {phases(at<&Plan::stress, &MeasureStress::phases>)},
+    .memory = [](const Sizes& s) -> MeasureMemory {
+      return {"", s.series(9) + s.in_blocks(60), 0, s.series(9), s.spare_series(9)}; },
     .remedy = "a longer `every`"};
 }
 

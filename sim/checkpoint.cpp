@@ -11,7 +11,8 @@
 namespace shaken {
 namespace {
 
-constexpr std::uint64_t kMagic = 0x33304e454b414853;  // "SHAKEN03"
+constexpr std::uint64_t kMagic = 0x34304e454b414853;               // "SHAKEN04"
+constexpr std::uint64_t kMagicWithoutVirial = 0x33304e454b414853;  // "SHAKEN03"
 
 /// One list of a flight's stored fields for both directions.
 template <class Archive, class F>
@@ -40,12 +41,14 @@ void each_counter(Archive&& visit, C& counters) {
 
 /// Calls visit(sum) for the ledger's sums in a fixed order.
 template <class Visit, class L>
-void each_sum(const Visit& visit, L& ledger) {
+void each_sum(const Visit& visit, L& ledger, bool has_virial = true) {
   visit(ledger.lost_rod_rod);
   visit(ledger.lost_surfaces);
   visit(ledger.given);
   visit(ledger.noise);
   for (auto& sum : ledger.momentum) visit(sum);
+  if (!has_virial) return;
+  for (auto& sum : ledger.virial) visit(sum);
 }
 
 /// What must be the same for a checkpoint to fit: everything that the stored numbers depend on.
@@ -93,7 +96,7 @@ void put_state(StateWriter& writer, const World& world) {
 }
 
 /// What follows the physics version. Throws StateError if there is too little or too much of it.
-Result<World> restore_world(const System& system, StateReader& reader) {
+Result<World> restore_world(const System& system, StateReader& reader, bool has_virial) {
   const auto is_next = [&](const auto& key) {
     auto stored = key;
     reader.get(stored);
@@ -116,7 +119,7 @@ Result<World> restore_world(const System& system, StateReader& reader) {
         if (overflow > 1) throw StateError("a sum that neither overflowed nor did not");
         sum.restore(low, high, overflow != 0);
       },
-      world.counters.ledger);
+      world.counters.ledger, has_virial);
   reader.get(world.start.tick);
   reader.get(world.start.energy);
   reader.get(world.start.momentum);
@@ -168,7 +171,7 @@ Result<World> restore_checkpoint(const System& system, std::span<const std::byte
   try {
     std::uint64_t magic = 0;
     if (bytes.size() >= sizeof magic) reader.get(magic);
-    if (magic != kMagic) return Error{"not a checkpoint of this version of Shaken"};
+    if (magic != kMagic && magic != kMagicWithoutVirial) return Error{"not a checkpoint of this version of Shaken"};
     std::int64_t physics = 0;
     reader.get(physics);
     if (physics != kPhysicsVersion) {
@@ -176,7 +179,7 @@ Result<World> restore_checkpoint(const System& system, std::span<const std::byte
                    std::to_string(kPhysicsVersion) +
                    " and would go on in another way: finish the run with the program that began it, or start it anew"};
     }
-    return restore_world(system, reader);
+    return restore_world(system, reader, magic == kMagic);
   } catch (const StateError&) {
     return Error{"the checkpoint has the wrong length"};
   }

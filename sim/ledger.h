@@ -16,7 +16,7 @@ struct Content {
 };
 
 /// Where energy and momentum came from and went to since tick 0, entered impact by impact; with what the rods had at
-/// the start and have now it must add up (balance.h).
+/// the start and have now, energy and the momentum that surfaces gave must add up (balance.h).
 ///
 /// An impulse P at a contact where the surfaces move at u before and u' after relative to each other takes the energy
 /// -P . (u + u') / 2 out of the relative motion; a surface that moves at V gives its rod P . V besides (Landau &
@@ -30,6 +30,9 @@ struct Ledger {
   Energy given;                      ///< energy that moving plates and walls gave [pJ]
   Energy noise;                      ///< energy that rotational noise gave, if positive [pJ]
   std::array<Momentum, 3> momentum;  ///< that plates and walls gave [mg mm/s]
+  /// r_a J_b, over impacts of two rods: r is the way from the centre of the first to that of the second when they
+  /// touch, J the impulse on the second; xx, xy, yx, yy [mg mm^2/s]. Of this the pressure is made (analysis/stress.h).
+  std::array<Momentum, 4> virial;
 
   void add(const Ledger& more) {
     lost_rod_rod.add(more.lost_rod_rod);
@@ -37,6 +40,7 @@ struct Ledger {
     given.add(more.given);
     noise.add(more.noise);
     for (std::size_t c = 0; c < 3; ++c) momentum[c].add(more.momentum[c]);
+    for (std::size_t k = 0; k < 4; ++k) virial[k].add(more.virial[k]);
   }
 };
 

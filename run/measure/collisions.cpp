@@ -28,7 +28,7 @@ class MeasuredCollisions : public Measurement {
  public:
   explicit MeasuredCollisions(std::optional<double> steady) : steady_(steady) {}
 
-  void sample(const Sample& sample) override { series_.accumulate(sample->time, sample.totals()); }
+  void sample(const Sample& sample) override { series_.accumulate(sample->time, sample.totals().collisions); }
   void reduce(Reduction& result) const override {
     const auto numbers =
         block_estimates(series_.sums(), steady_.value_or(result.t_steady), [](const analysis::CollisionSums& part) {

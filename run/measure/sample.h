@@ -6,20 +6,26 @@
 
 #include "analysis/collision_rates.h"
 #include "analysis/order.h"
+#include "analysis/stress.h"
 #include "sim/snapshot.h"
 
 namespace shaken::run {
+
+/// Of all rods of a run, whatever their species, up to a tick.
+struct RunTotals {
+  analysis::CollisionTotals collisions{};
+  analysis::StressTotals stress{};
+};
 
 /// The measured rods at one tick, with what several measurements need of them, worked out once and only on demand.
 class Sample {
  public:
   /// `rods` must outlive the moment.
-  explicit Sample(const Snapshot& rods, const analysis::CollisionTotals& totals = {}) : rods_(rods), totals_(totals) {}
+  explicit Sample(const Snapshot& rods, const RunTotals& totals = {}) : rods_(rods), totals_(totals) {}
 
   const Snapshot* operator->() const { return &rods_; }
 
-  /// Of the whole run up to this tick, whatever the species.
-  const analysis::CollisionTotals& totals() const { return totals_; }
+  const RunTotals& totals() const { return totals_; }
   /// Nematic order and director of all rods.
   const analysis::NematicOrder& order() const {
     if (!order_) order_ = analysis::nematic_order(rods_.director);
@@ -38,7 +44,7 @@ class Sample {
 
  private:
   const Snapshot& rods_;
-  analysis::CollisionTotals totals_;
+  RunTotals totals_;
   mutable std::optional<analysis::NematicOrder> order_;
   mutable std::vector<Vec3> unwrapped_;
 };

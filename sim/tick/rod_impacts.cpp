@@ -28,6 +28,9 @@ namespace {
     i.apply_along_normal(-impulse.P);
   }
   ledger.lost_rod_rod.add(impulse.lost);
+  const Vec3 way = i.arm - j.arm;
+  for (std::size_t k = 0; k < 4; ++k)
+    ledger.virial[k].add(way[static_cast<Eigen::Index>(k / 2)] * impulse.P[static_cast<Eigen::Index>(k % 2)]);
   return true;
 }
 

@@ -642,6 +642,35 @@ def check_collisions(run, table):
     scalar(run, table, "mean_free_time_s", "numpy", value, sem)
 
 
+def check_stress(run, table):
+    frames = run.frames("stress")
+    area = run.box[0] * run.box[1] if np.ndim(run.box) else run.box ** 2
+    v = run.velocity[frames] - run.velocity[frames].mean(1, keepdims=True)
+    at_once = mass_of(run) * np.einsum("tna,tnb->tab", v[..., :2], v[..., :2]) / area
+    kinetic = (at_once[1:] + at_once[:-1]) / 2
+    table.add("/stress/time_s", "trajectory", run.arrays["/stress/time_s"], run.time[frames[1:]])
+    collisional = np.zeros_like(kinetic)
+    for a, first in enumerate("xy"):
+        for b, second in enumerate("xy"):
+            path = f"/stress/kinetic_{first}{second}_pJ_mm2"
+            table.add(path, "numpy.einsum", run.arrays[path], kinetic[:, a, b], 5 * RELATIVE * kinetic.max())
+            # Trajectories have no impulses: known answers for these are in tests/physics/pressure_test.cpp.
+            path = f"/stress/collisional_{first}{second}_pJ_mm2"
+            collisional[:, a, b] = run.arrays[path]
+            table.add(path, "sign of its mean", np.sign(run.arrays[path].mean()) >= (a == b), True, remark="only that")
+    director = np.angle(np.exp(2j * run.theta[frames[1:]]).mean(1)) / 2
+    n = np.stack([np.cos(director), np.sin(director)], -1)
+    both = kinetic + collisional
+    along = np.einsum("ta,tab,tb->t", n, both, n)
+    trace = np.trace(both, axis1=1, axis2=2)
+    values = {"pressure": trace / 2, "pressure_collisional": np.trace(collisional, axis1=1, axis2=2) / 2,
+              "pressure_along": along, "pressure_across": trace - along}
+    parts = steady_parts(run, frames[:-1])
+    for name, series in values.items():
+        (value,), (sem,) = jackknife(parts, lambda some: [series[some].mean()])
+        scalar(run, table, name + "_pJ_mm2", "numpy", value, sem, allowed=1e-5 * abs(value))
+
+
 def axes_apart(places, director, tail, head, box):
     """Distances of the axes of all pairs (n, n): of crossing lines where that lies on both, or from an end."""
     n = len(places)
@@ -1880,7 +1909,8 @@ CHECKS = {"order": check_order, "angles": check_angles, "tilt": check_tilt, "def
           "polar": check_polar, "fluctuations": check_fluctuations,
           "frank": check_frank, "msd": check_msd, "rotation": check_rotation, "velocity": check_velocity, "rods": check_rods,
           "temperatures": check_temperatures, "scattering": check_scattering, "van_hove": check_van_hove,
-          "flow": check_flow, "clusters": check_clusters, "collisions": check_collisions}
+          "flow": check_flow, "clusters": check_clusters, "collisions": check_collisions,
+          "stress": check_stress}
 
 
 def main():

@@ -59,9 +59,10 @@ Snapshot random_snapshot(Tick tick) {
 }
 
 /// Of a hundred rods, which meet a thousand times a second.
-analysis::CollisionTotals totals_at(Tick tick) {
+RunTotals totals_at(Tick tick) {
   const double time = static_cast<double>(tick) * kDt;
-  return {{1000 * time, 300 * time, 200 * time, 0, 5000 * time, 4000 * time, 1000 * time}, 100};
+  return {{{1000 * time, 300 * time, 200 * time, 0, 5000 * time, 4000 * time, 1000 * time}, 100},
+          {{6000, 0, 0, 2000}, {40000 * time, 0, 0, 20000 * time}}};
 }
 
 /// What is measured of spheres, of all that can be asked for.
@@ -75,7 +76,7 @@ Reduction reduced_spheres() {
     EXPECT_FALSE(counts.contains(name)) << name;
   }
   for (const char* name : {"g2", "msd", "velocity", "rods", "fluctuations", "lattice", "structure", "temperatures",
-                           "scattering", "van_hove", "flow", "clusters"}) {
+                           "scattering", "van_hove", "flow", "clusters", "collisions", "stress"}) {
     EXPECT_TRUE(counts.contains(name)) << name;
   }
   for (Tick t = measurements.next_due(0); t <= 20000; t = measurements.next_due(t + 1)) {
@@ -605,6 +606,7 @@ struct Mixture {
       one.system.rod = plan.system.added[1]->rod;
       one.system.n_rods = 40;
       one.collisions.reset();  // those of all rods are with the first species
+      one.stress.reset();      // and so is this
     }
     Measurements measurements(one);
     for (Tick t = measurements.next_due(0); t <= end; t = measurements.next_due(t + 1)) {
@@ -671,6 +673,11 @@ TEST(Measurements, CollisionsAreThoseOfAllRods) {
   EXPECT_NEAR(numbers.at("impacts_base_Hz").value, 3, 1e-9);
   EXPECT_NEAR(numbers.at("power_lost_rods_pJ_s").value, 40, 1e-9);
   EXPECT_FALSE(numbers.contains("rods_3.impacts_rods_Hz"));
+  // kinetic (15 + 5) / 2, collisional (100 + 50) / 2 in a box of 20 mm
+  EXPECT_NEAR(numbers.at("pressure_pJ_mm2").value, 85, 1e-9);
+  EXPECT_NEAR(numbers.at("pressure_collisional_pJ_mm2").value, 75, 1e-9);
+  EXPECT_NEAR(numbers.at("pressure_along_pJ_mm2").value + numbers.at("pressure_across_pJ_mm2").value, 170, 1e-9);
+  EXPECT_FALSE(numbers.contains("rods_3.pressure_pJ_mm2"));
 }
 
 TEST(Measurements, OfEachSpeciesGoOnBitwiseAfterASave) {

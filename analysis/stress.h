@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "analysis/blocked.h"
+#include "analysis/bounded_series.h"
+#include "analysis/summed.h"
+#include "base/core/state_io.h"
+#include "base/core/types.h"
+
+/// The pressure tensor of rods in the plane of the plates: momentum that crosses a line of unit length in unit time,
+///   P_ab = (1/A) [ sum_i m_i (v_ia - V_a) (v_ib - V_b)  +  (1/t) sum r_a J_b ]
+/// over all rods i, with V the velocity of their centre of mass, and over all impacts of two rods during the time t: J
+/// is the impulse on the second rod, r the way to its centre from that of the first (Allen & Tildesley, Computer
+/// Simulation of Liquids (2017), section 2.4, with the impulse in place of the force). In the plane [pJ/mm^2 = uN/m].
+namespace shaken::analysis {
+
+/// xx, xy, yx, yy.
+using PlaneTensor = std::array<double, 4>;
+
+/// sum m (v - V)(v - V) of rods of masses `masses` [mg] and velocities `velocities` [mm/s], (n_rods) each [pJ].
+PlaneTensor momentum_flux(std::span<const double> masses, std::span<const Vec3> velocities);
+
+/// What the pressure of a run is made of, at one instant.
+struct StressTotals {
+  PlaneTensor momentum_flux{};  ///< at this instant [pJ]
+  PlaneTensor virial{};         ///< sum of r_a J_b over all impacts since the start [pJ s]
+};
+
+/// Parts of the pressure, along and across the director [pJ/mm^2].
+struct Pressure {
+  double along = 0, across = 0;  ///< of kinetic and collisional part together
+  double kinetic = 0;            ///< mean of both directions
+  double collisional = 0;        ///< the same
+};
+
+/// Sums over stretches of time.
+class PressureSums : public Summed<PressureSums> {
+ public:
+  /// Means of `duration` [s] in the frame of a director at the angle `director` [rad].
+  void accumulate(double duration, const PlaneTensor& kinetic, const PlaneTensor& collisional, double director);
+  /// NaN without any time.
+  Pressure reduce() const;
+
+  static constexpr std::string_view kName = "PressureSums";
+  static constexpr auto fields() {
+    return std::tuple(&PressureSums::time_, &PressureSums::kinetic_, &PressureSums::collisional_);
+  }
+
+ private:
+  double time_ = 0;                  // [s]
+  std::array<double, 2> kinetic_{};  // along and across, times time
+  std::array<double, 2> collisional_{};
+};
+
+/// The pressure tensor against time: each sample is of the time since the one before, in which impacts are counted; the
+/// kinetic part is the mean of both ends.
+class StressSeries {
+ public:
+  /// What there is at `time` [s], later than all before, of rods that have `area` [mm^2] to share.
+  /// @param director  angle of the director to x [rad]
+  void accumulate(double time, const StressTotals& totals, double area, double director);
+
+  const std::vector<double>& times() const { return series_.times(); }  ///< (n) ends of these times [s]
+  /// (n) component k of the kinetic part [pJ/mm^2]
+  const std::vector<double>& kinetic(std::size_t k) const { return series_.column(k); }
+  /// (n) component k of the collisional part [pJ/mm^2]
+  const std::vector<double>& collisional(std::size_t k) const { return series_.column(4 + k); }
+  /// By the beginning of these times.
+  const Blocked<PressureSums>& sums() const { return sums_; }
+
+  void save(StateWriter& writer) const;
+  void restore(StateReader& reader);
+
+ private:
+  std::int64_t samples_ = 0;
+  double time_ = 0;  // of the last
+  PlaneTensor last_flux_{}, last_virial_{};
+  BoundedSeries<8> series_;
+  Blocked<PressureSums> sums_{PressureSums()};
+};
+
+}  // namespace shaken::analysis

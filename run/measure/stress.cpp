@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "analysis/stress.h"
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "run/measure/estimates.h"
+#include "run/measure/measurement_kinds.h"
+
+namespace shaken::run {
+namespace {
+
+constexpr std::array kComponents{"xx", "xy", "yx", "yy"};
+
+class MeasuredStress : public Measurement {
+ public:
+  MeasuredStress(std::optional<double> steady, double area) : steady_(steady), area_(area) {}
+
+  void sample(const Sample& sample) override {
+    series_.accumulate(sample->time, sample.totals().stress, area_, sample.order().director);
+  }
+  void reduce(Reduction& result) const override {
+    const auto numbers =
+        block_estimates(series_.sums(), steady_.value_or(result.t_steady), [](const analysis::PressureSums& part) {
+          const analysis::Pressure p = part.reduce();
+          return std::vector<double>{p.kinetic + p.collisional, p.collisional, p.along, p.across};
+        });
+    result.arrays["/stress/time_s"] = series_.times();
+    for (std::size_t k = 0; k < kComponents.size(); ++k) {
+      result.arrays[std::string("/stress/kinetic_") + kComponents[k] + "_pJ_mm2"] = series_.kinetic(k);
+      result.arrays[std::string("/stress/collisional_") + kComponents[k] + "_pJ_mm2"] = series_.collisional(k);
+    }
+    result.scalars["pressure_pJ_mm2"] = numbers[0];
+    result.scalars["pressure_collisional_pJ_mm2"] = numbers[1];
+    result.scalars["pressure_along_pJ_mm2"] = numbers[2];
+    result.scalars["pressure_across_pJ_mm2"] = numbers[3];
+  }
+  void save(StateWriter& writer) const override { series_.save(writer); }
+  void restore(StateReader& reader) override { series_.restore(reader); }
+
+ private:
+  std::optional<double> steady_;  ///< [s]
+  double area_;                   ///< [mm^2]
+  analysis::StressSeries series_;
+};
+
+}  // namespace
+
+MeasurementKind stress_kind() {
+  return {
+      .name = "stress",
+      .sources = "stress",
+      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
+        const System& system = context.plan.system;
+        return std::make_unique<MeasuredStress>(context.plan.steady,
+                                                system.walls ? system.walls->area() : system.box().area());
+      },
+      .arrays =
+          {
+              {"time_s", "ends of the times from one sample to the next, over which the following are means"},
+              {"kinetic_xx_pJ_mm2", "kinetic part of the pressure tensor, m⟨δv δv⟩ per area"},
+              {"kinetic_xy_pJ_mm2", "its component xy"},
+              {"kinetic_yx_pJ_mm2", "the same"},
+              {"kinetic_yy_pJ_mm2", "its component yy"},
+              {"collisional_xx_pJ_mm2", "collisional part: distance times impulse, of all impacts of two rods"},
+              {"collisional_xy_pJ_mm2", "its component xy: way along x, impulse along y"},
+              {"collisional_yx_pJ_mm2", "its component yx, which differs where impacts turn rods"},
+              {"collisional_yy_pJ_mm2", "its component yy"},
+          },
+      .numbers =
+          {
+              {"pressure_pJ_mm2", "pressure in the plane: half the trace of both parts"},
+              {"pressure_collisional_pJ_mm2", "of this the part of impacts"},
+              {"pressure_along_pJ_mm2", "component of both parts along the director of each sample"},
+              {"pressure_across_pJ_mm2", "that across it"},
+          },
+      .of_axis = {"pressure_along_pJ_mm2", "pressure_across_pJ_mm2"},
+      .is_spread = [](const scene::RunPlan& plan) { return plan.stress->phases == scene::SamplePhases::kSpread; },
+  };
+}
+
+}  // namespace shaken::run
