@@ -657,7 +657,8 @@ def check_stress(run, table):
             # Trajectories have no impulses: known answers for these are in tests/physics/pressure_test.cpp.
             path = f"/stress/collisional_{first}{second}_pJ_mm2"
             collisional[:, a, b] = run.arrays[path]
-            table.add(path, "sign of its mean", np.sign(run.arrays[path].mean()) >= (a == b), True, remark="only that")
+            if a == b:
+                table.add(path, "sign of its mean", run.arrays[path].mean() > 0, True, remark="only that")
     director = np.angle(np.exp(2j * run.theta[frames[1:]]).mean(1)) / 2
     n = np.stack([np.cos(director), np.sin(director)], -1)
     both = kinetic + collisional

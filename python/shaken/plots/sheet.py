@@ -431,8 +431,8 @@ def _cuts(n: int, n_lines: int) -> list[tuple[int, ...]]:
 
 
 def _words(content: str) -> list[str]:
-    """Words; a space within $...$, beside "=" or between a number and its unit does not part them, and a unit stays with
-    other words only by its brackets."""
+    """Words; a space within $...$, beside "=" or between a number and its unit does not part them, and a unit stays
+    with other words only by its brackets."""
     parts = content.split("$")
     parts[::2] = [re.sub(r" (?==)|(?<==) |(?<=[0-9]) (?=(?:mm|s|Hz|µs)\b)", "\u00a0", part) for part in parts[::2]]
     words, current, in_math = [], "", False
