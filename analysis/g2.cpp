@@ -2,21 +2,13 @@
 #include "analysis/g2.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <utility>
 
+#include "analysis/pair_bins.h"
 #include "analysis/periodic.h"
 #include "base/core/check.h"
 
 namespace shaken::analysis {
-namespace {
-
-/// Rods taken as the first of a pair in one sample, at most.
-constexpr std::size_t kMaxReferencesOfG2 = 1024;
-
-}  // namespace
-
 OrientationCorrelation::OrientationCorrelation(int bins, double r_max)
     : r_max_(r_max),
       pairs_(static_cast<std::size_t>(std::max(bins, 0))),
@@ -41,14 +33,9 @@ void OrientationCorrelation::accumulate(std::span<const Vec3> positions, std::sp
     ss.push_back(angle.y());
   }
   const std::size_t n = xs.size();
-  const double bins_per_mm = static_cast<double>(pairs_.size()) / r_max_;
-  const std::size_t stride = std::max<std::size_t>(1, (n + kMaxReferencesOfG2 - 1) / kMaxReferencesOfG2);
-  // Within walls no image is nearer.
-  const Box period = region.is_periodic() ? box : Box(std::numeric_limits<double>::infinity());
-  const double period_x = period.x(), period_y = period.y();
-  // In two passes, the first without branches: it becomes vector instructions. What is too far goes into a bin of its
-  // own.
-  const auto too_far = static_cast<int>(pairs_.size());
+  const std::size_t stride = reference_stride(n);
+  const PairBins distances(pairs_.size(), r_max_, region);
+  const auto too_far = static_cast<int>(pairs_.size());  // a bin of its own
   std::vector<int> bins(n);
   std::vector<double> values(n), sums(pairs_.size() + 1);
   std::vector<std::int64_t> pairs(pairs_.size() + 1);
@@ -57,43 +44,23 @@ void OrientationCorrelation::accumulate(std::span<const Vec3> positions, std::sp
   for (std::size_t i = static_cast<std::size_t>(calls_) % stride; i < n; i += stride) {
     references += 1;
     const double xi = xs[i], yi = ys[i], ci = cs[i], si = ss[i];
-    for (std::size_t j = 0; j < n; ++j) {
-      const double dx = std::abs(xi - xs[j]), dy = std::abs(yi - ys[j]);
-      const double x = std::min(dx, period_x - dx), y = std::min(dy, period_y - dy);
-      bins[j] = std::min(static_cast<int>(std::sqrt(x * x + y * y) * bins_per_mm), too_far);
-      values[j] = ci * cs[j] + si * ss[j];
-    }
-    if (region.hidden_radius() > 0) {
-      for (std::size_t j = 0; j < n; ++j) {
-        if (!region.in_sight({xi, yi}, {xs[j], ys[j]})) bins[j] = too_far;
-      }
-    }
+    distances.find(xi, yi, xs, ys, bins);
+    for (std::size_t j = 0; j < n; ++j) values[j] = ci * cs[j] + si * ss[j];
     bins[i] = too_far;
     for (std::size_t j = 0; j < n; ++j) {
       const auto bin = static_cast<std::size_t>(bins[j]);
       ++pairs[bin];
       sums[bin] += values[j];
     }
-    if (!region.is_periodic()) expect({xi, yi}, region, others / region.area());
+    if (!region.is_periodic()) add_gas(expected_, r_max_, {xi, yi}, region, others / region.area());
   }
   // In a periodic box every place sees the same.
-  if (region.is_periodic()) expect(Vec2::Zero(), region, references * others / region.area());
+  if (region.is_periodic()) add_gas(expected_, r_max_, Vec2::Zero(), region, references * others / region.area());
   for (std::size_t bin = 0; bin < pairs_.size(); ++bin) {
     pairs_[bin] += pairs[bin];
     sums_[bin] += sums[bin];
   }
   ++calls_;
-}
-
-/// Adds what a gas of `density` [1/mm^2] has in the rings about a place.
-void OrientationCorrelation::expect(const Vec2& place, const Region& region, double density) {
-  double within = 0;
-  for (std::size_t bin = 0; bin < expected_.size(); ++bin) {
-    const double radius = r_max_ * static_cast<double>(bin + 1) / static_cast<double>(expected_.size());
-    const double area = region.area_in_sight(place, radius);
-    expected_[bin] += density * (area - within);
-    within = area;
-  }
 }
 
 OrientationCurve OrientationCorrelation::reduce() const {

@@ -47,8 +47,6 @@ class OrientationCorrelation : public Summed<OrientationCorrelation> {
   }
 
  private:
-  void expect(const Vec2& place, const Region& region, double density);
-
   double r_max_;
   std::int64_t calls_ = 0;           // samples so far, those before start_at included
   std::vector<std::int64_t> pairs_;  // (bins)
