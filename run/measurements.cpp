@@ -49,7 +49,7 @@ Measurements::Measurements(const scene::RunPlan& plan, Cell cell) : cell_(std::m
       const std::optional<Cadence> cadence = kind.cadence(rods.plan);
       if (!cadence) continue;
       const double interval = static_cast<double>(cadence->period()) * plan.system.dt;
-      measured.timed.push_back({std::string(kind.name), *cadence, kind.make({rods.plan, species, interval}), 0});
+      measured.timed.push_back({std::string(kind.name), *cadence, kind.make({rods.plan, plan, species, cell_, interval}), 0});
       const Measurement* made = measured.timed.back().measurement.get();
       if (const auto* order = dynamic_cast<const MeasuredOrder*>(made)) measured.order = order;
       if (const auto* defects = dynamic_cast<const MeasuredDefects*>(made)) measured.defects = defects;
@@ -82,7 +82,7 @@ void Measurements::sample(const Snapshot& snapshot, const RunTotals& totals) {
                   theirs(snapshot.velocity),
                   theirs(snapshot.angular_velocity)};
     }
-    const Sample sample(measured ? *measured : snapshot, totals);
+    const Sample sample(measured ? *measured : snapshot, snapshot, totals);
     for (Timed& timed : rods.timed) {
       if (!is_due(timed)) continue;
       timed.measurement->sample(sample);

@@ -162,6 +162,16 @@ struct MeasureStress {
   SamplePhases phases = SamplePhases::kSpread;
   friend bool operator==(const MeasureStress&, const MeasureStress&) = default;
 };
+/// Pair distributions between species, and how far these keep apart.
+struct MeasureMixing {
+  double every = 0.1;     ///< [s]
+  int bins = 40;          ///< over [0, L/2)
+  double distance = 0.0;  ///< of the centres of neighbours [mm]; 0: what distance_for() says
+  double distance_for(double rod_length, double box_side) const {
+    return distance > 0 ? distance : std::min(rod_length, box_side / 2);
+  }
+  friend bool operator==(const MeasureMixing&, const MeasureMixing&) = default;
+};
 
 // clang-format off
 /// Every observable by its name and settings, in the order in which it stands in canonical scenes, samples and is
@@ -189,7 +199,8 @@ struct MeasureStress {
   X(flow, MeasureFlow) \
   X(clusters, MeasureClusters) \
   X(collisions, MeasureCollisions) \
-  X(stress, MeasureStress)
+  X(stress, MeasureStress) \
+  X(mixing, MeasureMixing)
 // clang-format on
 
 /// Whose observables are measured.

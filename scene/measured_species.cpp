@@ -15,7 +15,8 @@ std::vector<MeasuredRods> measured_species(const RunPlan& plan) {
       rods.plan.system.rod = added->rod;
       rods.plan.system.n_rods = added->count;
       rods.plan.collisions.reset();  // of all rods, whatever their species
-      rods.plan.stress.reset();      // the same
+      rods.plan.stress.reset();
+      rods.plan.mixing.reset();
       found.push_back(std::move(rods));
     }
   }

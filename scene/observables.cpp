@@ -394,6 +394,25 @@ Observable stress() {
     .remedy = "a longer `every`"};
 }
 
+Observable mixing() {
+  return {
+    .doc = "Pair distributions g(r) of every two species, and how far the species keep apart (only within the walls, "
+           "if any); of all rods, whatever `measure.of` says.",
+    .keys = {
+      whole("bins", at<&Plan::mixing, &MeasureMixing::bins>, 2, 10000,
+            "Number of bins over distances from 0 to half the box, by its shorter side."),
+      derived(quantity("distance", at<&Plan::mixing, &MeasureMixing::distance>, kLength, 0.01, 100,
+                       "Rods are neighbours if their centres are nearer than this: at most half the box, by its "
+                       "shorter side."),
+              "a rod length, at most half the box")},
+    .memory = [](const Sizes& s) -> MeasureMemory {
+      double species = 1;
+      for (const auto& added : s.run.system.added) species += added ? 1 : 0;
+      const double kinds = species * (species + 1) / 2, all = s.run.system.n_all_rods();
+      return {"", s.in_blocks(kinds * (2 * kNumberBytes * s.plan.mixing->bins + 20) + 200), all * 40}; },
+    .remedy = "fewer `bins`"};
+}
+
 // clang-format on
 
 }  // namespace rows
@@ -466,7 +485,7 @@ std::vector<MeasureMemory> measure_memory(const RunPlan& plan) {
       const double samples = std::floor(plan.longest_time() / (ticks * plan.system.dt) * (1 + 1e-12)) + 1;
       double in_stretch = 1;
       while (samples > kBlocks * in_stretch) in_stretch *= 2;
-      Sizes sizes{rods.plan, samples, static_cast<double>(rods.plan.system.n_rods), std::ceil(samples / in_stretch)};
+      Sizes sizes{rods.plan, plan, samples, static_cast<double>(rods.plan.system.n_rods), std::ceil(samples / in_stretch)};
       MeasureMemory needed = one.memory(sizes);
       sizes.stretches = std::min(kBlocks, samples);
       needed.spare += one.memory(sizes).state - needed.state;

@@ -5,6 +5,7 @@
 #include "run/measure/reduction.h"
 #include "run/measure/sample.h"
 #include "scene/run_plan.h"
+#include "sim/cell.h"
 #include "sim/rod/species.h"
 
 namespace shaken::run {
@@ -26,8 +27,10 @@ class Measurement {
 
 /// What a measurement may know of its run when it is made.
 struct MeasureContext {
-  const scene::RunPlan& plan;
+  const scene::RunPlan& plan;  ///< of the rods that are measured
+  const scene::RunPlan& run;   ///< of all species
   const Species& species;  ///< of the rods that are measured
+  const Cell& cell;        ///< which rod is of which species
   double interval;         ///< between its samples: a whole number of ticks [s]
 };
 

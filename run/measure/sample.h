@@ -20,11 +20,12 @@ struct RunTotals {
 /// The measured rods at one tick, with what several measurements need of them, worked out once and only on demand.
 class Sample {
  public:
-  /// `rods` must outlive the moment.
-  explicit Sample(const Snapshot& rods, const RunTotals& totals = {}) : rods_(rods), totals_(totals) {}
+  /// Of the measured `rods` among `all`, which must outlive the moment.
+  Sample(const Snapshot& rods, const Snapshot& all, const RunTotals& totals) : rods_(rods), all_(all), totals_(totals) {}
 
   const Snapshot* operator->() const { return &rods_; }
-
+  /// Rods of all species.
+  const Snapshot& all() const { return all_; }
   const RunTotals& totals() const { return totals_; }
   /// Nematic order and director of all rods.
   const analysis::NematicOrder& order() const {
@@ -44,6 +45,7 @@ class Sample {
 
  private:
   const Snapshot& rods_;
+  const Snapshot& all_;
   RunTotals totals_;
   mutable std::optional<analysis::NematicOrder> order_;
   mutable std::vector<Vec3> unwrapped_;

@@ -54,6 +54,17 @@ void clusters(const Resolution& scene, MeasureClusters& settings) {
   settings.distance = settings.distance_for(scene.plan.system.rod.mid_diameter);
 }
 
+void mixing(Resolution& scene, MeasureMixing& settings) {
+  if (!scene.ok({"rods.length", "box.side", "box.aspect", "measure.mixing.distance"})) return;
+  const System& system = scene.plan.system;
+  const double half_box = system.box().shorter() / 2;
+  settings.distance = settings.distance_for(system.rod.length, 2 * half_box);
+  if (settings.distance <= half_box * (1 + 1e-12)) return;
+  scene.report({"measure.mixing.distance", "box.side", "box.aspect"},
+               fmt::format("neighbours at {} are farther than half the box, {}: distances have no nearest image there",
+                           length_text(settings.distance), length_text(half_box)));
+}
+
 }  // namespace
 
 void resolve_measurements(Resolution& scene) {
@@ -64,6 +75,7 @@ void resolve_measurements(Resolution& scene) {
   if (plan.scattering) scattering(scene, *plan.scattering);
   if (plan.van_hove) van_hove(scene, *plan.van_hove);
   if (plan.clusters) clusters(scene, *plan.clusters);
+  if (plan.mixing) mixing(scene, *plan.mixing);
 }
 
 void check_walls(Resolution& scene) {

@@ -672,6 +672,17 @@ def check_stress(run, table):
         scalar(run, table, name + "_pJ_mm2", "numpy", value, sem, allowed=1e-5 * abs(value))
 
 
+def check_mixing(run, table):
+    """Of one species, whose pairs are those of g2 where both sample alike; of several: tests/unit/analysis."""
+    same = run.scene["measure"]["g2"]
+    assert {key: run.scene["measure"]["mixing"][key] for key in same} == same
+    table.add("/mixing/r_mm", "/g2/r_mm", run.arrays["/mixing/r_mm"], run.arrays["/g2/r_mm"])
+    for sem in ("", "_sem"):
+        known = np.isfinite(run.arrays["/g2/g" + sem])
+        table.add("/mixing/g_11" + sem, "/g2/g" + sem, run.arrays["/mixing/g_11" + sem][known],
+                  run.arrays["/g2/g" + sem][known], 1e-9)
+
+
 def axes_apart(places, director, tail, head, box):
     """Distances of the axes of all pairs (n, n): of crossing lines where that lies on both, or from an end."""
     n = len(places)
@@ -1911,7 +1922,7 @@ CHECKS = {"order": check_order, "angles": check_angles, "tilt": check_tilt, "def
           "frank": check_frank, "msd": check_msd, "rotation": check_rotation, "velocity": check_velocity, "rods": check_rods,
           "temperatures": check_temperatures, "scattering": check_scattering, "van_hove": check_van_hove,
           "flow": check_flow, "clusters": check_clusters, "collisions": check_collisions,
-          "stress": check_stress}
+          "stress": check_stress, "mixing": check_mixing}
 
 
 def main():

@@ -54,6 +54,7 @@ TABLE: dict[str, tuple[str, str, str]] = {
     "pressure_collisional_pJ_mm2": ("pressure of impacts", r"$p_\mathrm{c}$", "pJ/mm²"),
     "pressure_along_pJ_mm2": ("pressure along the director", "$p_∥$", "pJ/mm²"),
     "pressure_across_pJ_mm2": ("pressure across the director", "$p_⊥$", "pJ/mm²"),
+    "segregation_12": ("segregation of the first two species", "", ""),
     "cpu_seconds": ("CPU time", "", "s"),
     # axes and curves of observables
     "/order/time_s": ("time", "$t$", "s"),
@@ -102,6 +103,8 @@ TABLE: dict[str, tuple[str, str, str]] = {
     "/stress/time_s": ("time", "$t$", "s"),
     "/stress/collisional_xx_pJ_mm2": ("pressure of impacts, xx", r"$P_{xx}$", "pJ/mm²"),
     "/stress/collisional_yy_pJ_mm2": ("pressure of impacts, yy", r"$P_{yy}$", "pJ/mm²"),
+    "/mixing/r_mm": ("distance", "$r$", "mm"),
+    "/mixing/g_12": ("pair distribution between species", "$g_{12}(r)$", ""),
     "/msd/lag_s": ("lag", "$t$", "s"),
     "/msd/total_mm2": ("mean square displacement", "MSD", "mm²"),
     "/msd/along_mm2": ("MSD along the director", "", "mm²"),

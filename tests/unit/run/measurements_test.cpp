@@ -37,6 +37,7 @@ scene::RunPlan plan() {
   p.frank = scene::MeasureFrank{0.02};
   p.pairs = scene::MeasurePairs{0.05, 11, 0};
   p.layers = scene::MeasureLayers{0.02};
+  p.mixing = scene::MeasureMixing{0.05, 20, 3};
   return p;
 }
 
@@ -76,7 +77,7 @@ Reduction reduced_spheres() {
     EXPECT_FALSE(counts.contains(name)) << name;
   }
   for (const char* name : {"g2", "msd", "velocity", "rods", "fluctuations", "lattice", "structure", "temperatures",
-                           "scattering", "van_hove", "flow", "clusters", "collisions", "stress"}) {
+                           "scattering", "van_hove", "flow", "clusters", "collisions", "stress", "mixing"}) {
     EXPECT_TRUE(counts.contains(name)) << name;
   }
   for (Tick t = measurements.next_due(0); t <= 20000; t = measurements.next_due(t + 1)) {
@@ -593,6 +594,7 @@ struct Mixture {
 
   Mixture() {
     plan.of = scene::MeasuredSpecies::kEach;
+    plan.mixing.reset();  // which has a test of its own
     plan.system.n_rods = 60;
     plan.system.added[1] = AddedRods{{.length = 2.5, .mid_diameter = 0.8, .end_diameter = 0.5, .n_beads = 9}, 40};
     for (int i = 0; i < 100; ++i) cell.species_of_rod.push_back(i % 5 < 3 ? 0 : 1);
@@ -680,8 +682,30 @@ TEST(Measurements, CollisionsAreThoseOfAllRods) {
   EXPECT_FALSE(numbers.contains("rods_3.pressure_pJ_mm2"));
 }
 
+// 60 rods and 40 of the third species at random places are mixed.
+TEST(Measurements, MixingIsOfAllRodsByTheirSpecies) {
+  Mixture mixture;
+  mixture.plan.mixing = scene::MeasureMixing{0.01, 10, 4};
+  for (const auto of : {scene::MeasuredSpecies::kFirst, scene::MeasuredSpecies::kEach}) {
+    mixture.plan.of = of;
+    Measurements measurements(mixture.plan, mixture.cell);
+    measure(measurements, 0, 20000);
+    const Reduction result = measurements.reduce(0.2);
+    for (const char* there : {"/mixing/r_mm", "/mixing/g_11", "/mixing/g_13", "/mixing/g_33_sem"})
+      EXPECT_TRUE(result.arrays.contains(there)) << there;
+    for (const char* none : {"/mixing/g_12", "/mixing/g_22", "/rods_3/mixing/g_11"})
+      EXPECT_FALSE(result.arrays.contains(none)) << none;
+    for (const double g : result.arrays.at("/mixing/g_13")) EXPECT_NEAR(g, 1, 0.4);
+    const Scalar segregation = result.scalars.at("segregation_13");
+    EXPECT_NEAR(segregation.value, 0, 0.05);
+    EXPECT_GT(segregation.sem, 0);
+    EXPECT_LT(segregation.sem, 0.05);
+  }
+}
+
 TEST(Measurements, OfEachSpeciesGoOnBitwiseAfterASave) {
-  const Mixture mixture;
+  Mixture mixture;
+  mixture.plan.mixing = scene::MeasureMixing{0.01, 10, 4};
   Measurements straight(mixture.plan, mixture.cell), first(mixture.plan, mixture.cell);
   measure(straight, 0, 9000);
   measure(first, 0, 5000);
