@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "analysis/pair_bins.h"
@@ -17,23 +16,21 @@ std::size_t PairMixing::pair_kind(std::size_t species, std::size_t a, std::size_
   return a * species - a * (a + 1) / 2 + b;
 }
 
-PairMixing::PairMixing(std::vector<std::int64_t> rods_of, int bins, double r_max, double near)
-    : rods_of_(std::move(rods_of)),
-      r_max_(r_max),
+PairMixing::PairMixing(std::size_t n_species, int bins, double r_max, double near)
+    : r_max_(r_max),
       near_(near),
-      pairs_(kinds(rods_of_.size()) * static_cast<std::size_t>(std::max(bins, 0))),
+      rods_(n_species),
+      pairs_(kinds(n_species) * static_cast<std::size_t>(std::max(bins, 0))),
       expected_(pairs_.size()),
-      neighbours_(kinds(rods_of_.size())) {
-  SHAKEN_CHECK(!rods_of_.empty() && bins >= 1 && r_max > 0 && near > 0, "species, bins and range must not be empty");
+      neighbours_(kinds(n_species)) {
+  SHAKEN_CHECK(n_species > 0 && bins >= 1 && r_max > 0 && near > 0, "species, bins and range must not be empty");
 }
 
 void PairMixing::accumulate(std::span<const Vec3> positions, std::span<const std::uint8_t> species_of,
                             const Region& region) {
-  const std::size_t n = positions.size(), n_species = rods_of_.size();
+  const std::size_t n = positions.size(), n_species = rods_.size();
   const std::size_t n_bins = pairs_.size() / kinds(n_species);
   SHAKEN_CHECK(species_of.empty() || species_of.size() == n, "a species for each rod");
-  SHAKEN_CHECK(std::accumulate(rods_of_.begin(), rods_of_.end(), std::int64_t{0}) == static_cast<std::int64_t>(n),
-               "rods of another mixture");
   SHAKEN_CHECK(!region.is_periodic() || 2 * std::max(r_max_, near_) <= region.box().shorter() * (1 + 1e-12),
                "distances beyond half the box have no nearest image");
   const auto of = [&](std::size_t i) { return species_of.empty() ? std::size_t{0} : std::size_t{species_of[i]}; };
@@ -42,12 +39,14 @@ void PairMixing::accumulate(std::span<const Vec3> positions, std::span<const std
     xs.push_back(wrapped(position.x(), region.box().x()));
     ys.push_back(wrapped(position.y(), region.box().y()));
   }
+  std::vector<std::int64_t> rods(n_species);
+  for (std::size_t i = 0; i < n; ++i) ++rods.at(of(i));
   const PairBins distances(n_bins, r_max_, region), neighbourhood(1, near_, region);
   std::vector<int> bins(n), near(n);
   std::vector<double> references(n_species);
   // what a rod of species `a` may meet of species `b`, per area
   const auto density = [&](std::size_t a, std::size_t b) {
-    return static_cast<double>(rods_of_[b] - (a == b ? 1 : 0)) / region.area();
+    return static_cast<double>(rods[b] - (a == b ? 1 : 0)) / region.area();
   };
   const auto expect = [&](std::size_t a, const Vec2& place, double how_often) {
     for (std::size_t b = 0; b < n_species; ++b) {
@@ -72,12 +71,14 @@ void PairMixing::accumulate(std::span<const Vec3> positions, std::span<const std
   if (region.is_periodic()) {
     for (std::size_t a = 0; a < n_species; ++a) expect(a, Vec2::Zero(), references[a]);
   }
+  for (std::size_t a = 0; a < n_species; ++a) rods_[a] += rods[a];
+  ++samples_;
   ++calls_;
 }
 
 MixingCurves PairMixing::reduce() const {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  const std::size_t n_species = rods_of_.size(), n_bins = pairs_.size() / kinds(n_species);
+  const std::size_t n_species = rods_.size(), n_bins = pairs_.size() / kinds(n_species);
   MixingCurves curves;
   for (std::size_t bin = 0; bin < n_bins; ++bin)
     curves.r.push_back((static_cast<double>(bin) + 0.5) * r_max_ / static_cast<double>(n_bins));
@@ -90,9 +91,12 @@ MixingCurves PairMixing::reduce() const {
   const auto neighbours = [&](std::size_t a, std::size_t b) {
     return static_cast<double>(neighbours_[pair_kind(n_species, a, b)]);
   };
+  const auto rods_in_a_sample = [&](std::size_t a) {
+    return static_cast<double>(rods_[a]) / static_cast<double>(samples_);
+  };
   for (std::size_t a = 0; a < n_species; ++a) {
     for (std::size_t b = a + 1; b < n_species; ++b) {
-      const auto n_a = static_cast<double>(rods_of_[a]), n_b = static_cast<double>(rods_of_[b]), n = n_a + n_b;
+      const double n_a = rods_in_a_sample(a), n_b = rods_in_a_sample(b), n = n_a + n_b;
       const double of_both = neighbours(a, a) + neighbours(a, b) + neighbours(b, b);
       if (of_both > 0)
         curves.segregation[pair_kind(n_species, a, b)] =

@@ -34,9 +34,8 @@ class PairMixing : public Summed<PairMixing> {
   static std::size_t pair_kind(std::size_t species, std::size_t a, std::size_t b);
   static std::size_t kinds(std::size_t species) { return species * (species + 1) / 2; }
 
-  /// Of so many rods of each species (n_species); `bins` equal bins over [0, r_max) [mm]; neighbours are nearer than
-  /// `near` [mm].
-  PairMixing(std::vector<std::int64_t> rods_of, int bins, double r_max, double near);
+  /// `bins` equal bins over [0, r_max) [mm]; neighbours are nearer than `near` [mm].
+  PairMixing(std::size_t n_species, int bins, double r_max, double near);
 
   /// Centres (n_rods) [mm] and the species of each (n_rods; empty: all of the first); the shorter side of a periodic
   /// box is at least 2 r_max and 2 near.
@@ -47,15 +46,16 @@ class PairMixing : public Summed<PairMixing> {
 
   static constexpr std::string_view kName = "PairMixing";
   static constexpr auto fields() {
-    return std::tuple(Setting{"mixture", &PairMixing::rods_of_}, Setting{"range", &PairMixing::r_max_},
-                      Setting{"distance of neighbours", &PairMixing::near_}, Largest{&PairMixing::calls_},
-                      &PairMixing::pairs_, &PairMixing::expected_, &PairMixing::neighbours_);
+    return std::tuple(Setting{"range", &PairMixing::r_max_}, Setting{"distance of neighbours", &PairMixing::near_},
+                      Largest{&PairMixing::calls_}, &PairMixing::samples_, &PairMixing::rods_, &PairMixing::pairs_,
+                      &PairMixing::expected_, &PairMixing::neighbours_);
   }
 
  private:
-  std::vector<std::int64_t> rods_of_;  // (n_species)
   double r_max_, near_;
-  std::int64_t calls_ = 0;                // samples so far, those before start_at included
+  std::int64_t calls_ = 0;  // samples so far, those before start_at included
+  std::int64_t samples_ = 0;
+  std::vector<std::int64_t> rods_;        // (n_species) summed over samples
   std::vector<std::int64_t> pairs_;       // (kinds, bins)
   std::vector<double> expected_;          // (kinds, bins) pairs of a gas
   std::vector<std::int64_t> neighbours_;  // (kinds)

@@ -16,30 +16,22 @@ namespace {
 
 using analysis::PairMixing;
 
-/// The rods of each species that a scene has.
-struct Composition {
-  std::vector<std::int64_t> rods;  ///< (n_species)
-  std::vector<int> numbers;        ///< (n_species) 1 of `rods`, 2 of `rods_2`, 3 of `rods_3`
-};
-
-Composition composition_of(const System& system) {
-  Composition found{{system.n_rods}, {1}};
-  for (std::size_t k = 0; k < system.added.size(); ++k) {
-    if (!system.added[k]) continue;
-    found.rods.push_back(system.added[k]->count);
-    found.numbers.push_back(static_cast<int>(k) + 2);
+/// (n_species) of the species that a scene has: 1 of `rods`, 2 of `rods_2`, 3 of `rods_3`.
+std::vector<int> numbers_of(const System& system) {
+  std::vector<int> numbers;
+  for (std::size_t k = 0; k < kMostSpecies; ++k) {
+    if (system.has_species(k)) numbers.push_back(static_cast<int>(k) + 1);
   }
-  return found;
+  return numbers;
 }
 
 class MeasuredMixing : public Measurement {
  public:
-  MeasuredMixing(const Composition& composition, const scene::MeasureMixing& settings, const analysis::Region& region,
-                 std::vector<std::uint8_t> species_of_rod)
-      : numbers_(composition.numbers),
-        region_(region),
+  MeasuredMixing(const System& system, std::vector<std::uint8_t> species_of_rod, int bins, double near)
+      : numbers_(numbers_of(system)),
+        region_(system.box(), system.walls),
         species_of_rod_(std::move(species_of_rod)),
-        mixing_(PairMixing(composition.rods, settings.bins, region.box().shorter() / 2, settings.distance)) {}
+        mixing_(PairMixing(numbers_.size(), bins, system.box().shorter() / 2, near)) {}
 
   void sample(const Sample& sample) override {
     mixing_.accumulate(sample->time, sample.all().position, species_of_rod_, region_);
@@ -77,9 +69,9 @@ MeasurementKind mixing_kind() {
       .sources = "mixing, pair_bins, region",
       .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
         const System& system = context.run.system;
-        return std::make_unique<MeasuredMixing>(composition_of(system), *context.plan.mixing,
-                                                analysis::Region(system.box(), system.walls),
-                                                context.cell.species_of_rod);
+        const scene::MeasureMixing& settings = *context.plan.mixing;
+        return std::make_unique<MeasuredMixing>(system, context.cell.species_of_rod, settings.bins,
+                                                settings.distance_for(system.rod.length, system.box().shorter()));
       },
       .arrays =
           {

@@ -46,7 +46,7 @@ TEST(PairMixing, IsTheSumOverAllPairsOfAPeriodicBox) {
   const std::vector<Vec3> places = random_places(draw, kRods, box);
   const std::vector<std::uint8_t> species = drawn_species(draw, kRods, kSpecies);
   const auto counts = counts_of(species, kSpecies);
-  PairMixing mixing(counts, kBins, kMax, kNear);
+  PairMixing mixing(kSpecies, kBins, kMax, kNear);
   mixing.accumulate(places, species, box);
   const MixingCurves found = mixing.reduce();
   for (std::size_t a = 0; a < kSpecies; ++a) {
@@ -95,7 +95,7 @@ TEST(PairMixing, OfOneSpeciesIsThatOfG2) {
   }
   ASSERT_GT(places.size(), 1100u) << "more than are taken as references";
   OrientationCorrelation g2(20, 20);
-  PairMixing mixing({static_cast<std::int64_t>(places.size())}, 20, 20, 3);
+  PairMixing mixing(1, 20, 20, 3);
   const std::vector<Vec3> directors = random_axes(draw, places.size());
   for (int sample = 0; sample < 2; ++sample) {
     g2.accumulate(places, directors, annulus);
@@ -112,7 +112,7 @@ TEST(PairMixing, Segregation) {
   constexpr double kBox = 40;
   const std::vector<Vec3> places = random_places(draw, 4000, kBox);
   const auto segregation = [&](const std::vector<Vec3>& at, const std::vector<std::uint8_t>& species, double near) {
-    PairMixing mixing(counts_of(species, 2), 10, 20, near);
+    PairMixing mixing(2, 10, 20, near);
     mixing.accumulate(at, species, kBox);
     return mixing.reduce().segregation[PairMixing::pair_kind(2, 0, 1)];
   };
@@ -130,19 +130,19 @@ TEST(PairMixing, Segregation) {
   EXPECT_NEAR(segregation(grid, chessboard, 1.1), -1, 0.01);
 }
 
-TEST(PairMixing, SavesAndRestoresAndRefusesAnotherMixture) {
+TEST(PairMixing, SavesAndRestoresAndRefusesMoreSpecies) {
   Draw draw(4714);
   const std::vector<Vec3> places = random_places(draw, 30, 20);
   const std::vector<std::uint8_t> species = drawn_species(draw, 30, 2);
-  PairMixing straight(counts_of(species, 2), 5, 10, 2), stopped = straight;
+  PairMixing straight(2, 5, 10, 2), stopped = straight;
   for (int i = 0; i < 5; ++i) {
     straight.accumulate(places, species, 20.0);
     stopped.accumulate(places, species, 20.0);
-    stop_and_go_on(stopped, PairMixing(counts_of(species, 2), 5, 10, 2));
+    stop_and_go_on(stopped, PairMixing(2, 5, 10, 2));
   }
   EXPECT_EQ(state(straight), state(stopped));
   expect_every_truncation_found(stopped);
-  EXPECT_THROW(PairMixing({29, 3}, 5, 10, 2).accumulate(places, species, 20.0), std::logic_error);
+  EXPECT_THROW(PairMixing(1, 5, 10, 2).accumulate(places, species, 20.0), std::out_of_range);
 }
 
 }  // namespace

@@ -93,7 +93,7 @@ scene::RunPlan everything() {
   plan.system.rod.n_beads = 7;
   plan.system.rod.length = 2.5;
   plan.system.n_rods = 40;
-  plan.system.added[0] = AddedRods{{0.8, 0.8, 0.8, 1}, 5};
+  plan.system.added[0] = plan.system.added[1] = AddedRods{{0.8, 0.8, 0.8, 1}, 5};
   plan.system.box_side = 14;
   plan.system.dt = 2e-5;
   plan.measure_time = 0.4;
@@ -172,9 +172,10 @@ TEST(FilesPage, NamesEveryPartOfTheTrajectoryWithItsUnit) {
   const auto documented = rows_of("trajectory.h5");
   const auto written = data_sets(files().trajectory());
   for (const auto& [path, unit] : written) {
-    // one data set under several names
-    const std::string name =
+    // one data set under several names, and the third species as the second
+    std::string name =
         std::regex_replace(path, std::regex("/(image|velocity|orientation|box/edges)/(step|time)"), "/position/$2");
+    name = std::regex_replace(name, std::regex("species_3"), "species_2");
     const auto row = documented.find(name);
     ASSERT_NE(row, documented.end()) << path << " is not in docs/files.md";
     EXPECT_EQ(row->second.unit, unit) << path;

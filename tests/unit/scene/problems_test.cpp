@@ -38,6 +38,13 @@ TEST(Problems, ContactsOfRodsThatAreNotThere) {
             "about rods_3, which the scene does not have; add rods_3 or remove the key");
 }
 
+TEST(Problems, NeighboursBeyondHalfTheBox) {
+  EXPECT_EQ(problem_of(R"({"box": {"side": 20}, "measure": {"mixing": {"distance": 10.1}}})"),
+            "run.json:1:58: /measure/mixing/distance: neighbours at 10.1 mm are farther than half the box, 10 mm: "
+            "distances have no nearest image there");
+  EXPECT_EQ(plan_of(R"({"measure": {"mixing": {}}})").mixing->distance, 4.5);
+}
+
 TEST(Problems, MapsBeyondHalfTheBox) {
   EXPECT_EQ(problem_of(R"({"box": {"side": 20}, "measure": {"pairs": {"range": 10.1}}})"),
             "run.json:1:54: /measure/pairs/range: a map of 10.1 mm each way reaches beyond half the box, 10 mm: "
