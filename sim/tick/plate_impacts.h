@@ -29,8 +29,8 @@ struct LeftByLanes {
 
 /// Phase 1 of a tick for up to kDoubleLanes rods of one species, but for side walls. `at_tick` gets the pose of each
 /// rod and, where a bead is in a plate, its motion. The lanes give impulses too where plates act as they usually do:
-/// with friction, by Newton's law with constant restitution, at the end of the tick, without noise, and strong enough to
-/// throw rods. Otherwise they find the beads only.
+/// with friction, by Newton's law with constant restitution, at the end of the tick, without noise, and strong enough
+/// to throw rods. Otherwise they find the beads only.
 LeftByLanes meet_plates_in_lanes(std::span<const int> rods, const std::vector<Flight>& flights,
                                  std::vector<RodAtTick>& at_tick, const PlateState& plates, Tick now,
                                  const TickRules& rules, Counters& counters);
