@@ -29,7 +29,8 @@ void OrientationCorrelation::accumulate(std::span<const Vec3> positions, std::sp
                                         const Region& region) {
   SHAKEN_CHECK(positions.size() == directors.size(), "one position for each director");
   const Box& box = region.box();
-  SHAKEN_CHECK(!region.is_periodic() || 2.0 * r_max_ <= box.shorter() * (1.0 + 1e-12),
+  const auto has_room = [&](double period) { return period == 0 || 2.0 * r_max_ <= period * (1.0 + 1e-12); };
+  SHAKEN_CHECK(has_room(region.period().x()) && has_room(region.period().y()),
                "distances beyond half the box have no nearest image");
   std::vector<double> xs, ys, cs, ss;
   for (std::size_t i = 0; i < positions.size(); ++i) {
@@ -43,9 +44,9 @@ void OrientationCorrelation::accumulate(std::span<const Vec3> positions, std::sp
   const std::size_t n = xs.size();
   const double bins_per_mm = static_cast<double>(pairs_.size()) / r_max_;
   const std::size_t stride = std::max<std::size_t>(1, (n + kMaxReferencesOfG2 - 1) / kMaxReferencesOfG2);
-  // Within walls no image is nearer.
-  const Box period = region.is_periodic() ? box : Box(std::numeric_limits<double>::infinity());
-  const double period_x = period.x(), period_y = period.y();
+  // Where walls stand no image is nearer.
+  const auto or_endless = [](double side) { return side > 0 ? side : std::numeric_limits<double>::infinity(); };
+  const double period_x = or_endless(region.period().x()), period_y = or_endless(region.period().y());
   // In two passes, the first without branches: it becomes vector instructions. What is too far goes into a bin of its
   // own.
   const auto too_far = static_cast<int>(pairs_.size());
@@ -74,10 +75,10 @@ void OrientationCorrelation::accumulate(std::span<const Vec3> positions, std::sp
       ++pairs[bin];
       sums[bin] += values[j];
     }
-    if (!region.is_periodic()) expect({xi, yi}, region, others / region.area());
+    if (region.has_walls()) expect({xi, yi}, region, others / region.area());
   }
   // In a periodic box every place sees the same.
-  if (region.is_periodic()) expect(Vec2::Zero(), region, references * others / region.area());
+  if (!region.has_walls()) expect(Vec2::Zero(), region, references * others / region.area());
   for (std::size_t bin = 0; bin < pairs_.size(); ++bin) {
     pairs_[bin] += pairs[bin];
     sums_[bin] += sums[bin];
