@@ -21,7 +21,7 @@ ALLOWED = {
     "base/keys": [],
     "proto": ["sim/cell.h"],
     # everything outside sim/ sees simulations, not steppers
-    "analysis": ["base/estimate.h", "sim/system.h", "sim/cell.h"],
+    "analysis": ["base/estimate.h", "sim/system.h", "sim/cell.h", "sim/motion/side_walls.h"],
     "scene": ["base/keys", "sim/rod", "sim/cell.h", "sim/system.h", "sim/physics_version.h"],
     # whether rods can be placed, or a run begin where another ends, the simulation itself says
     "scene/stages.cpp": ["scene", "base/keys", "sim/initial.h"],
@@ -62,6 +62,8 @@ ALLOWED = {
     "client/picture_options.cpp": ["client", "base", "render/style_keys.h"],
     # where rods are too thin for the terminal, their director is drawn
     "client/watch/director_cells.cpp": ["client", "analysis/director_field.h", "scene/measure_plan.h"],
+    # walls are drawn where they are
+    "client/watch/rod_samples.cpp": ["client", "sim/motion/side_walls.h"],
     "client/verbs/schema.cpp": ["client", "scene", "render/style_file.h"],
     "client": ["proto", "base", "scene", "run/files", "run/export", "sim/rod", "sim/cell.h", "sim/system.h"],
     # the page in a browser: what the terminal's live view makes of messages, the daemon's way of HTTP, a run's files

@@ -65,14 +65,13 @@ void TrackSums::save(StateWriter& writer) const { writer.put(std::bit_cast<SumsA
 void TrackSums::restore(StateReader& reader) { *this = std::bit_cast<TrackSums>(read<SumsAsArray>(reader)); }
 
 DefectTracks::DefectTracks(const Settings& settings) : settings_(settings) {
-  SHAKEN_CHECK(settings.box.shorter() > 0 && settings.area > 0 && settings.interval > 0 && settings.max_step > 0,
-               "tracks need a box, samples and a cut-off");
+  SHAKEN_CHECK(settings.area > 0 && settings.interval > 0 && settings.max_step > 0,
+               "tracks need room, samples and a cut-off");
 }
 
 Vec2 DefectTracks::shortest(const Vec2& difference) const {
-  if (!settings_.periodic) return difference;
-  const Box& box = settings_.box;
-  return {std::remainder(difference.x(), box.x()), std::remainder(difference.y(), box.y())};
+  const auto folded = [](double way, double side) { return side > 0 ? std::remainder(way, side) : way; };
+  return {folded(difference.x(), settings_.period.x()), folded(difference.y(), settings_.period.y())};
 }
 
 double DefectTracks::cut_off(double charge, std::span<const Defect> defects) const {

@@ -91,12 +91,11 @@ struct TrackSummary {
 class DefectTracks {
  public:
   struct Settings {
-    Box box;
-    double area;           ///< of the arena [mm^2]
-    double interval;       ///< between samples [s]
-    double max_step;       ///< [mm]
-    double min_lifetime;   ///< [s]
-    bool periodic = true;  ///< distances are those to the nearest image; or plain ones, within walls
+    Vec2 period;          ///< distances are those to the nearest image; 0: plain ones, where walls stand [mm]
+    double area;          ///< of the arena [mm^2]
+    double interval;      ///< between samples [s]
+    double max_step;      ///< [mm]
+    double min_lifetime;  ///< [s]
   };
   explicit DefectTracks(const Settings& settings);
 

@@ -118,11 +118,12 @@ double core_direction(const DirectorField& field, const Defect& defect, double r
 std::vector<Defect> find_defects(const DirectorField& field) {
   const auto [columns, rows] = field.grid();
   const std::vector<int> charges = twice_charges(field);
-  // Within walls no plaquette reaches round the box.
-  const int last = field.region().is_periodic() ? 0 : 1;
+  // Where walls end the region no plaquette reaches round the box.
+  const Vec2 period = field.region().period();
+  const int last_column = period.x() > 0 ? columns : columns - 1, last_row = period.y() > 0 ? rows : rows - 1;
   std::vector<Defect> defects;
-  for (int j = 0; j < rows - last; ++j) {
-    for (int i = 0; i < columns - last; ++i) {
+  for (int j = 0; j < last_row; ++j) {
+    for (int i = 0; i < last_column; ++i) {
       const int charge = charges[static_cast<std::size_t>(j * columns + i)];
       if (charge != 0 && is_defined(field, i, j)) defects.push_back({core_position(field, i, j), 0.5 * charge, 0.0});
     }

@@ -44,12 +44,12 @@ void fill_reach(Reach& reach, double place, double mesh, int n, double smoothing
 
 /// What the Gaussian about each node finds of the nodes within the region (rows * columns).
 std::vector<double> covered(const std::vector<bool>& inside, const Grid& grid, const Vec2& mesh, double smoothing,
-                            bool periodic) {
+                            const std::array<bool, 2>& periodic) {
   const auto m = static_cast<std::size_t>(grid.columns), n = static_cast<std::size_t>(grid.rows);
   std::vector<double> rows(m * n, 0.0), all(m * n, 0.0);
   Reach reach;
   for (std::size_t i = 0; i < m; ++i) {
-    fill_reach(reach, static_cast<double>(i), mesh.x(), grid.columns, smoothing, periodic);
+    fill_reach(reach, static_cast<double>(i), mesh.x(), grid.columns, smoothing, periodic[0]);
     for (std::size_t k = 0; k < reach.node.size(); ++k) {
       const auto from = static_cast<std::size_t>(reach.node[k]);
       for (std::size_t j = 0; j < n; ++j) {
@@ -58,7 +58,7 @@ std::vector<double> covered(const std::vector<bool>& inside, const Grid& grid, c
     }
   }
   for (std::size_t j = 0; j < n; ++j) {
-    fill_reach(reach, static_cast<double>(j), mesh.y(), grid.rows, smoothing, periodic);
+    fill_reach(reach, static_cast<double>(j), mesh.y(), grid.rows, smoothing, periodic[1]);
     for (std::size_t k = 0; k < reach.node.size(); ++k) {
       const std::size_t from = static_cast<std::size_t>(reach.node[k]) * m;
       for (std::size_t i = 0; i < m; ++i) all[j * m + i] += reach.weight[k] * rows[from + i];
@@ -89,7 +89,7 @@ DirectorField::DirectorField(std::span<const Vec3> positions, std::span<const Ve
   SHAKEN_CHECK(std::min(grid.columns, grid.rows) >= 2 && smoothing > 0.0, "grid and smoothing must be positive");
   const std::size_t n_nodes = grid.nodes();
   const Vec2 box = region.box().sides(), mesh = this->mesh();
-  const bool periodic = region.is_periodic();
+  const std::array periodic{region.period().x() > 0, region.period().y() > 0};
   q_xx_.assign(n_nodes, 0.0);
   q_xy_.assign(n_nodes, 0.0);
   std::vector<double> weight(n_nodes, 0.0);
@@ -102,8 +102,8 @@ DirectorField::DirectorField(std::span<const Vec3> positions, std::span<const Ve
     // A Gaussian is a product, so a rod costs exponentials for its lines only, not for its nodes.
     const Vec2 at = positions[i_rod].head<2>();
     const Vec2 place = at - box.cwiseProduct(at.cwiseQuotient(box).array().floor().matrix());
-    fill_reach(x, place.x() / mesh.x(), mesh.x(), grid.columns, smoothing, periodic);
-    fill_reach(y, place.y() / mesh.y(), mesh.y(), grid.rows, smoothing, periodic);
+    fill_reach(x, place.x() / mesh.x(), mesh.x(), grid.columns, smoothing, periodic[0]);
+    fill_reach(y, place.y() / mesh.y(), mesh.y(), grid.rows, smoothing, periodic[1]);
     for (std::size_t b = 0; b < y.node.size(); ++b) {
       const std::size_t row = index(0, y.node[b]);
       for (std::size_t a = 0; a < x.node.size(); ++a) {
@@ -116,7 +116,7 @@ DirectorField::DirectorField(std::span<const Vec3> positions, std::span<const Ve
     }
   }
   defined_.assign(n_nodes, true);
-  if (!periodic) {
+  if (region.has_walls()) {
     for (int j = 0; j < grid.rows; ++j) {
       for (int i = 0; i < grid.columns; ++i) defined_[index(i, j)] = region.contains(node(i, j));
     }
@@ -147,10 +147,12 @@ Vec2 DirectorField::q_at(const Vec2& position) const {
 }
 
 std::size_t DirectorField::index(int i, int j) const {
-  const auto on_grid = [this](int k, int n) {
-    return static_cast<std::size_t>(region_.is_periodic() ? wrapped(k, n) : std::clamp(k, 0, n - 1));
+  const Vec2 period = region_.period();
+  const auto on_grid = [](int k, int n, bool periodic) {
+    return static_cast<std::size_t>(periodic ? wrapped(k, n) : std::clamp(k, 0, n - 1));
   };
-  return on_grid(j, grid_.rows) * static_cast<std::size_t>(grid_.columns) + on_grid(i, grid_.columns);
+  return on_grid(j, grid_.rows, period.y() > 0) * static_cast<std::size_t>(grid_.columns) +
+         on_grid(i, grid_.columns, period.x() > 0);
 }
 
 }  // namespace shaken::analysis

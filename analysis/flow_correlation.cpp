@@ -43,9 +43,9 @@ void FlowSums::accumulate(std::span<const Vec2> places, std::span<const Vec2> ve
   rods_ += static_cast<std::int64_t>(n);
   const double bins_per_mm = static_cast<double>(pairs_.size()) / r_max_;
   const double farthest = std::max(r_max_, near_distance_);
-  // Within walls no image is nearer.
-  const Box period = region.is_periodic() ? region.box() : Box(std::numeric_limits<double>::infinity());
-  const double period_x = period.x(), period_y = period.y();
+  // Where walls stand no image is nearer.
+  const auto or_endless = [](double side) { return side > 0 ? side : std::numeric_limits<double>::infinity(); };
+  const double period_x = or_endless(region.period().x()), period_y = or_endless(region.period().y());
   const std::size_t stride = std::max<std::size_t>(1, (n + kMaxReferencesOfFlow - 1) / kMaxReferencesOfFlow);
   for (std::size_t i = static_cast<std::size_t>(calls_) % stride; i < n; i += stride) {
     // A pass by itself, without branches: it becomes vector instructions.

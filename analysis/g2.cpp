@@ -21,8 +21,7 @@ void OrientationCorrelation::accumulate(std::span<const Vec3> positions, std::sp
                                         const Region& region) {
   SHAKEN_CHECK(positions.size() == directors.size(), "one position for each director");
   const Box& box = region.box();
-  SHAKEN_CHECK(!region.is_periodic() || 2.0 * r_max_ <= box.shorter() * (1.0 + 1e-12),
-               "distances beyond half the box have no nearest image");
+  SHAKEN_CHECK(has_room(region, r_max_), "distances beyond half the box have no nearest image");
   std::vector<double> xs, ys, cs, ss;
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const Vec2 angle = double_angle(directors[i]);
@@ -52,10 +51,10 @@ void OrientationCorrelation::accumulate(std::span<const Vec3> positions, std::sp
       ++pairs[bin];
       sums[bin] += values[j];
     }
-    if (!region.is_periodic()) add_gas(expected_, r_max_, {xi, yi}, region, others / region.area());
+    if (region.has_walls()) add_gas(expected_, r_max_, {xi, yi}, region, others / region.area());
   }
   // In a periodic box every place sees the same.
-  if (region.is_periodic()) add_gas(expected_, r_max_, Vec2::Zero(), region, references * others / region.area());
+  if (!region.has_walls()) add_gas(expected_, r_max_, Vec2::Zero(), region, references * others / region.area());
   for (std::size_t bin = 0; bin < pairs_.size(); ++bin) {
     pairs_[bin] += pairs[bin];
     sums_[bin] += sums[bin];

@@ -31,7 +31,7 @@ void PairMixing::accumulate(std::span<const Vec3> positions, std::span<const std
   const std::size_t n = positions.size(), n_species = rods_.size();
   const std::size_t n_bins = pairs_.size() / kinds(n_species);
   SHAKEN_CHECK(species_of.empty() || species_of.size() == n, "a species for each rod");
-  SHAKEN_CHECK(!region.is_periodic() || 2 * std::max(r_max_, near_) <= region.box().shorter() * (1 + 1e-12),
+  SHAKEN_CHECK(has_room(region, std::max(r_max_, near_)),
                "distances beyond half the box have no nearest image");
   const auto of = [&](std::size_t i) { return species_of.empty() ? std::size_t{0} : std::size_t{species_of[i]}; };
   std::vector<double> xs, ys;
@@ -66,9 +66,9 @@ void PairMixing::accumulate(std::span<const Vec3> positions, std::span<const std
       if (bin < n_bins) ++pairs_[kind * n_bins + bin];
       if (near[j] == 0) ++neighbours_[kind];
     }
-    if (!region.is_periodic()) expect(a, {xs[i], ys[i]}, 1);
+    if (region.has_walls()) expect(a, {xs[i], ys[i]}, 1);
   }
-  if (region.is_periodic()) {
+  if (!region.has_walls()) {
     for (std::size_t a = 0; a < n_species; ++a) expect(a, Vec2::Zero(), references[a]);
   }
   for (std::size_t a = 0; a < n_species; ++a) rods_[a] += rods[a];

@@ -43,7 +43,7 @@ NumberFluctuations::NumberFluctuations(const Box& box, double area, double fit_f
     Size size{m, sides.prod() / area, {}, n_boxes, 0};
     for (int j = 0; j < m; ++j) {
       for (int i = 0; i < m; ++i) {
-        const bool here = !counts || counts(sides.cwiseProduct(Vec2(i + 0.5, j + 0.5)), sides.x());
+        const bool here = !counts || counts(sides.cwiseProduct(Vec2(i + 0.5, j + 0.5)), sides);
         size.place.push_back(here ? static_cast<std::int32_t>(size.n_boxes++) : -1);
       }
     }

@@ -38,11 +38,11 @@ class NumberFluctuations : public Summed<NumberFluctuations> {
   /// Exponents are fitted to so many sizes of boxes at least.
   static constexpr std::size_t kMinSizes = 3;
 
-  /// `counts(centre, side)` says whether a box counts: only those wholly inside of walls should. Without it all do.
+  /// `counts(centre, sides)` says whether a box counts: only those wholly inside of walls should. Without it all do.
   /// `area` is that of the arena [mm^2], the box's without walls.
-  /// `side` is that along x. Exponents are fitted to boxes whose shorter side is `fit_from` [mm] or more: two rod
+  /// Exponents are fitted to boxes whose shorter side is `fit_from` [mm] or more: two rod
   /// lengths, as what is smaller counts single rods and their perimeters, not density.
-  using Where = std::function<bool(const Vec2& centre, double side)>;
+  using Where = std::function<bool(const Vec2& centre, const Vec2& sides)>;
   NumberFluctuations(const Box& box, double area, double fit_from, const Where& counts = {});
 
   /// Centres (n_rods) [mm], in the box or one of its images; not finite ones are left out.

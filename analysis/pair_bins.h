@@ -20,13 +20,20 @@ inline std::size_t reference_stride(std::size_t n) {
   return std::max<std::size_t>(1, (n + kMaxReferences - 1) / kMaxReferences);
 }
 
+/// Whether places up to `r_max` [mm] apart have one nearest image.
+inline bool has_room(const Region& region, double r_max) {
+  const Vec2 period = region.period();
+  const auto is_wide = [&](double side) { return side == 0 || 2.0 * r_max <= side * (1.0 + 1e-12); };
+  return is_wide(period.x()) && is_wide(period.y());
+}
+
 /// Bins of the distances from one place to others.
 class PairBins {
  public:
   PairBins(std::size_t bins, double r_max, const Region& region)
       : region_(region),
-        // within walls no image is nearer
-        period_(region.is_periodic() ? region.box() : Box(std::numeric_limits<double>::infinity())),
+        period_x_(or_endless(region.period().x())),
+        period_y_(or_endless(region.period().y())),
         bins_per_mm_(static_cast<double>(bins) / r_max),
         too_far_(static_cast<int>(bins)) {}
 
@@ -34,7 +41,7 @@ class PairBins {
   /// for what is too far, or out of sight.
   void find(double x, double y, std::span<const double> xs, std::span<const double> ys, std::vector<int>& bins) const {
     const std::size_t n = xs.size();
-    const double period_x = period_.x(), period_y = period_.y();
+    const double period_x = period_x_, period_y = period_y_;
     for (std::size_t j = 0; j < n; ++j) {  // without branches: it becomes vector instructions
       const double dx = std::abs(x - xs[j]), dy = std::abs(y - ys[j]);
       const double to_x = std::min(dx, period_x - dx), to_y = std::min(dy, period_y - dy);
@@ -47,8 +54,11 @@ class PairBins {
   }
 
  private:
+  /// Where walls stand no image is nearer.
+  static double or_endless(double period) { return period > 0 ? period : std::numeric_limits<double>::infinity(); }
+
   const Region& region_;
-  Box period_;
+  double period_x_, period_y_;
   double bins_per_mm_;
   int too_far_;
 };

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/core/check.h"
+#include "sim/motion/side_walls.h"
 
 namespace shaken::analysis {
 namespace {
@@ -20,10 +22,11 @@ double quarter_in_rectangle(double width, double height, double r) {
   return height * flat + below_arc(right) - below_arc(flat);
 }
 
-double in_square(double half, const Vec2& place, double r) {
+/// Of a rectangle round the centre, whose half sides are `half`; they may be infinite.
+double in_rectangle(const Vec2& half, const Vec2& place, double r) {
   double area = 0;
-  for (const double width : {half - place.x(), half + place.x()}) {
-    for (const double height : {half - place.y(), half + place.y()}) {
+  for (const double width : {half.x() - place.x(), half.x() + place.x()}) {
+    for (const double height : {half.y() - place.y(), half.y() + place.y()}) {
       if (width > 0 && height > 0) area += quarter_in_rectangle(width, height, r);
     }
   }
@@ -68,6 +71,67 @@ double in_ring(double inner, double outer, double distance, double r) {
   return 2 * half;
 }
 
+double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+/// What a place at the origin has within a convex border that is given piece by piece, counter-clockwise, and within a
+/// circle of radius r about it: sectors of that circle where the border is not nearer.
+class InConvex {
+ public:
+  explicit InConvex(double r) : r_(r) {}
+
+  void add_line(const Vec2& from, const Vec2& to) {
+    // the part of it within the circle
+    const Vec2 way = to - from;
+    const double a = way.squaredNorm(), b = from.dot(way), root2 = b * b - a * (from.squaredNorm() - r_ * r_);
+    if (!(a > 0 && root2 > 0)) return;
+    const double begin = std::max(0.0, (-b - std::sqrt(root2)) / a), end = std::min(1.0, (-b + std::sqrt(root2)) / a);
+    if (begin < end) add_piece(from + begin * way, from + end * way, 0.0);
+  }
+
+  /// Half a circle of radius `radius` about `centre`, from the angle `first` on.
+  void add_half_circle(const Vec2& centre, double radius, double first) {
+    // within the other circle are the angles further than `apart` from that of the centre
+    const double distance = centre.norm();
+    double apart = radius <= r_ ? 0.0 : kPi;
+    if (distance > 0) {
+      const double cosine = (r_ * r_ - distance * distance - radius * radius) / (2 * distance * radius);
+      apart = std::acos(std::clamp(cosine, -1.0, 1.0));
+    }
+    const double outwards = std::atan2(centre.y(), centre.x());
+    for (int turn = -2; turn <= 2; ++turn) {
+      const double begin = std::max(first, outwards + 2 * kPi * turn + apart);
+      const double end = std::min(first + kPi, outwards + 2 * kPi * (turn + 1) - apart);
+      const auto point = [&](double angle) { return Vec2(centre + radius * Vec2(std::cos(angle), std::sin(angle))); };
+      if (begin < end) add_piece(point(begin), point(end), radius * radius * (end - begin - std::sin(end - begin)));
+    }
+  }
+
+  double area() const { return 0.5 * (twice_ + r_ * r_ * std::max(0.0, angle_)); }
+
+ private:
+  /// `bulge`: twice the area between the piece and the straight line.
+  void add_piece(const Vec2& from, const Vec2& to, double bulge) {
+    const double turned = cross(from, to), along = from.dot(to);
+    twice_ += turned + bulge;
+    // seen from within it goes round forwards; by more than half a turn only where its ends are not on one side
+    angle_ -= turned < 0 && along > 0 ? 0.0 : std::atan2(turned, along) + (turned < 0 ? 2 * kPi : 0.0);
+  }
+
+  double r_;
+  double twice_ = 0;
+  double angle_ = 2 * kPi;  ///< in which the border is not nearer than r
+};
+
+/// Within a stadium, whose round ends are `end` from the centre, of a place that is not outside of it.
+double in_stadium(double end, double radius, const Vec2& place, double r) {
+  InConvex sum(r);
+  sum.add_half_circle(Vec2(end, 0) - place, radius, -kPi / 2);
+  sum.add_line(Vec2(end, radius) - place, Vec2(-end, radius) - place);
+  sum.add_half_circle(Vec2(-end, 0) - place, radius, kPi / 2);
+  sum.add_line(Vec2(-end, -radius) - place, Vec2(end, -radius) - place);
+  return sum.area();
+}
+
 }  // namespace
 
 Region::Region(const Box& box, const std::optional<SideWalls>& walls) : box_(box), walls_(walls) {
@@ -75,16 +139,13 @@ Region::Region(const Box& box, const std::optional<SideWalls>& walls) : box_(box
 }
 
 bool Region::contains(const Vec2& place) const {
-  if (!walls_) return true;
-  const Vec2 from_centre = (place - box_.sides() / 2).cwiseAbs();
-  if (walls_->arena == Arena::kSquare) return from_centre.maxCoeff() <= walls_->size / 2;
-  const double distance = from_centre.norm();
-  return distance <= walls_->size / 2 && distance >= hidden_radius();
+  return !walls_ || distance_to_walls(*walls_, box_, Vec3(place.x(), place.y(), 0)) >= 0;
 }
 
 Vec2 Region::shortest(const Vec2& difference) const {
-  if (walls_) return difference;
-  return {std::remainder(difference.x(), box_.x()), std::remainder(difference.y(), box_.y())};
+  const Vec2 after = period();
+  const auto folded = [](double way, double side) { return side > 0 ? std::remainder(way, side) : way; };
+  return {folded(difference.x(), after.x()), folded(difference.y(), after.y())};
 }
 
 bool Region::in_sight(const Vec2& a, const Vec2& b) const {
@@ -102,8 +163,19 @@ double Region::area_in_sight(const Vec2& place, double radius) const {
   if (radius <= 0) return 0;
   if (!walls_) return kPi * radius * radius;
   const Vec2 from_centre = place - box_.sides() / 2;
-  if (walls_->arena == Arena::kSquare) return in_square(walls_->size / 2, from_centre, radius);
-  return in_ring(hidden_radius(), walls_->size / 2, from_centre.norm(), radius);
+  const double half = walls_->size / 2;
+  switch (walls_->arena) {
+    case Arena::kSquare:
+      return in_rectangle(Vec2(half, half), from_centre, radius);
+    case Arena::kChannel:
+      return in_rectangle(Vec2(std::numeric_limits<double>::infinity(), half), Vec2(0, from_centre.y()), radius);
+    case Arena::kStadium:
+      return in_stadium(walls_->length / 2, half, from_centre, radius);
+    case Arena::kDisc:
+    case Arena::kAnnulus:
+      break;
+  }
+  return in_ring(hidden_radius(), half, from_centre.norm(), radius);
 }
 
 }  // namespace shaken::analysis

@@ -6,6 +6,16 @@
 
 namespace shaken::proto {
 
+namespace {
+
+/// What an arena has beside its size, which goes by the name that it had when an annulus alone had any [mm].
+double second_length(const SideWalls& walls) {
+  if (walls.arena == Arena::kStadium) return walls.length;
+  return walls.arena == Arena::kAnnulus ? walls.inner : 0;
+}
+
+}  // namespace
+
 frame_static_t encode_cell(const Cell& cell, std::size_t n_rods, const std::string& label) {
   frame_static_t message{};
   message.n_rods = static_cast<std::int32_t>(n_rods);
@@ -24,7 +34,7 @@ frame_static_t encode_cell(const Cell& cell, std::size_t n_rods, const std::stri
   if (cell.walls) {
     message.arena = name_of(cell.walls->arena);
     message.arena_size_mm = cell.walls->size;
-    message.arena_inner_mm = cell.walls->arena == Arena::kAnnulus ? cell.walls->inner : 0;
+    message.arena_inner_mm = second_length(*cell.walls);
   }
   message.label = label;
   return message;
@@ -42,7 +52,8 @@ std::optional<Cell> decode_cell(const frame_static_t& message) {
   }
   if (!offsets.empty() || !radii.empty()) return std::nullopt;
   if (const std::optional<Arena> arena = arena_of(message.arena)) {
-    cell.walls = SideWalls{.arena = *arena, .size = message.arena_size_mm, .inner = message.arena_inner_mm};
+    cell.walls = SideWalls{.arena = *arena, .size = message.arena_size_mm, .inner = 0};
+    (*arena == Arena::kStadium ? cell.walls->length : cell.walls->inner) = message.arena_inner_mm;
   }
   return cell;
 }

@@ -55,7 +55,7 @@ Camera into_the_gap(const RodPicture& picture, const PictureStyle& style, double
   const double reach = camera.half.x() * camera.farthest;
   camera.low = Vec2(at.x() - reach, at.y());
   camera.high = Vec2(at.x() + reach, camera.eye.y() + camera.farthest);
-  if (!picture.cell.walls) camera.period = picture.cell.box.sides();
+  camera.period = picture.cell.period();
   return camera;
 }
 

@@ -15,12 +15,11 @@ Vec2 DefectLife::at(double when) const {
 
 DefectLinks::DefectLinks(const analysis::Region& region, double rod_length)
     : region_(region),
-      tracks_({.box = region.box(),
+      tracks_({.period = region.period(),
                .area = region.area(),
                .interval = 1,  // of its statistics, which are not asked for; as is the life that counts as lasting
                .max_step = rod_length,
-               .min_lifetime = 0,
-               .periodic = region.is_periodic()}) {}
+               .min_lifetime = 0}) {}
 
 void DefectLinks::add(double time, const std::vector<analysis::Defect>& defects) {
   tracks_.accumulate(time, defects);
@@ -29,7 +28,7 @@ void DefectLinks::add(double time, const std::vector<analysis::Defect>& defects)
   for (std::size_t i = 0; i < defects.size(); ++i) {
     DefectLife& life = lives_[static_cast<std::size_t>(ids[i])];
     Vec2 place = defects[i].position;
-    if (!life.position.empty() && region_.is_periodic()) {
+    if (!life.position.empty()) {
       const Vec2 last = life.position.back(), way = place - last;
       place = last + region_.shortest(way);
     }

@@ -93,10 +93,11 @@ Notes settings_of(const RodPicture& picture) {
     settings.emplace_back("L", fmt::format("{:.4g} \u00d7 {:.4g} mm", cell.box.x(), cell.box.y()));
   }
   if (cell.walls) {
-    const char* const arena = cell.walls->arena == Arena::kDisc     ? "disc"
-                              : cell.walls->arena == Arena::kSquare ? "square"
-                                                                    : "annulus";
-    settings.emplace_back("", fmt::format("{} of {:.4g} mm", arena, cell.walls->size));
+    const SideWalls& walls = *cell.walls;
+    std::string size = fmt::format("{:.4g}", walls.size);
+    if (walls.arena == Arena::kStadium) size = fmt::format("{:.4g} \u00d7 {}", walls.size + walls.length, size);
+    if (walls.arena == Arena::kChannel) settings.emplace_back("L", fmt::format("{:.4g} mm", cell.box.x()));
+    settings.emplace_back("", fmt::format("{} of {} mm", name_of(walls.arena), size));
   }
   return settings;
 }

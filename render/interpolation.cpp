@@ -27,7 +27,8 @@ Snapshot between(const Snapshot& before, const Snapshot& after, double time, con
     if (!beads.is_polar() && turned.dot(n) < 0) turned = -turned;
     if (way.norm() > beads.length() || turned.dot(n) < kLeastCosine) continue;
     Vec3 at = from + share * way;
-    for (int axis = 0; axis < 2 && !cell.walls; ++axis) {
+    for (int axis = 0; axis < 2; ++axis) {
+      if (!(cell.period()[axis] > 0)) continue;
       const double image = std::floor(at[axis] / cell.box[axis]);
       now.image[i][static_cast<std::size_t>(axis)] = static_cast<std::int32_t>(image);
       at[axis] -= image * cell.box[axis];

@@ -21,7 +21,7 @@ std::vector<double> densities(const Cell& box, const Frame& frame, double width)
   const std::size_t n = frame.position.size();
   const double reach = 3 * width;
   const Box& sides = box.box;
-  const bool is_periodic = !box.walls;
+  const Vec2 period = box.period();
   // Cells at least as wide as the reach, so that neighbours lie in nine of them; fewer than three would count twice.
   const auto cells_along = [&](double side) {
     const int cells = static_cast<int>(std::clamp(std::floor(side / reach), 1.0, 512.0));
@@ -52,7 +52,9 @@ std::vector<double> densities(const Cell& box, const Frame& frame, double width)
     double sum = 0;
     const auto add = [&](std::size_t j) {
       Vec2 d = place[j] - place[i];
-      if (is_periodic) d = Vec2(analysis::nearest_image(d.x(), sides.x()), analysis::nearest_image(d.y(), sides.y()));
+      for (int axis = 0; axis < 2; ++axis) {
+        if (period[axis] > 0) d[axis] = analysis::nearest_image(d[axis], period[axis]);
+      }
       const double square = d.squaredNorm();
       if (square < reach * reach) sum += area[box.species_of(j)] * std::exp(-square / (2 * width * width));
     };

@@ -87,8 +87,15 @@ void arena_path(cairo_t* cr, const Plane& plane, const SideWalls& walls, const B
     cairo_rectangle(cr, middle.x() - reach, middle.y() - reach, 2 * reach, 2 * reach);
     return;
   }
+  if (walls.arena == Arena::kChannel) {  // its ends are out of sight
+    cairo_rectangle(cr, plane.box().x - reach, middle.y() - reach, plane.box().width + 2 * reach, 2 * reach);
+    return;
+  }
+  const double end = walls.arena == Arena::kStadium ? walls.length / 2 * plane.scale() : 0.0;
   cairo_new_sub_path(cr);
-  cairo_arc(cr, middle.x(), middle.y(), reach, 0, 2 * kPi);
+  cairo_arc(cr, middle.x() + end, middle.y(), reach, -kPi / 2, kPi / 2);
+  cairo_arc(cr, middle.x() - end, middle.y(), reach, kPi / 2, 3 * kPi / 2);
+  cairo_close_path(cr);
   if (walls.arena != Arena::kAnnulus) return;
   cairo_new_sub_path(cr);
   cairo_arc(cr, middle.x(), middle.y(), walls.inner / 2 * plane.scale(), 0, 2 * kPi);
@@ -209,7 +216,7 @@ void draw_streamlines(const Canvas& canvas, const Plane& plane, const analysis::
     const Vec2 middle = (low + high) / 2;
     View view = plane.view();
     // the field goes on beyond the box, also where rods do not
-    view.period = field.region().is_periodic() ? field.region().box().sides() : Vec2(0, 0);
+    view.period = field.region().period();
     for_images(view, middle, (high - low).maxCoeff() / 2, [&](const Vec2& at) {
       for (const Vec2& point : line) {
         const Vec2 p = plane.pixel(at + point - middle);

@@ -125,11 +125,13 @@ void set_scene(GLuint program, const Cell& cell, const Frame& frame, const Pictu
   pair("plate", plate.x(), plate.y());
   number("line", std::max(1.0, height / 480.0) * camera.pixel(height));
   const Arena arena = cell.walls ? cell.walls->arena : Arena::kSquare;
-  const Box size = cell.walls ? Box(cell.walls->size) : cell.box;
-  glUniform1i(at("arena"), arena == Arena::kDisc ? 0 : arena == Arena::kSquare ? 1 : 2);
+  const bool is_channel = arena == Arena::kChannel;  // which ends where the plates do
+  const Box size = is_channel ? Box(plate.x(), cell.walls->size) : cell.walls ? Box(cell.walls->size) : cell.box;
+  glUniform1i(at("is_round"), arena == Arena::kSquare || is_channel ? 0 : 1);
   pair("middle", cell.box.x() / 2 - camera.eye.x(), cell.box.y() / 2 - camera.eye.y());
   pair("size", size.x(), size.y());
-  number("inner", cell.walls ? cell.walls->inner : 0);
+  number("inner", arena == Arena::kAnnulus ? cell.walls->inner : 0);
+  number("between", arena == Arena::kStadium ? cell.walls->length : 0);
   const PageColours colours = ground_colours(style);
   three("page", colours.page);
   three("floor_colour", colours.floor);

@@ -22,10 +22,11 @@ vec2 corner() { return vec2(gl_VertexID & 1, gl_VertexID >> 1); }
 
 /// What fragment shaders know of the floor: where it ends (ENDS), and how all fades with depth (FADES).
 inline constexpr const char* kFloor = R"(#version 330 core
-uniform int arena;       // 0 disc, 1 rectangle, 2 annulus
+uniform bool is_round;   // the arena's ends; or it is a rectangle
 uniform vec2 middle;     // of the arena
-uniform vec2 size;       // diameter, or sides of the rectangle
-uniform float inner;     // diameter of the annulus' inner wall
+uniform vec2 size;       // diameter of the ends, or sides of the rectangle
+uniform float inner;     // diameter of the inner wall; 0: there is none
+uniform float between;   // distance of the ends' centres, along x
 uniform vec2 fade;       // depths where fading into the page begins and ends
 uniform vec3 page;
 uniform vec3 floor_colour;
@@ -36,10 +37,10 @@ float beyond(vec2 at) {
   return -1.0;
 #endif
   vec2 from_middle = at - middle;
-  float r = length(from_middle);
   vec2 past_sides = abs(from_middle) - 0.5 * size;
-  if (arena == 1) return max(past_sides.x, past_sides.y);
-  return arena == 2 ? max(r - 0.5 * size.x, 0.5 * inner - r) : r - 0.5 * size.x;
+  if (!is_round) return max(past_sides.x, past_sides.y);
+  float r = length(vec2(max(abs(from_middle.x) - 0.5 * between, 0.0), from_middle.y));
+  return max(r - 0.5 * size.x, 0.5 * inner - r);
 }
 vec3 faded(vec3 colour, float depth) {
 #ifndef FADES

@@ -29,7 +29,7 @@ View view_of(const RodPicture& picture, const PictureStyle& style) {
     return view;
   }
   view.side = box.longer() / std::max(style.zoom, 1.0);
-  if (!picture.cell.walls) view.period = box.sides();
+  view.period = picture.cell.period();
   if (const std::optional<std::size_t> rod = followed_rod(picture.frame, style)) {
     look_at(picture.frame.position[*rod].head<2>());
   } else if (style.followed_defect && picture.found.followed) {

@@ -30,16 +30,20 @@ bool is_in_view(const RodPicture& picture, const PictureStyle& style, const Vec2
 std::optional<std::size_t> followed_rod(const Frame& frame, const PictureStyle& style);
 
 /// Calls `visit(place)` for each image of `point` that lies in the rectangle or within `reach` of it; images are
-/// `period` apart each way, and none but the point itself if that is 0.
+/// `period` apart each way; there are none but the point itself along an axis where that is 0.
 template <class Visit>
 void for_images(const Vec2& low, const Vec2& high, const Vec2& period, const Vec2& point, double reach,
                 const Visit& visit) {
-  if (period.isZero()) {
-    if ((point - low).minCoeff() >= -reach && (high - point).minCoeff() >= -reach) visit(point);
-    return;
+  for (int axis = 0; axis < 2; ++axis) {
+    const bool is_near = point[axis] - low[axis] >= -reach && high[axis] - point[axis] >= -reach;
+    if (!(period[axis] > 0) && !is_near) return;
   }
-  const auto first = [&](int axis) { return std::ceil((low[axis] - reach - point[axis]) / period[axis]); };
-  const auto last = [&](int axis) { return std::floor((high[axis] + reach - point[axis]) / period[axis]); };
+  const auto first = [&](int axis) {
+    return period[axis] > 0 ? std::ceil((low[axis] - reach - point[axis]) / period[axis]) : 0.0;
+  };
+  const auto last = [&](int axis) {
+    return period[axis] > 0 ? std::floor((high[axis] + reach - point[axis]) / period[axis]) : 0.0;
+  };
   for (double ky = first(1); ky <= last(1); ++ky) {
     for (double kx = first(0); kx <= last(0); ++kx) visit(Vec2(point + period.cwiseProduct(Vec2(kx, ky))));
   }

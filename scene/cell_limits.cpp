@@ -33,6 +33,7 @@ Result<void> check_cell(const Cell& cell, std::size_t n_rods) {
   if (cell.walls) {
     hold("arena", cell.walls->size, "walls.size");
     if (cell.walls->arena == Arena::kAnnulus) hold("inner wall", cell.walls->inner, "walls.inner");
+    if (cell.walls->arena == Arena::kStadium) hold("straight wall", cell.walls->length, "walls.length");
   }
   if (!wrong.empty()) return Error{wrong};
   if (cell.species.empty()) return Error{"no species"};

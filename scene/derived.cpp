@@ -41,13 +41,6 @@ Species species_of(const RodShape& rod) {
   return kept.emplace_back(Kept{rod, make_species(rod)}).species;
 }
 
-double arena_size_for(const SideWalls& walls, double area) {
-  if (walls.arena == Arena::kSquare) return std::sqrt(area);
-  return std::sqrt(4.0 * area / kPi + (walls.arena == Arena::kAnnulus ? squared(walls.inner) : 0.0));
-}
-
-double area_for_rods(const System& scene) { return scene.walls ? scene.walls->area() : scene.box().area(); }
-
 double area_fraction_of(const System& scene) { return area_fraction_of(scene, scene.rod, scene.n_rods); }
 
 double total_area_fraction_of(const System& scene) {
@@ -57,7 +50,7 @@ double total_area_fraction_of(const System& scene) {
 }
 
 double area_fraction_of(const System& scene, const RodShape& rod, int count) {
-  return count * species_of(rod).area / area_for_rods(scene);
+  return count * species_of(rod).area / scene.area();
 }
 
 }  // namespace shaken::scene

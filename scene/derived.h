@@ -31,10 +31,6 @@ double peak_speed_of(const System& scene);
 /// integrating one takes as long as much else that a point needs.
 Species species_of(const RodShape& rod);
 
-/// The `size` [mm] at which walls of this shape and `inner` leave the rods `area` [mm^2].
-double arena_size_for(const SideWalls& walls, double area);
-/// L^2, or the area within side walls [mm^2].
-double area_for_rods(const System& scene);
 /// Of the rods of the first species: N A / L^2, with A the area of one rod lying flat.
 double area_fraction_of(const System& scene);
 /// Of the rods of all species.

@@ -65,6 +65,16 @@ Field inner_wall() {
   return field;
 }
 
+Field straight_walls() {
+  Field field = derived(quantity("walls.length", sys<&System::walls, &SideWalls::length>, kLength, 0, 2000,
+                                 "Length of a stadium's straight walls, along x."),
+                        "that of walls.size");
+  field.fetch = [](const RunPlan& p) {
+    return p.system.walls->arena == Arena::kStadium ? Value(p.system.walls->length) : Value();
+  };
+  return field;
+}
+
 Field steady() {
   return {{.path = "time.steady",
            .dimension = kTime,
@@ -330,12 +340,15 @@ std::vector<std::vector<Field>> groups() {
                    "vertical by this much per speed of the hit, to either side at random.")),
 
     block("walls", sys<&System::walls>, false,
-          "Side walls around an arena in the middle of the box, in place of periodic boundaries."),
+          "Side walls around an arena in the middle of the box, in place of periodic boundaries; a channel "
+          "goes on along x."),
     choice("walls.arena", sys<&System::walls, &SideWalls::arena>, kArenaNames, "Shape of the arena."),
     derived(quantity("walls.size", sys<&System::walls, &SideWalls::size>, kLength, 1, 2000,
-                     "Diameter of the disc or of the outer wall, or side of the square."),
-            "as large as box.side allows"),
+                     "Diameter of the disc, of the outer wall or of a stadium's round ends, side of the square, or "
+                     "width of the channel."),
+            "as large as the box allows"),
     inner_wall(),
+    straight_walls(),
     },
     surface_contact<&System::walls, &SideWalls::contact>("walls", "wall"),
     rod_contact(),

@@ -14,7 +14,7 @@ namespace shaken {
 /// Where the rods of a run are, and of which species: what stays the same from frame to frame, and is needed to
 /// draw or measure one. A System says how a scene wants it; this is what came of it, and what files and messages carry.
 struct Cell {
-  Box box;         ///< periodic in x and y
+  Box box;         ///< periodic where no walls stand
   double gap = 0;  ///< between the plates [mm]
   std::optional<SideWalls> walls{};
   std::vector<BeadRow> species{};              ///< order, director and defects are of the first
@@ -35,7 +35,9 @@ struct Cell {
   /// Whether the rods of the first species have axes: spheres have none, and no order, director or defects.
   bool has_axes() const { return !species.empty() && species.front().has_axis(); }
   /// What the rods have to share [mm^2].
-  double area() const { return walls ? walls->area() : box.area(); }
+  double area() const { return walls ? walls->area(box) : box.area(); }
+  /// After what the plane repeats itself along x and along y [mm]; 0 where side walls end it.
+  Vec2 period() const { return period_of(box, walls); }
 
   friend bool operator==(const Cell&, const Cell&) = default;
 };

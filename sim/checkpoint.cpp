@@ -80,6 +80,7 @@ void each_scene_key(Archive&& visit, const System& system) {
     visit(static_cast<std::int64_t>(system.walls->arena));
     visit(system.walls->size);
     visit(system.walls->inner);
+    if (system.walls->arena == Arena::kStadium) visit(system.walls->length);
   }
   visit(system.box_side);
   if (system.box_aspect != 1) visit(system.box_aspect);

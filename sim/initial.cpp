@@ -278,9 +278,8 @@ std::string amount(const Placement& rods, int count) {
   const System& system = rods.system;
   double area = 0;
   for (int i = 0; i < rods.n_rods(); ++i) area += rods.species_of(i).area;
-  const double room = system.walls ? system.walls->area() : system.box().area();
   char text[64];
-  std::snprintf(text, sizeof text, "%d rods (area fraction %.3f)", count, area / rods.n_rods() * count / room);
+  std::snprintf(text, sizeof text, "%d rods (area fraction %.3f)", count, area / rods.n_rods() * count / system.area());
   return text;
 }
 
@@ -474,8 +473,8 @@ std::string start_mismatch(const System& system, const System& other) {
     if (!is_same) all += std::string(all.empty() ? "" : ", ") + what;
   };
   const auto arena_of = [](const System& one) {
-    return one.walls ? std::tuple(true, one.walls->arena, one.walls->size, one.walls->inner)
-                     : std::tuple(false, Arena::kDisc, 0.0, 0.0);
+    return one.walls ? std::tuple(true, one.walls->arena, one.walls->size, one.walls->inner, one.walls->length)
+                     : std::tuple(false, Arena::kDisc, 0.0, 0.0, 0.0);
   };
   compare(system.rod == other.rod && system.added == other.added, "the rods");
   compare(system.n_rods == other.n_rods, "their number");

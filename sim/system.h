@@ -123,10 +123,11 @@ enum class Start {
 /// Whether the rods are compressed into their box (sim/compression.h).
 constexpr bool is_compressed(Start start) { return start != Start::kAligned && start != Start::kRandom; }
 
-enum class Arena { kDisc, kSquare, kAnnulus };
+enum class Arena { kDisc, kSquare, kAnnulus, kStadium, kChannel };
 /// What scenes, files and messages call them.
 inline constexpr std::array kArenaNames{std::pair{"disc", Arena::kDisc}, std::pair{"square", Arena::kSquare},
-                                        std::pair{"annulus", Arena::kAnnulus}};
+                                        std::pair{"annulus", Arena::kAnnulus}, std::pair{"stadium", Arena::kStadium},
+                                        std::pair{"channel", Arena::kChannel}};
 constexpr const char* name_of(Arena arena) { return kArenaNames[static_cast<std::size_t>(arena)].first; }
 constexpr std::optional<Arena> arena_of(std::string_view name) {
   for (const auto& [known, arena] : kArenaNames) {
@@ -134,19 +135,29 @@ constexpr std::optional<Arena> arena_of(std::string_view name) {
   }
   return std::nullopt;
 }
-/// Walls that stand upright on the base and move with it, round an arena in the middle of the box.
+/// Walls that stand upright on the base and move with it, round an arena in the middle of the box. A stadium is two
+/// half discs joined by straight walls along x; a channel has straight walls along x only, and is periodic along it.
 struct SideWalls {
   Arena arena = Arena::kDisc;
-  double size = 40.0;   ///< diameter of the disc or of the annulus' outer wall, side of the square [mm]
+  double size = 40.0;   ///< diameter of disc, half discs or the annulus' outer wall; side of the square; width [mm]
   double inner = 10.0;  ///< diameter of the annulus' inner wall [mm]
   Contacts contact{0.01, 0.3};
-  /// Area that the rods have to share [mm^2].
-  double area() const {
+  double length = 40.0;  ///< of the stadium's straight walls [mm]
+  /// Area that the rods have to share, in the middle of such a box [mm^2].
+  double area(const Box& box) const {
+    if (arena == Arena::kChannel) return box.x() * size;
     if (arena == Arena::kSquare) return size * size;
-    return 0.25 * kPi * (size * size - (arena == Arena::kAnnulus ? inner * inner : 0.0));
+    const double between = arena == Arena::kStadium ? length * size : 0.0;
+    return between + 0.25 * kPi * (size * size - (arena == Arena::kAnnulus ? inner * inner : 0.0));
   }
   friend bool operator==(const SideWalls&, const SideWalls&) = default;
 };
+
+/// After what the plane repeats itself along x and along y [mm]; 0 where side walls end it.
+inline Vec2 period_of(const Box& box, const std::optional<SideWalls>& walls) {
+  if (!walls) return box.sides();
+  return {walls->arena == Arena::kChannel ? box.x() : 0.0, 0.0};
+}
 
 /// The physical system and how it is stepped: all that `make_world` needs. What to measure, record and draw is not
 /// the simulation's business and lives in scene/run_plan.h. The defaults are the paper's (Sharma & Soni 2024).
@@ -194,6 +205,8 @@ struct System {
   bool has_rotational_noise() const { return rotational_noise > 0; }
   bool has_impacts_at_instant() const { return impacts == ImpactTime::kAtInstant; }
   Box box() const { return Box::of_aspect(box_side, box_aspect); }
+  /// Area that the rods have to share [mm^2].
+  double area() const { return walls ? walls->area(box()) : box().area(); }
   /// Nothing pushes or pulls across the plane, and rods that start in it stay there to the last bit.
   bool is_planar() const { return !base && !lid && gravity == 0; }
 

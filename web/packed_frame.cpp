@@ -35,6 +35,7 @@ nlohmann::ordered_json head_of(const client::RodFrame& frame) {
     walls = {{"arena", name_of(frame.cell.walls->arena)},
              {"size_mm", frame.cell.walls->size},
              {"inner_mm", frame.cell.walls->inner}};
+    if (frame.cell.walls->arena == Arena::kStadium) walls["length_mm"] = frame.cell.walls->length;
   }
   return {{"time_s", frame.time},
           {"box_mm", {frame.cell.box.x(), frame.cell.box.y()}},

@@ -41,10 +41,10 @@ constexpr std::chrono::milliseconds kFrame{50};
 constexpr std::chrono::milliseconds kNextFrame{250};
 constexpr std::size_t kPiece = std::size_t{1} << 20;  // of a file
 /// What the page consists of.
-constexpr std::array kPageFiles{"icon.svg",    "page.css",   "main.js",   "queue.js",   "sweep.js", "map.js",
-                                "jobs.js",     "results.js", "loader.js", "run.js",     "rods.js",  "charts.js",
-                                "shown.js",    "dom.js",     "submit.js", "painter.js", "gl.js",    "orbit.js",
-                                "pictures.js", "beside.js",  "path.js"};
+constexpr std::array kPageFiles{"icon.svg", "page.css",    "main.js",   "queue.js",   "sweep.js", "map.js",
+                                "jobs.js",  "results.js",  "loader.js", "run.js",     "rods.js",  "charts.js",
+                                "shown.js", "dom.js",      "submit.js", "painter.js", "gl.js",    "orbit.js",
+                                "plane.js", "pictures.js", "beside.js", "path.js"};
 
 std::string type_of(const fs::path& file) {
   const std::string suffix = file.extension().string();

@@ -142,12 +142,12 @@ class Explain : public Verb {
       if (added) text += "          " + rods(added->rod, added->count);
     }
     if (s.walls) {
-      constexpr std::array kArenas{"disc", "square", "annulus"};
-      const std::string inner =
-          s.walls->arena == Arena::kAnnulus ? fmt::format(", {} inside", length(s.walls->inner)) : "";
-      text += fmt::format("  arena   {} of {}{} between side walls; plates {} apart\n",
-                          kArenas.at(static_cast<std::size_t>(s.walls->arena)), length(s.walls->size), inner,
-                          length(s.gap));
+      std::string more;
+      if (s.walls->arena == Arena::kAnnulus) more = fmt::format(", {} inside", length(s.walls->inner));
+      if (s.walls->arena == Arena::kStadium) more = fmt::format(", {} between its round ends", length(s.walls->length));
+      if (s.walls->arena == Arena::kChannel) more = fmt::format(", periodic after {}", length(s.box_side));
+      text += fmt::format("  arena   {} of {}{} between side walls; plates {} apart\n", name_of(s.walls->arena),
+                          length(s.walls->size), more, length(s.gap));
     } else {
       text += fmt::format(
           "  box     {}, periodic; plates {} apart\n",

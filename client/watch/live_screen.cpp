@@ -160,9 +160,8 @@ bool LiveScreen::wait(int bus_descriptor, std::chrono::milliseconds time, const 
 
 void LiveScreen::obey(const std::vector<Key>& keys, const LiveJobs& jobs) {
   const std::string before = steering_.job;
-  for (const Key& key : keys) {
-    steering_ = steered(steering_, key, choices(jobs), !(shown_ && shown_->cell.walls));
-  }
+  const Vec2 period = shown_ ? shown_->cell.period() : Vec2(1, 1);
+  for (const Key& key : keys) steering_ = steered(steering_, key, choices(jobs), period);
   // What is held is the picture of the run that was shown.
   if (steering_.job != before) steering_.paused = false;
   if (std::exchange(steering_.suspend, false)) {

@@ -6,13 +6,15 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/motion/side_walls.h"
+
 namespace shaken::client {
 namespace {
 
 constexpr double kHalfTurn = std::numbers::pi;
 
-/// `x` less whole periods, in [-period/2, period/2).
-double folded(double x, double period) { return x - period * std::floor(x / period + 0.5); }
+/// `x` less whole periods, in [-period/2, period/2); as it is where the period is 0.
+double folded(double x, double period) { return period > 0 ? x - period * std::floor(x / period + 0.5) : x; }
 
 Tone tone_of(const RodFrame& frame, std::size_t rod, Colouring colouring) {
   const std::size_t species = frame.cell.species_of(rod);
@@ -36,13 +38,14 @@ RodSamples::RodSamples(const RodFrame& frame, const RodView& view, Colouring col
     : frame_(frame),
       x_(view.x * frame.cell.box.x()),
       y_(view.y * frame.cell.box.y()),
+      period_(frame.cell.period()),
       per_mm_(samples_per_mm(frame, view, width, height)),
       width_(width),
       height_(height),
       tones_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), kFloorTone) {
-  // A periodic box is seen from half a side left of the middle of the view to half a side right of it.
+  // Where it is periodic the box is seen from half a side left of the middle of the view to half a side right of it.
   const Box& box = frame.cell.box;
-  const double left = frame.cell.walls ? -x_ : -box.x() / 2, bottom = frame.cell.walls ? -y_ : -box.y() / 2;
+  const double left = period_.x() > 0 ? -box.x() / 2 : -x_, bottom = period_.y() > 0 ? -box.y() / 2 : -y_;
   column_begin_ = std::max(0, first_column(left));
   column_end_ = std::min(width_, first_column(left + box.x()));
   row_begin_ = std::max(0, first_row(bottom + box.y()));
@@ -54,8 +57,7 @@ RodSamples::RodSamples(const RodFrame& frame, const RodView& view, Colouring col
 }
 
 std::pair<double, double> RodSamples::from_middle(double x, double y) const {
-  if (frame_.cell.walls) return {x - x_, y - y_};
-  return {folded(x - x_, frame_.cell.box.x()), folded(y - y_, frame_.cell.box.y())};
+  return {folded(x - x_, period_.x()), folded(y - y_, period_.y())};
 }
 
 /// The first column or row of samples whose middle is not left of, or above, a distance from the middle of the view.
@@ -74,11 +76,10 @@ void RodSamples::draw(const proto::RodPose& rod, const RodOutline& outline, Tone
   const double flat = std::hypot(axis[0], axis[1]);
   const double half = outline.half_length * flat;
   const double ux = flat > 0 ? axis[0] / flat : 1, uy = flat > 0 ? axis[1] / flat : 0;
-  const Box& period = frame_.cell.box;
-  const int n_images = frame_.cell.walls ? 0 : 1;
-  for (int i = -n_images; i <= n_images; ++i) {
-    for (int j = -n_images; j <= n_images; ++j) {
-      draw_image(dx + i * period.x(), dy + j * period.y(), ux, uy, half, outline, tone);
+  const int wide = period_.x() > 0 ? 1 : 0, high = period_.y() > 0 ? 1 : 0;
+  for (int i = -wide; i <= wide; ++i) {
+    for (int j = -high; j <= high; ++j) {
+      draw_image(dx + i * period_.x(), dy + j * period_.y(), ux, uy, half, outline, tone);
     }
   }
 }
@@ -87,11 +88,9 @@ void RodSamples::draw_walls(const SideWalls& walls) {
   const double reach = 0.75 / per_mm_;
   for (int row = row_begin_; row < row_end_; ++row) {
     for (int column = column_begin_; column < column_end_; ++column) {
-      const double x = x_ + x_of(column) - frame_.cell.box.x() / 2, y = y_ + y_of(row) - frame_.cell.box.y() / 2;
-      const double distance = walls.arena == Arena::kSquare ? std::max(std::abs(x), std::abs(y)) : std::hypot(x, y);
-      const bool is_outer = std::abs(distance - walls.size / 2) < reach;
-      const bool is_inner = walls.arena == Arena::kAnnulus && std::abs(distance - walls.inner / 2) < reach;
-      if (is_outer || is_inner) tones_[index(column, row)] = kWallTone;
+      const Vec3 point(x_ + x_of(column), y_ + y_of(row), 0);
+      const double distance = distance_to_walls(walls, frame_.cell.box, point);
+      if (std::abs(distance) < reach) tones_[index(column, row)] = kWallTone;
     }
   }
 }

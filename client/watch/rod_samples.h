@@ -12,7 +12,7 @@ namespace shaken::client {
 /// Samples of what lies in a picture, as many as it shall be fine, and which of them lie in the box at all. A sample is
 /// a rod's if it lies within the rod's outline, seen from above; rods that are thinner than a sample are as wide as
 /// one. In a periodic box the view may be anywhere: one box around its middle is seen, with rods across the border on
-/// both sides. With walls nothing is repeated. Rows go down, y goes up.
+/// both sides. Where walls end the box nothing is repeated. Rows go down, y goes up.
 class RodSamples {
  public:
   /// Of the walls and of all rods. Numbers must be finite and the sides of the box positive; `colouring` is not kAuto.
@@ -48,6 +48,7 @@ class RodSamples {
   const RodFrame& frame_;
   double x_;  ///< the middle of the view [mm]
   double y_;
+  Vec2 period_;  ///< 0 where walls end the box
   double per_mm_;
   int width_;
   int height_;

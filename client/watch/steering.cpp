@@ -12,13 +12,13 @@ constexpr double kZoomStep = 1.25;
 constexpr double kLargestZoom = 32;
 constexpr double kMoveStep = 0.1;  // of what is seen
 
-void move(RodView& view, int right, int up, bool is_periodic) {
-  const auto moved = [&](double place, int steps) {
+void move(RodView& view, int right, int up, const Vec2& period) {
+  const auto moved = [&](double place, int steps, bool is_periodic) {
     place += steps * kMoveStep / view.zoom;
     return is_periodic ? place - std::floor(place) : std::clamp(place, 0.0, 1.0);
   };
-  view.x = moved(view.x, right);
-  view.y = moved(view.y, up);
+  view.x = moved(view.x, right, period.x() > 0);
+  view.y = moved(view.y, up, period.y() > 0);
 }
 
 void zoom_by(RodView& view, double factor) {
@@ -96,7 +96,7 @@ void steer_by_letter(Steering& state, char letter, std::span<const std::string> 
 
 }  // namespace
 
-Steering steered(Steering state, const Key& key, std::span<const std::string> jobs, bool is_periodic) {
+Steering steered(Steering state, const Key& key, std::span<const std::string> jobs, const Vec2& period) {
   // Any key puts the help away, and does nothing else; but one still leaves by q.
   if (state.help && !(key.kind == Key::Kind::kCharacter && key.character == 'q')) {
     state.help = false;
@@ -104,16 +104,16 @@ Steering steered(Steering state, const Key& key, std::span<const std::string> jo
   }
   switch (key.kind) {
     case Key::Kind::kUp:
-      move(state.view, 0, 1, is_periodic);
+      move(state.view, 0, 1, period);
       break;
     case Key::Kind::kDown:
-      move(state.view, 0, -1, is_periodic);
+      move(state.view, 0, -1, period);
       break;
     case Key::Kind::kLeft:
-      move(state.view, -1, 0, is_periodic);
+      move(state.view, -1, 0, period);
       break;
     case Key::Kind::kRight:
-      move(state.view, 1, 0, is_periodic);
+      move(state.view, 1, 0, period);
       break;
     case Key::Kind::kBackTab:
       state.job = neighbour(state.job, jobs, -1);

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "base/core/types.h"
 #include "client/watch/keys.h"
 #include "client/watch/rod_cells.h"
 
@@ -28,9 +29,9 @@ struct Steering {
   Colouring shown_colouring() const { return colouring == Colouring::kAuto ? automatic : colouring; }
 };
 
-/// What a key changes. `jobs` are those that can be chosen, in order; `is_periodic` says whether the view may leave the
-/// box on one side and come back on the other.
-Steering steered(Steering state, const Key& key, std::span<const std::string> jobs, bool is_periodic);
+/// What a key changes. `jobs` are those that can be chosen, in order; where `period` is
+/// not 0, the view may leave the box on one side and come back on the other.
+Steering steered(Steering state, const Key& key, std::span<const std::string> jobs, const Vec2& period);
 
 /// The keys as a list, a line each, for the help.
 inline constexpr const char* kWatchKeys[] = {

@@ -7,6 +7,15 @@
 #include <nlohmann/json.hpp>
 
 namespace shaken::run {
+namespace {
+
+/// Which borders are periodic: not those before which side walls stand, nor the plates.
+std::string pbc_of(const Cell& cell) {
+  const auto letter = [](double period) { return period > 0 ? 'T' : 'F'; };
+  return fmt::format("{} {} F", letter(cell.period().x()), letter(cell.period().y()));
+}
+
+}  // namespace
 
 double swept_height(const TrajectoryHeader& header) {
   const auto scene = nlohmann::json::parse(header.scene_json, nullptr, false);
@@ -17,8 +26,7 @@ double swept_height(const TrajectoryHeader& header) {
 
 XyzComment::XyzComment(const TrajectoryHeader& header, const std::string& properties)
     : before_time_(fmt::format(R"(Lattice="{} 0 0 0 {} 0 0 0 {}" Properties={} pbc="{}")", header.cell.box.x(),
-                               header.cell.box.y(), swept_height(header), properties,
-                               header.cell.walls ? "F F F" : "T T F")),
+                               header.cell.box.y(), swept_height(header), properties, pbc_of(header.cell))),
       after_time_(R"(units="mm s")") {
   std::string run_id = header.provenance.run_id;
   // a damaged one must not end the line or the quotes
@@ -31,6 +39,8 @@ XyzComment::XyzComment(const TrajectoryHeader& header, const std::string& proper
   after_time_ += fmt::format(" arena={} arena_size={}", name_of(header.cell.walls->arena), header.cell.walls->size);
   if (header.cell.walls->arena == Arena::kAnnulus)
     after_time_ += fmt::format(" arena_inner={}", header.cell.walls->inner);
+  if (header.cell.walls->arena == Arena::kStadium)
+    after_time_ += fmt::format(" arena_length={}", header.cell.walls->length);
 }
 
 std::string XyzComment::of(const RecordedFrame& frame) const {

@@ -90,6 +90,7 @@ Json json_of(const TrajectoryHeader& header) {
                      {"inner_mm", cell.walls->inner},
                      {"friction", cell.walls->contact.friction},
                      {"restitution", cell.walls->contact.restitution}};
+    if (cell.walls->arena == Arena::kStadium) json["walls"]["length_mm"] = cell.walls->length;
   }
   return json;
 }
@@ -115,6 +116,7 @@ TrajectoryHeader header_of(const Json& json) {
                                   .size = from.at("size_mm"),
                                   .inner = from.at("inner_mm"),
                                   .contact = {from.at("friction"), from.at("restitution")}};
+    if (header.cell.walls->arena == Arena::kStadium) header.cell.walls->length = from.at("length_mm");
   }
   return header;
 }

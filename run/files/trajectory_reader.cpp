@@ -25,6 +25,7 @@ SideWalls read_walls(hid_t file) {
   walls.arena = *known;
   hdf5::read_attribute(group, "size_mm", H5T_NATIVE_DOUBLE, &walls.size);
   if (walls.arena == Arena::kAnnulus) hdf5::read_attribute(group, "inner_mm", H5T_NATIVE_DOUBLE, &walls.inner);
+  if (walls.arena == Arena::kStadium) hdf5::read_attribute(group, "length_mm", H5T_NATIVE_DOUBLE, &walls.length);
   hdf5::read_attribute(group, "friction", H5T_NATIVE_DOUBLE, &walls.contact.friction);
   hdf5::read_attribute(group, "restitution", H5T_NATIVE_DOUBLE, &walls.contact.restitution);
   return walls;

@@ -47,17 +47,15 @@ MeasurementKind fluctuations_kind() {
       .sources = "number_fluctuations",
       .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
         const System& system = context.plan.system;
-        double area = system.box().area();
         analysis::NumberFluctuations::Where counts;
         if (system.walls) {
-          area = system.walls->area();
-          counts = [walls = *system.walls, box = system.box()](const Vec2& centre, double side) {
-            const double to_the_corner = side / std::numbers::sqrt2;
-            return distance_to_walls(walls, box, Vec3(centre.x(), centre.y(), 0)) >= to_the_corner;
+          counts = [walls = *system.walls, box = system.box()](const Vec2& centre, const Vec2& sides) {
+            const double reach = walls.arena == Arena::kChannel ? sides.y() / 2 : sides.norm() / 2;
+            return distance_to_walls(walls, box, Vec3(centre.x(), centre.y(), 0)) >= reach;
           };
         }
         return std::make_unique<MeasuredFluctuations>(
-            analysis::NumberFluctuations(system.box(), area, 2 * system.rod.length, counts));
+            analysis::NumberFluctuations(system.box(), system.area(), 2 * system.rod.length, counts));
       },
       .arrays =
           {

@@ -15,8 +15,7 @@ namespace {
 analysis::DefectTracks::Settings track_settings(const MeasureContext& context) {
   const System& system = context.plan.system;
   const analysis::Region region(system.box(), system.walls);
-  return {region.box(),        region.area(), context.interval, system.rod.length, context.plan.defects->min_lifetime,
-          region.is_periodic()};
+  return {region.period(), region.area(), context.interval, system.rod.length, context.plan.defects->min_lifetime};
 }
 
 void put_tracks(const analysis::TrackSummary::Tracks& tracks, const std::string& folder, const std::string& prefix,

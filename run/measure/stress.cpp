@@ -52,9 +52,7 @@ MeasurementKind stress_kind() {
       .name = "stress",
       .sources = "stress",
       .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
-        const System& system = context.plan.system;
-        return std::make_unique<MeasuredStress>(context.plan.steady,
-                                                system.walls ? system.walls->area() : system.box().area());
+        return std::make_unique<MeasuredStress>(context.plan.steady, context.plan.system.area());
       },
       .arrays =
           {

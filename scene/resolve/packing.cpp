@@ -15,8 +15,6 @@ namespace shaken::scene {
 
 namespace {
 
-constexpr double kRoomRoundArena = 0.2;  // [mm]
-
 /// What sets the area that the rods share, as it was written: "box.side 40 mm".
 std::string room_for_rods(const Resolution& scene) {
   const System& system = scene.plan.system;
@@ -44,7 +42,7 @@ bool resolve_number_of(Resolution& scene, const RodGroup& group) {
                         fmt::format("how many rods? Give {} or {}", count_path, fraction_path));
   }
   const double wanted = scene.given(fraction_path) || is_first ? scene.number(fraction_path) : 0.0;
-  const auto count_for = [&] { return std::round(wanted * area_for_rods(system) / area); };
+  const auto count_for = [&] { return std::round(wanted * system.area() / area); };
   if (!scene.given(count_path)) {
     const Field& field = field_at(count_path);
     if (count_for() < field.low || count_for() > field.high) {
@@ -67,62 +65,6 @@ bool resolve_number_of(Resolution& scene, const RodGroup& group) {
 }
 
 }  // namespace
-
-bool resolve_arena(Resolution& scene) {
-  System& system = scene.plan.system;
-  if (!scene.ok({"walls.size", "walls.inner", "walls.arena", "box.side", "box.aspect"})) return false;
-  if (!system.walls) return true;
-  if (system.box_aspect != 1) {
-    return scene.refuse({"box.aspect", "walls"},
-                        "an arena lies in the middle of a square box: remove box.aspect or walls");
-  }
-  double thickest = 0;
-  double longest = 0;
-  for (const RodGroup& group : rod_groups(system)) {
-    thickest = std::max(thickest, 2.0 * species_of(group.rod).max_radius);
-    longest = std::max(longest, group.rod.length);
-  }
-  const double room = thickest + kRoomRoundArena;  // so that rods do not meet through the periodic border
-  SideWalls& walls = *system.walls;
-  const std::size_t n_before = scene.problems.size();
-  if (scene.given("walls.inner") && walls.arena != Arena::kAnnulus) {
-    const Field& arena = field_at("walls.arena");
-    scene.report({"walls.inner"}, fmt::format("only an annulus has an inner wall, and walls.arena is {}; remove "
-                                              "walls.inner, or set walls.arena to \"annulus\"",
-                                              show(arena, arena.fetch(scene.plan))));
-  }
-  if (!scene.given("walls.size") && !scene.given("box.side") && scene.given("rods.count") &&
-      scene.given("rods.area_fraction")) {
-    if (!scene.ok({"rods.count", "rods.area_fraction"})) return false;
-    walls.size =
-        arena_size_for(walls, system.n_rods * species_of(system.rod).area / scene.number("rods.area_fraction"));
-    scene.check_derived("walls.size", {"rods.count", "rods.area_fraction"});
-  } else if (!scene.given("walls.size")) {
-    walls.size = system.box_side - room;
-    scene.check_derived("walls.size", {"box.side"});
-  }
-  if (!scene.given("box.side")) {
-    system.box_side = walls.size + room;
-    scene.check_derived("box.side", {"walls.size"});
-  }
-  if (system.box_side < walls.size + room * (1 - 1e-12)) {
-    scene.report(
-        {"walls.size", "box.side"},
-        fmt::format("an arena of {} does not fit into a box of {}: at most {}; or leave box.side out",
-                    length_text(walls.size), length_text(system.box_side), length_text(system.box_side - room)));
-  } else if (walls.arena == Arena::kAnnulus && walls.inner >= walls.size) {
-    scene.report(
-        {"walls.inner", "walls.size"},
-        fmt::format("an inner wall of {} does not fit into an outer one of {}, {}", length_text(walls.inner),
-                    length_text(walls.size), scene.given("walls.size") ? "walls.size" : "as large as box.side allows"));
-  } else if (walls.arena == Arena::kAnnulus && walls.size - walls.inner < 2.0 * longest) {
-    scene.report({"walls.inner", "walls.size"},
-                 fmt::format("an annulus from {} to {} leaves no room for rods of {} to turn: its walls must be a rod "
-                             "length apart",
-                             length_text(walls.inner), length_text(walls.size), length_text(longest)));
-  }
-  return scene.problems.size() == n_before;
-}
 
 void resolve_numbers(Resolution& scene) {
   System& system = scene.plan.system;

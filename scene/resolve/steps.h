@@ -25,10 +25,13 @@ void check_base(Resolution& scene);
 /// Contacts of species of their own need these species; one that is as for all rods is not kept as their own.
 void resolve_contacts(Resolution& scene);
 
+// arena.cpp
+
+/// Arena and box, which must fit into each other. Needs the shapes of the rods.
+bool resolve_arena(Resolution& scene);
+
 // packing.cpp; all but the last need the shapes of the rods.
 
-/// Arena and box, which must fit into each other.
-bool resolve_arena(Resolution& scene);
 /// Numbers of rods, box and area fractions. Needs the arena.
 void resolve_numbers(Resolution& scene);
 /// No rod may meet itself through the periodic border.

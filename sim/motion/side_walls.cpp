@@ -27,6 +27,13 @@ struct Axis {
   }
 };
 
+/// Of a point seen from the middle of a stadium, the way to it from the nearest point of the line between the centres
+/// of the round ends.
+Vec2 from_centre_line(const SideWalls& walls, const Vec2& point) {
+  const double end = 0.5 * walls.length;
+  return {point.x() - std::clamp(point.x(), -end, end), point.y()};
+}
+
 /// Where a bead goes in the plane: at time t it is within bend t^2 of point + velocity t.
 struct BeadPath {
   Vec2 point;
@@ -47,13 +54,10 @@ double time_to_straight_wall(double gap, double speed, double bend, double time)
   return gap > 0 ? first_time(bend, 0.5 * speed, gap, time) : 0.0;
 }
 
-/// The same for the four walls of a square round the middle, each `half` away from it.
-double time_to_straight_walls(const BeadPath& path, double half, double time) {
-  for (int k = 0; k < 2; ++k) {
-    time = time_to_straight_wall(half - path.point[k], path.velocity[k], path.bend, time);
-    time = time_to_straight_wall(half + path.point[k], -path.velocity[k], path.bend, time);
-  }
-  return time;
+/// The same for the two walls across one axis, x or y, each `half` away from the middle.
+double time_to_two_walls(const BeadPath& path, int axis, double half, double time) {
+  time = time_to_straight_wall(half - path.point[axis], path.velocity[axis], path.bend, time);
+  return time_to_straight_wall(half + path.point[axis], -path.velocity[axis], path.bend, time);
 }
 
 /// The first time that a bead within a circle of the given radius round the middle may reach it; at most `time`.
@@ -62,6 +66,41 @@ double time_to_round_wall(const BeadPath& path, double radius, double time) {
   if (!(radius > 0 && room > 0)) return 0.0;
   const double speed2 = path.velocity.squaredNorm() + 2.0 * radius * path.bend;
   return first_time(speed2, path.point.dot(path.velocity), room, time);
+}
+
+/// The same for the round end of a stadium that lies in the direction `way` along x, 1 or -1, with its centre `end`
+/// away from the middle: the bead does not meet it before it leaves the part between the straight walls, nor before it
+/// meets the circle.
+double time_to_round_end(const BeadPath& path, double way, double end, double radius, double time) {
+  const double to_end = time_to_straight_wall(end - way * path.point.x(), way * path.velocity.x(), path.bend, time);
+  const BeadPath from_end{path.point - Vec2(way * end, 0), path.velocity, path.bend};
+  return std::max(to_end, time_to_round_wall(from_end, radius, time));
+}
+
+/// The first time that a bead may reach an outer wall, `radius` away from the middle or middle line; at most `time`.
+double time_to_outer_wall(const SideWalls& walls, const BeadPath& path, double radius, double time) {
+  switch (walls.arena) {
+    case Arena::kSquare:
+      return time_to_two_walls(path, 1, radius, time_to_two_walls(path, 0, radius, time));
+    case Arena::kChannel:
+      return time_to_two_walls(path, 1, radius, time);
+    case Arena::kStadium:
+      time = time_to_two_walls(path, 1, radius, time);
+      time = time_to_round_end(path, 1.0, 0.5 * walls.length, radius, time);
+      return time_to_round_end(path, -1.0, 0.5 * walls.length, radius, time);
+    case Arena::kDisc:
+    case Arena::kAnnulus:
+      break;
+  }
+  return time_to_round_wall(path, radius, time);
+}
+
+/// Whether a point seen from the middle is nearer to it, or to a stadium's or channel's middle line, than `most`.
+bool is_clear_of_outer_wall(const SideWalls& walls, const Vec2& point, double most) {
+  if (walls.arena == Arena::kSquare) return std::max(std::abs(point.x()), std::abs(point.y())) < most;
+  if (walls.arena == Arena::kChannel) return std::abs(point.y()) < most;
+  const Vec2 off = walls.arena == Arena::kStadium ? from_centre_line(walls, point) : point;
+  return most > 0 && off.squaredNorm() < most * most;
 }
 
 /// The first time that a bead outside of such a circle may reach it; at most `time`.
@@ -81,10 +120,12 @@ WallsSeen see_walls(const SideWalls& walls, const Box& box, const Vec3& point) {
     const Vec3 from_y(0, y > 0 ? -1.0 : 1.0, 0);
     return {{WallSeen{half - std::abs(x), from_x}, WallSeen{half - std::abs(y), from_y}}, 2};
   }
-  const double r = std::sqrt(x * x + y * y);
-  const Vec3 inwards = r > 0 ? Vec3(-x / r, -y / r, 0) : Vec3(1, 0, 0);
+  if (walls.arena == Arena::kChannel) return {{WallSeen{half - std::abs(y), Vec3(0, y > 0 ? -1.0 : 1.0, 0)}}, 1};
+  const double along = walls.arena == Arena::kStadium ? from_centre_line(walls, {x, y}).x() : x;
+  const double r = std::sqrt(along * along + y * y);
+  const Vec3 inwards = r > 0 ? Vec3(-along / r, -y / r, 0) : Vec3(1, 0, 0);
   const WallSeen outer{half - r, inwards};
-  if (walls.arena == Arena::kDisc) return {{outer, WallSeen{}}, 1};
+  if (walls.arena != Arena::kAnnulus) return {{outer, WallSeen{}}, 1};
   return {{outer, WallSeen{r - 0.5 * walls.inner, -inwards}}, 2};
 }
 
@@ -107,9 +148,7 @@ bool may_touch_walls(const SideWalls& walls, const Box& box, const Species& spec
   for (const int b : species.outer_beads) {
     const Vec2 point = axis.at(species.bead_offset[b]);
     const double most = 0.5 * walls.size - species.bead_radius[b] - margin;
-    const bool clears = walls.arena == Arena::kSquare ? std::max(std::abs(point.x()), std::abs(point.y())) < most
-                                                      : most > 0 && point.squaredNorm() < most * most;
-    if (!clears) return true;
+    if (!is_clear_of_outer_wall(walls, point, most)) return true;
   }
   if (walls.arena != Arena::kAnnulus) return false;
   const double least = 0.5 * walls.inner + species.max_radius + margin;
@@ -134,8 +173,7 @@ double wall_safe_time(const SideWalls& walls, const Box& box, const Species& spe
   double time = horizon;
   for (const int b : species.outer_beads) {
     const double most = 0.5 * walls.size - species.bead_radius[b] - margin;
-    time = walls.arena == Arena::kSquare ? time_to_straight_walls(path_of(b), most, time)
-                                         : time_to_round_wall(path_of(b), most, time);
+    time = time_to_outer_wall(walls, path_of(b), most, time);
   }
   if (walls.arena != Arena::kAnnulus) return time;
   const double inner = 0.5 * walls.inner + margin;

@@ -360,18 +360,20 @@ def use(page, address, daemon):
                          heading: place(31), n_z: new Int16Array(n), species: new Uint8Array(n)};
           const whole = instancesOf(frame, {x: 0.5, y: 0.5, zoom: 1}), shifted = instancesOf(frame, {x: 0.1, y: 0.9, zoom: 1});
           // the slow twin: every image of every rod
-          const seen = (view) => {
+          const seen = (view, high = 2) => {
             let count = 0;
-            for (let i = 0; i < n; ++i) for (let dx = -2; dx <= 2; ++dx) for (let dy = -2; dy <= 2; ++dy) {
+            for (let i = 0; i < n; ++i) for (let dx = -2; dx <= 2; ++dx) for (let dy = -high; dy <= high; ++dy) {
               const off = (at, middle, d) => Math.abs((at / 65536 + 0.5 - middle + d) * 80);
               count += off(frame.x[i], view.x, dx) <= 42.25 && off(frame.y[i], view.y, dy) <= 42.25;
             }
             return count;
           };
           done([whole.count, seen({x: 0.5, y: 0.5}), shifted.count, seen({x: 0.1, y: 0.9}),
-                instancesOf({...frame, walls: {}}, {x: 0.5, y: 0.5, zoom: 1}).count]);
+                instancesOf({...frame, walls: {}}, {x: 0.5, y: 0.5, zoom: 1}).count,
+                instancesOf({...frame, walls: {arena: "channel"}}, {x: 0.1, y: 0.9, zoom: 1}).count, seen({x: 0.1, y: 0.9}, 0)]);
         });""")
-    check(images[0] == images[1] and images[2] == images[3] and 2000 < images[0] < 2400 and images[4] == 2000,
+    check(images[0] == images[1] and images[2] == images[3] and 2000 < images[0] < 2400 and images[4] == 2000
+          and images[5] == images[6],
           f"of a rod only those images are drawn that are seen: {images}")
     drawn = page.execute_async_script("""
         const done = arguments[arguments.length - 1], canvas = window.shakenRods, before = canvas.framesDrawn;

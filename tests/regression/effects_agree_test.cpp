@@ -151,6 +151,32 @@ INSTANTIATE_TEST_SUITE_P(
                            s.n_rods = 30;
                            s.start = Start::kRandom;
                          }},
+                    Case{"Stadium",
+                         [](System& s) {
+                           s.walls = SideWalls{.arena = Arena::kStadium, .size = 9, .contact = {0.3, 0.5}, .length = 6};
+                           s.n_rods = 40;
+                         }},
+                    Case{"PolarInAStadium",
+                         [](System& s) {
+                           s.walls = SideWalls{.arena = Arena::kStadium, .size = 8, .length = 7};
+                           s.rod = kPolarRod;
+                           s.n_rods = 20;
+                           s.start = Start::kRandom;
+                           s.impacts = ImpactTime::kAtInstant;
+                         }},
+                    Case{"Channel",
+                         [](System& s) {
+                           s.walls = SideWalls{.arena = Arena::kChannel, .size = 11, .contact = {0.3, 0.5}};
+                           s.box_aspect = 0.75;
+                           s.n_rods = 70;
+                         }},
+                    Case{"PinsInANarrowChannel",
+                         [](System& s) {
+                           s.walls = SideWalls{.arena = Arena::kChannel, .size = 3.5};
+                           s.rod = kBowlingPin;
+                           s.n_rods = 12;
+                           s.start = Start::kRandom;
+                         }},
                     Case{"PolarInAnAnnulus",
                          [](System& s) {
                            s.walls = SideWalls{Arena::kAnnulus, 14.5, 4.0};
@@ -241,6 +267,11 @@ System draw_mix() {
     system.walls =
         SideWalls{static_cast<Arena>(*rc::gen::inRange(0, 3)), 14.5, 2.0, {0.1 * *rc::gen::inRange(0, 5), 0.3}};
     system.n_rods /= 2;
+  }
+  if (system.walls && maybe()) {
+    system.walls->arena = maybe() ? Arena::kStadium : Arena::kChannel;
+    system.walls->length = 0.5 * *rc::gen::inRange(0, 10);
+    system.walls->size = 14.5 - system.walls->length;
   }
   if (maybe()) system.rotational_noise = 0.05;
   if (maybe()) system.rod_base.friction = system.rod_lid.friction = 0;

@@ -204,6 +204,20 @@ void draw_box(std::uint64_t seed, Json& scene) {
   if (!scene.contains("walls") && draw.chance(0.25)) scene["box"]["aspect"] = draw.by_size(0.2, 5);
 }
 
+/// Stadiums, and channels in boxes of any shape, where there would be a box without walls; by numbers of their own.
+void draw_long_arena(std::uint64_t seed, Json& scene) {
+  SceneDraw draw(seed + 5'000'000'029);
+  if (!draw.chance(0.12) || scene.contains("walls")) return;
+  const std::string start = scene["rods"].value("start", "aligned");
+  if ((start != "aligned" && start != "random") || scene["rods"].contains("start_angle")) return;
+  const bool is_channel = draw.chance(0.5);
+  Json& walls = scene["walls"] = draw_contact(draw);
+  walls["arena"] = is_channel ? "channel" : "stadium";
+  if (is_channel) return;
+  scene["box"].erase("aspect");
+  if (draw.chance(0.7)) walls["length"] = draw.chance(0.1) ? 0.0 : draw.by_size(0.1, 20);
+}
+
 /// Restitution that falls with speed, and species with contacts of their own, by numbers of their own.
 void draw_contacts(std::uint64_t seed, Json& scene) {
   SceneDraw draw(seed + 4'000'000'007);
@@ -290,6 +304,7 @@ SceneCase draw_scene_case(std::uint64_t seed) {
   draw_start(seed, scene);
   draw_box(seed, scene);
   draw_start_pattern(seed, scene);
+  draw_long_arena(seed, scene);
   draw_contacts(seed, scene);
   return one;
 }

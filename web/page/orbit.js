@@ -2,6 +2,7 @@
 // Rods by WebGL2 as bodies between their plates, in perspective from anywhere above: as `shaken picture --view orbit` has it.
 import {colour as cssColour} from "/page/dom.js";
 import {attribute, fill, kColourOf, newProgram, rgb, useForRods} from "/page/gl.js";
+import {periodOf} from "/page/plane.js";
 
 const kSegments = 10;    // around a rod
 const kTangent = 0.27;   // of half the angle of view
@@ -95,8 +96,11 @@ function edges({box_mm: [width, height], walls}) {
   const rectangle = (a, b) => [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([x, y]) => [(width + x * a) / 2, (height + y * b) / 2]);
   if (!walls) return [rectangle(width, height)];
   if (walls.arena === "square") return [rectangle(walls.size_mm, walls.size_mm)];
-  return [walls.size_mm, walls.inner_mm].filter((size) => size > 0).map((size) => Array.from({length: 72}, (_, k) =>
-    [width / 2 + size / 2 * Math.cos(k * Math.PI / 36), height / 2 + size / 2 * Math.sin(k * Math.PI / 36)]));
+  if (walls.arena === "channel") return [rectangle(width, walls.size_mm)];
+  const {size_mm, inner_mm, length_mm = 0, arena} = walls, turned = (k) => (k + 0.5) * Math.PI / 36;
+  const round = (size, length) => Array.from({length: 72}, (_, k) =>
+    [(width + size * Math.cos(turned(k)) + length * Math.sign(Math.cos(turned(k)))) / 2, (height + size * Math.sin(turned(k))) / 2]);
+  return [round(size_mm, length_mm), ...(arena === "annulus" ? [round(inner_mm, 0)] : [])];
 }
 
 export class OrbitPainter {
@@ -147,8 +151,9 @@ export class OrbitPainter {
 
   /** `isMoving` spares samples. */
   paint(frame, view, size, colouring, isMoving) {
-    const {gl} = this, wrapped = (part) => (frame.walls ? part : part - Math.floor(part));
-    const camera = cameraOf(frame, {...view, x: wrapped(view.x), y: wrapped(view.y)}), look = matrixOf(camera);
+    const {gl} = this, period = periodOf(frame);
+    const [x, y] = [view.x, view.y].map((part, axis) => (period[axis] > 0 ? part - Math.floor(part) : part));
+    const camera = cameraOf(frame, {...view, x, y}), look = matrixOf(camera);
     this.begin(size, isMoving ? 0 : 4);
     this.paintPlates(frame, look, [[gl.TRIANGLE_FAN, 0, 0.12]]);
     this.paintRods(frame, look, camera.forward.map((one) => -one), colouring);

@@ -3,6 +3,7 @@
 import {colour as cssColour} from "/page/dom.js";
 import {attribute, fill, kColourOf, makeTextures, newProgram, rgb, useForRods} from "/page/gl.js";
 import {OrbitPainter} from "/page/orbit.js";
+import {periodOf, toNearest} from "/page/plane.js";
 
 const kVertex = `
 layout(location = 0) in vec2 corner;
@@ -47,24 +48,23 @@ void main() {
 
 /**
  * The rods of a frame as they are seen, each image of them near the border too: 4 numbers for each, as the shader has them,
- * and its species. `view` is {x, y, zoom}; without walls the box is periodic.
+ * and its species. `view` is {x, y, zoom}; the box is periodic where it has no walls.
  */
 export function instancesOf(frame, view) {
   const {n_rods: n, box_mm: box} = frame, half = Math.max(...box) / 2 / view.zoom;
   const reach = frame.outlines.map(([length, , end]) => length + end);
-  const shifts = box.map((side) => {  // to the images that may be seen
-    const most = frame.walls ? 0 : Math.max(1, Math.floor((half + Math.max(...reach)) / side + 0.5));
+  const period = periodOf(frame);
+  const shifts = period.map((side) => {  // to the images that may be seen
+    const most = side > 0 ? Math.max(1, Math.floor((half + Math.max(...reach)) / side + 0.5)) : 0;
     return Array.from({length: 2 * most + 1}, (_, k) => (k - most) * side);
   });
   const images = shifts[0].length * shifts[1].length;
   const rods = new Float32Array(4 * images * n), species = new Uint8Array(images * n);
   let count = 0;
-  const placed = (at, middle, side) => {  // of the centre, from the middle of the view
-    const d = (at / 65536 + 0.5 - middle) * side;
-    return frame.walls ? d : d - side * Math.round(d / side);
-  };
+  // of the centre, from the middle of the view
+  const placed = (at, middle, axis) => toNearest((at / 65536 + 0.5 - middle) * box[axis], period[axis]);
   for (let i = 0; i < n; ++i) {
-    const x = placed(frame.x[i], view.x, box[0]), y = placed(frame.y[i], view.y, box[1]), most = half + reach[frame.species[i]];
+    const x = placed(frame.x[i], view.x, 0), y = placed(frame.y[i], view.y, 1), most = half + reach[frame.species[i]];
     for (const dx of shifts[0]) {
       if (Math.abs(x + dx) > most) continue;
       for (const dy of shifts[1]) {

@@ -2,6 +2,7 @@
 // Frames of rods on a canvas that can be zoomed and moved.
 import {colour as cssColour, onTheme} from "/page/dom.js";
 import {RodPainter, suitingColouring} from "/page/painter.js";
+import {periodOf, toNearest} from "/page/plane.js";
 
 /** A frame out of the bytes of docs/web.md. Throws where they contradict themselves. */
 export function unpack(buffer) {
@@ -30,13 +31,11 @@ export function angleToDirector(frame, i) {
  */
 export function rodAt(frame, view, x, y, reach = 0) {
   let best = -1, least = Infinity;
+  const [periodX, periodY] = periodOf(frame);
   for (let i = 0; i < frame.n_rods; ++i) {
     const [length, middle, end] = frame.outlines[frame.species[i]], theta = frame.heading[i] / 32768 * Math.PI;
-    const off = (at, from, to, side) => {
-      const d = to - (at / 65536 + 0.5 - from) * side;
-      return frame.walls ? d : d - side * Math.round(d / side);
-    };
-    const dx = off(frame.x[i], view.x, x, frame.box_mm[0]), dy = off(frame.y[i], view.y, y, frame.box_mm[1]);
+    const off = (at, from, to, side, period) => toNearest(to - (at / 65536 + 0.5 - from) * side, period);
+    const dx = off(frame.x[i], view.x, x, frame.box_mm[0], periodX), dy = off(frame.y[i], view.y, y, frame.box_mm[1], periodY);
     const along = dx * Math.cos(theta) + dy * Math.sin(theta), across = -dx * Math.sin(theta) + dy * Math.cos(theta);
     const flat = length * Math.sqrt(Math.max(0, 1 - (frame.n_z[i] / 32768) ** 2));
     const beyond = Math.hypot(Math.max(0, Math.abs(along) - flat), across);
@@ -124,27 +123,39 @@ export class RodCanvas {
       return;
     }
     const [width, height] = frame.box_mm, perMm = size * view.zoom / Math.max(width, height);
+    const [periodX, periodY] = periodOf(frame);
     const toPixel = (x, y) => {
-      let dx = x - view.x * width, dy = y - view.y * height;
-      if (!frame.walls) { dx -= width * Math.round(dx / width); dy -= height * Math.round(dy / height); }
+      const dx = toNearest(x - view.x * width, periodX), dy = toNearest(y - view.y * height, periodY);
       return [size / 2 + dx * perMm, size / 2 - dy * perMm];
     };
-    if (frame.walls) {
-      const {arena, size_mm, inner_mm} = frame.walls, [x, y] = toPixel(width / 2, height / 2);
-      context.strokeStyle = cssColour("edge");
-      context.lineWidth = 2;
-      if (arena === "square") context.strokeRect(x - size_mm * perMm / 2, y - size_mm * perMm / 2, size_mm * perMm, size_mm * perMm);
-      for (const diameter of arena === "square" ? [] : [size_mm, ...(inner_mm > 0 ? [inner_mm] : [])]) {
-        context.beginPath();
-        context.arc(x, y, diameter * perMm / 2, 0, 2 * Math.PI);
-        context.stroke();
-      }
-    }
+    if (frame.walls) this.drawWalls(context, frame.walls, toPixel(width / 2, height / 2), perMm, size);
     if (this.path) this.drawPath(context, toPixel, perMm);
     if (this.showsDefects) for (const one of this.defects) this.drawDefect(context, one, toPixel, size);
     const bar = [1, 2, 5, 10, 20, 50, 100, 200].filter((mm) => mm * perMm < size / 3).at(-1) ?? 1;
     this.write(context, `${bar} mm`, size);
     context.fillRect(size * 0.03, size * 0.965, bar * perMm, Math.max(2, size / 250));
+  }
+
+  /** Round the middle of the arena, at (x, y) in pixels. */
+  drawWalls(context, {arena, size_mm, inner_mm, length_mm = 0}, [x, y], perMm, size) {
+    const radius = size_mm * perMm / 2, end = length_mm * perMm / 2, quarter = Math.PI / 2;
+    context.strokeStyle = cssColour("edge");
+    context.lineWidth = 2;
+    context.beginPath();
+    if (arena === "square") {
+      context.rect(x - radius, y - radius, 2 * radius, 2 * radius);
+    } else if (arena === "channel") {
+      context.rect(-radius, y - radius, size + 2 * radius, 2 * radius);  // its ends are out of sight
+    } else {
+      context.arc(x + end, y, radius, -quarter, quarter);
+      context.arc(x - end, y, radius, quarter, 3 * quarter);
+      context.closePath();
+    }
+    context.stroke();
+    if (arena !== "annulus") return;
+    context.beginPath();
+    context.arc(x, y, inner_mm * perMm / 2, 0, 2 * Math.PI);
+    context.stroke();
   }
 
   /** Words in the lower left corner. */
@@ -159,8 +170,7 @@ export class RodCanvas {
 
   /** A line for each step, the short way round. */
   drawPath(context, toPixel, perMm) {
-    const {x_mm: x, y_mm: y} = this.path, [width, height] = this.frame.box_mm;
-    const short = (d, side) => (this.frame.walls ? d : d - side * Math.round(d / side));
+    const {x_mm: x, y_mm: y} = this.path, [periodX, periodY] = periodOf(this.frame);
     for (const [colour, thickness] of [[cssColour("panel"), 5], [cssColour("warm"), 2.5]]) {
       context.strokeStyle = colour;
       context.lineWidth = thickness;
@@ -168,7 +178,7 @@ export class RodCanvas {
       for (let k = 1; k < x.length; ++k) {
         const [px, py] = toPixel(x[k], y[k]);
         context.moveTo(px, py);
-        context.lineTo(px - short(x[k] - x[k - 1], width) * perMm, py + short(y[k] - y[k - 1], height) * perMm);
+        context.lineTo(px - toNearest(x[k] - x[k - 1], periodX) * perMm, py + toNearest(y[k] - y[k - 1], periodY) * perMm);
       }
       context.stroke();
     }

@@ -44,6 +44,9 @@ TEST(ClusterSizes, KnowWallsHeadsAndAngles) {
   const Region square(kBox, SideWalls{Arena::kSquare, 19.9});
   const std::vector<Vec3> corners{{19.8, 19.8, 0}, {0.3, 0.3, 0}}, along{axis(0), axis(0)};
   EXPECT_EQ(cluster_sizes(corners, along, square, kRule), (Sizes{1, 1}));
+  const Region channel(kBox, SideWalls{Arena::kChannel, 19.9});
+  EXPECT_EQ(cluster_sizes(corners, along, channel, kRule), (Sizes{1, 1}));
+  EXPECT_EQ(cluster_sizes(std::vector<Vec3>{{19.8, 5, 0}, {0.3, 5, 0}}, along, channel, kRule), Sizes{2});
   // The head is farther from the centre of mass than the tail: heads touch, tails do not.
   const ClusterRule polar{.tail = 1, .head = 3, .distance = 1};
   const std::vector<Vec3> apart{{5, 5, 0}, {11.5, 5, 0}};

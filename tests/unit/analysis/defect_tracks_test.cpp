@@ -13,7 +13,9 @@ namespace {
 
 constexpr double kBox = 40, kArea = kBox * kBox, kInterval = 0.1;
 
-DefectTracks tracking(double min_lifetime = 0.45) { return DefectTracks({kBox, kArea, kInterval, 3.0, min_lifetime}); }
+DefectTracks tracking(double min_lifetime = 0.45) {
+  return DefectTracks({{kBox, kBox}, kArea, kInterval, 3.0, min_lifetime});
+}
 
 Defect at(double x, double y, double charge, double direction = 0) {
   return {{x - kBox * std::floor(x / kBox), y - kBox * std::floor(y / kBox)}, charge, direction};
@@ -55,7 +57,7 @@ TEST(DefectTracks, FollowsThroughTheBorders) {
 // and those at opposite borders that vanish together are no pair.
 TEST(DefectTracks, NothingGoesThroughWalls) {
   DefectTracks through = tracking();
-  DefectTracks within({kBox, kArea, kInterval, 3.0, 0.45, false});
+  DefectTracks within({{0, 0}, kArea, kInterval, 3.0, 0.45});
   for (DefectTracks* tracks : {&through, &within}) {
     tracks->accumulate(0, std::vector{at(0.3, 20, 0.5), at(39.7, 5, 0.5), at(0.3, 5, -0.5)});
     tracks->accumulate(kInterval, std::vector{at(39.8, 20, 0.5)});

@@ -167,6 +167,29 @@ TEST(Defects, InAnArena) {
   EXPECT_NEAR(defects[0].direction, 0, 0.15);
 }
 
+// theta = phi / 2 about a place beside the border of a channel, where it goes on; the directors turn by half a turn
+// along it, so that they match there. Seen across the border there is one defect, and none along the walls.
+TEST(Defects, InAChannelAcrossItsBorder) {
+  Draw draw(57);
+  const Region region(kBox, SideWalls{Arena::kChannel, kBox - 1});
+  Rods rods;
+  while (rods.positions.size() < 3000) {
+    const Vec3 place{draw.uniform(0, kBox), draw.uniform(0, kBox), 0};
+    if (!region.contains(place.head<2>())) continue;
+    // a defect at x = 0.2 and its opposite half a box away
+    const Vec2 d(std::sin(2 * kPi * (place.x() - 0.2) / kBox), 2 * kPi * (place.y() / kBox - 0.5));
+    rods.positions.push_back(place);
+    rods.directors.push_back(axis(0.5 * std::atan2(d.y(), d.x()) + 0.05 * draw.normal()));
+  }
+  const std::vector<Defect> defects = find_defects(DirectorField(rods.positions, rods.directors, region, 100, 1.5));
+  ASSERT_EQ(defects.size(), 2u);
+  const bool is_first = defects[0].charge > 0;
+  const Defect &plus = defects[is_first ? 0 : 1], &minus = defects[is_first ? 1 : 0];
+  EXPECT_LT(region.shortest(plus.position - Vec2(0.2, kBox / 2)).norm(), 1.0);
+  EXPECT_LT(region.shortest(minus.position - Vec2(0.2 + kBox / 2, kBox / 2)).norm(), 1.0);
+  EXPECT_EQ(plus.charge + minus.charge, 0);
+}
+
 TEST(Defects, NoneInAnOrderedStateWithNoise) {
   Draw draw(52);
   const Rods rods = plant(draw, 4000, 0.4, [](const Vec2&) { return Vec2(-1, 0.1); });

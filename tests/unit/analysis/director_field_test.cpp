@@ -112,7 +112,8 @@ TEST(DirectorField, IsUndefinedInTheVoidAndBeyondWalls) {
   Draw draw(45);
   for (const Region& region :
        {Region(kBox), Region(kBox, SideWalls{Arena::kDisc, 39}), Region(kBox, SideWalls{Arena::kAnnulus, 39, 15}),
-        Region(kBox, SideWalls{Arena::kSquare, 39})}) {
+        Region(kBox, SideWalls{Arena::kSquare, 39}),
+        Region(kBox, SideWalls{.arena = Arena::kStadium, .size = 25, .length = 14})}) {
     std::vector<Vec3> positions;
     for (const Vec3& p : random_places(draw, 1500, kBox)) {
       if (region.contains(p.head<2>()) && p.x() < kBox / 2) positions.push_back(p);
@@ -130,7 +131,7 @@ TEST(DirectorField, IsUndefinedInTheVoidAndBeyondWalls) {
       }
     }
     EXPECT_GT(defined, kNodes * kNodes / 8);
-    if (!region.is_periodic()) {
+    if (region.has_walls()) {
       EXPECT_GT(at_walls, 8) << "walls do not thin the rods out";
       EXPECT_FALSE(field.is_defined(0, 0));
     }
@@ -144,6 +145,14 @@ TEST(DirectorField, IsNotSmoothedThroughWalls) {
   const std::vector<Vec3> directors{axis(0), axis(kPi / 2), axis(kPi / 2)};
   const DirectorField within(positions, directors, Region(40, SideWalls{Arena::kDisc, 39}), 40, 1.5);
   const DirectorField periodic(positions, directors, 40, 40, 1.5);
+  const DirectorField channel(positions, directors, Region(40, SideWalls{Arena::kChannel, 39}), 40, 1.5);
+  for (int j = 0; j < 40; ++j) EXPECT_EQ(channel.order(0, j), periodic.order(0, j)) << "it has no walls there";
+  const auto turned = [](Vec3 v) { return Vec3(v.y(), v.x(), v.z()); };
+  std::vector<Vec3> upwards(3), across(3);
+  std::ranges::transform(positions, upwards.begin(), turned);
+  std::ranges::transform(directors, across.begin(), turned);
+  const DirectorField between(upwards, across, Region(40, SideWalls{Arena::kChannel, 39}), 40, 1.5);
+  EXPECT_EQ(between.order(20, 1), 1.0);
   EXPECT_EQ(within.order(1, 20), 1.0);
   EXPECT_LT(periodic.order(1, 20), 0.9);
   EXPECT_NEAR(within.theta(1, 20), 0, 1e-12);

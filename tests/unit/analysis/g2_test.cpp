@@ -176,7 +176,8 @@ TEST(OrientationCorrelation, PairDistributionOfAGasInAnArenaIsOne) {
   constexpr std::size_t kRods = 800;
   Draw draw(66);
   for (const SideWalls& walls :
-       {SideWalls{Arena::kDisc, 40}, SideWalls{Arena::kSquare, 40}, SideWalls{Arena::kAnnulus, 40, 20}}) {
+       {SideWalls{Arena::kDisc, 40}, SideWalls{Arena::kSquare, 40}, SideWalls{Arena::kAnnulus, 40, 20},
+        SideWalls{.arena = Arena::kStadium, .size = 25, .length = 15}, SideWalls{Arena::kChannel, 30}}) {
     const Region region(kBox, walls);
     OrientationCorrelation g2(20, 21);
     constexpr int kSamples = 20;
@@ -206,6 +207,8 @@ TEST(OrientationCorrelation, HasNoPairsThroughWalls) {
   EXPECT_EQ(pairs_met(opposite, 42.0), 1) << "2.4 mm apart";
   EXPECT_EQ(pairs_met(opposite, Region(42, SideWalls{Arena::kDisc, 40})), 0);
   EXPECT_EQ(pairs_met(opposite, Region(42, SideWalls{Arena::kSquare, 40})), 0);
+  EXPECT_EQ(pairs_met(opposite, Region(42, SideWalls{Arena::kChannel, 40})), 1) << "across its border";
+  EXPECT_EQ(pairs_met({{21, 1.2, 0}, {21, 40.8, 0}}, Region(42, SideWalls{Arena::kChannel, 40})), 0);
   EXPECT_EQ(pairs_met(across_hole, Region(42, SideWalls{Arena::kDisc, 40})), 1) << "19 mm apart";
   EXPECT_EQ(pairs_met(across_hole, Region(42, SideWalls{Arena::kAnnulus, 40, 10})), 0);
   const std::vector<Vec3> beside_hole{{30.5, 27, 0}, {11.5, 27, 0}};

@@ -154,7 +154,9 @@ TEST(NumberFluctuations, AreFittedToBoxesLargerThanRods) {
 }
 
 TEST(NumberFluctuations, LeavesOutBoxesThatDoNotCountAndRodsThatAreNowhere) {
-  const auto left_half = [](const Vec2& centre, double side) { return centre.x() + side / 2 <= kBox / 2 * (1 + 1e-9); };
+  const auto left_half = [](const Vec2& centre, const Vec2& sides) {
+    return centre.x() + sides.x() / 2 <= kBox / 2 * (1 + 1e-9);
+  };
   Blocked<NumberFluctuations> blocks(NumberFluctuations(kBox, kBox * kBox / 2, kFitFrom, left_half));
   Draw draw(95);
   for (int i = 0; i < 200; ++i) {
@@ -169,7 +171,8 @@ TEST(NumberFluctuations, LeavesOutBoxesThatDoNotCountAndRodsThatAreNowhere) {
   EXPECT_NEAR(curve.mean_n[2], 999 / 8.0, 1e-9);
   EXPECT_NEAR(curve.std_n[2].value, std::sqrt(999 / 8.0 * 7 / 8), 0.6);
   EXPECT_NEAR(curve.exponent.value, 0.5, 0.05);
-  Blocked<NumberFluctuations> none(NumberFluctuations(kBox, 1, kFitFrom, [](const Vec2&, double) { return false; }));
+  Blocked<NumberFluctuations> none(
+      NumberFluctuations(kBox, 1, kFitFrom, [](const Vec2&, const Vec2&) { return false; }));
   none.accumulate(0, random_places(draw, 10, kBox));
   EXPECT_TRUE(NumberFluctuations::reduce(none, 0).mean_n.empty());
 }

@@ -14,6 +14,11 @@ Region disc() { return {kBox, SideWalls{Arena::kDisc, 40}}; }
 Region square() { return {kBox, SideWalls{Arena::kSquare, 40}}; }
 Region annulus(double inner = 20) { return {kBox, SideWalls{Arena::kAnnulus, 40, inner}}; }
 
+Region stadium(double size = 16, double length = 20) {
+  return {kBox, SideWalls{.arena = Arena::kStadium, .size = size, .length = length}};
+}
+Region channel() { return {Box(130, kBox), SideWalls{Arena::kChannel, 40}}; }
+
 /// The slow twin: along each of many rays as far as the region goes, in small steps.
 double slow_area(const Region& region, const Vec2& place, double radius) {
   constexpr int kRays = 600, kSteps = 1000;
@@ -31,7 +36,8 @@ double slow_area(const Region& region, const Vec2& place, double radius) {
 
 TEST(Region, AreaInSightIsThatOfRaysUpToTheWalls) {
   Draw draw(21);
-  for (const Region& region : {disc(), square(), annulus(), annulus(2), annulus(34)}) {
+  for (const Region& region : {disc(), square(), annulus(), annulus(2), annulus(34), stadium(), stadium(30, 10),
+                               stadium(40, 0), stadium(4, 36), channel()}) {
     for (int k = 0; k < 6; ++k) {
       Vec2 place;
       do place = Vec2{draw.uniform(0, kBox), draw.uniform(0, kBox)};
@@ -56,6 +62,16 @@ TEST(Region, KnownAreasInSight) {
   EXPECT_NEAR(square().area_in_sight(Vec2(1, 1), 10), kPi * 25, 1e-9);
   EXPECT_NEAR(square().area_in_sight(centre, 29), 1600, 1e-9);
   EXPECT_NEAR(square().area_in_sight(Vec2(41, 21), 10), kPi * 50, 1e-9);
+  // All of a stadium; a strip of one beside its middle; half of a round end from its middle; all round a place on a
+  // straight wall, and up to the other.
+  EXPECT_NEAR(stadium().area_in_sight(centre, 20), 320 + 64 * kPi, 1e-9);
+  EXPECT_NEAR(stadium().area_in_sight(centre, 5), 25 * kPi, 1e-9);
+  EXPECT_NEAR(stadium().area_in_sight(Vec2(31, 21), 8), 64 * kPi, 1e-9);
+  EXPECT_NEAR(stadium().area_in_sight(Vec2(21, 29), 10), 50 * kPi, 1e-9);
+  EXPECT_NEAR(stadium(40, 0).area_in_sight(Vec2(41, 21), 20), 400 * (2 * kPi / 3 - std::sqrt(3.0) / 2), 1e-9);
+  // Of a channel, a strip of a disc: less two segments of it.
+  EXPECT_NEAR(channel().area_in_sight(Vec2(3, 21), 20), 400 * kPi, 1e-9);
+  EXPECT_NEAR(channel().area_in_sight(Vec2(3, 21), 40), 1600 * (kPi / 3 + std::sqrt(3.0) / 2), 1e-9);
   // From the outer wall of an annulus 40/20: all but the lens' shadow; from the inner wall a half plane's segment.
   EXPECT_NEAR(annulus().area_in_sight(Vec2(31, 21), 100), 400 * (kPi / 3 - std::sqrt(3.0) / 4), 1e-9);
   EXPECT_NEAR(annulus().area_in_sight(Vec2(36, 21), 5), kPi * 25, 1e-9);
@@ -69,6 +85,11 @@ TEST(Region, ContainsWhatIsWithinItsWalls) {
   EXPECT_FALSE(square().contains({0.9, 21}));
   EXPECT_FALSE(annulus().contains({21, 21}));
   EXPECT_TRUE(annulus().contains({31.1, 21}));
+  EXPECT_TRUE(stadium().contains({38.9, 21}));
+  EXPECT_TRUE(stadium().contains({31, 28.9}));
+  EXPECT_FALSE(stadium().contains({38, 26}));
+  EXPECT_TRUE(channel().contains({0, 40.9}));
+  EXPECT_FALSE(channel().contains({65, 0.9}));
   EXPECT_EQ(annulus().hidden_radius(), 10);
   EXPECT_EQ(disc().hidden_radius(), 0);
 }
@@ -76,7 +97,11 @@ TEST(Region, ContainsWhatIsWithinItsWalls) {
 TEST(Region, WaysGoThroughTheBorderOnlyWhereThereAreNoWalls) {
   EXPECT_EQ(Region(kBox).shortest({40, -2}), Vec2(-2, -2));
   EXPECT_EQ(disc().shortest({38, -2}), Vec2(38, -2));
+  EXPECT_EQ(channel().shortest({120, -30}), Vec2(-10, -30)) << "it goes on along x";
+  EXPECT_EQ(channel().period(), Vec2(130, 0));
   EXPECT_NEAR(annulus().area(), kPi * 300, 1e-9);
+  EXPECT_NEAR(stadium().area(), 320 + 64 * kPi, 1e-9);
+  EXPECT_EQ(channel().area(), 130 * 40);
   EXPECT_EQ(Region(kBox).area(), kBox * kBox);
 }
 

@@ -73,9 +73,12 @@ TEST(RodPicture, AreaFractionIsOfAllKindsAndPerArena) {
   picture.frame.position.resize(3);
   const double discs = kPi * (0.25 + 1 + 1);
   EXPECT_NEAR(picture.area_fraction(), discs / 1600, 1e-12);
-  for (const auto& [arena, area] :
-       {std::pair{Arena::kDisc, kPi * 225}, {Arena::kSquare, 900.0}, {Arena::kAnnulus, kPi * 200}}) {
-    picture.cell.walls = SideWalls{arena, 30, 10};
+  for (const auto& [arena, area] : {std::pair{Arena::kDisc, kPi * 225},
+                                    {Arena::kSquare, 900.0},
+                                    {Arena::kAnnulus, kPi * 200},
+                                    {Arena::kStadium, kPi * 225 + 150},
+                                    {Arena::kChannel, 1200.0}}) {
+    picture.cell.walls = SideWalls{.arena = arena, .size = 30, .inner = 10, .length = 5};
     EXPECT_NEAR(picture.area_fraction(), discs / area, 1e-12);
   }
 }
@@ -162,6 +165,9 @@ TEST(Measure, FindsNeitherOrderNorDefectsOfSpheres) {
 TEST(Measure, FindsNoDefectsBeyondTheWalls) {
   const auto is_inside = [](Arena arena, const Vec2& from_middle) {
     if (arena == Arena::kSquare) return from_middle.cwiseAbs().maxCoeff() < 20;
+    if (arena == Arena::kChannel) return std::abs(from_middle.y()) < 20;
+    if (arena == Arena::kStadium)
+      return Vec2(std::max(0.0, std::abs(from_middle.x()) - 8), from_middle.y()).norm() < 20;
     return from_middle.norm() < 20 && (arena == Arena::kDisc || from_middle.norm() > 8);
   };
   const auto rods_within = [&](const std::optional<SideWalls>& walls) {
@@ -175,8 +181,8 @@ TEST(Measure, FindsNoDefectsBeyondTheWalls) {
     return picture;
   };
   const std::vector<analysis::Defect> everywhere = rods_within({}).found.defects;
-  for (const Arena arena : {Arena::kDisc, Arena::kSquare, Arena::kAnnulus}) {
-    const RodPicture picture = rods_within(SideWalls{arena, 40, 16});
+  for (const auto& [name, arena] : kArenaNames) {
+    const RodPicture picture = rods_within(SideWalls{.arena = arena, .size = 40, .inner = 16, .length = 16});
     EXPECT_FALSE(picture.found.defects.empty());
     EXPECT_LT(picture.found.defects.size(), everywhere.size());
     for (const analysis::Defect& defect : picture.found.defects) {

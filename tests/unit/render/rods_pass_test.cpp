@@ -418,6 +418,45 @@ TEST(RodsPass, BeyondTheWallsTheFloorIsTinted) {
   }
 }
 
+// Of radius 2 about (3.5, 5) and (6.5, 5); and between 3 and 7 mm upwards.
+TEST(RodsPass, AStadiumAndAChannelEndAtTheirWalls) {
+  const PageColours colours = page_colours(Theme::kLight);
+  const auto is = [](const Colour& a, const Colour& b) {
+    return std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]) < 0.02;
+  };
+  RodPicture picture = empty_picture(kBox);
+  picture.cell.walls = SideWalls{.arena = Arena::kStadium, .size = 4, .length = 3};
+  const Image stadium = draw(picture);
+  picture.cell.walls->arena = Arena::kChannel;
+  const Image channel = draw(picture);
+  for (const Image& image : {stadium, channel}) {
+    for (const double x : {3.5, 5.0, 6.5}) {
+      EXPECT_TRUE(is(colour_at(image, x, 6.95), colours.floor));
+      EXPECT_TRUE(is(colour_at(image, x, 7.005), colours.ink));
+      EXPECT_TRUE(is(colour_at(image, x, 7.1), colours.walls));
+      EXPECT_TRUE(is(colour_at(image, x, 2.9), colours.walls));
+    }
+  }
+  EXPECT_TRUE(is(colour_at(stadium, 8.4, 5), colours.floor));
+  EXPECT_TRUE(is(colour_at(stadium, 8.6, 5), colours.walls));
+  EXPECT_TRUE(is(colour_at(stadium, 1.9, 6.6), colours.walls)) << "2.26 mm from the centre of its end";
+  EXPECT_TRUE(is(colour_at(channel, 0.02, 5), colours.floor));
+  EXPECT_TRUE(is(colour_at(channel, 9.98, 6.6), colours.floor));
+}
+
+TEST(RodsPass, AChannelGoesOnAlongItself) {
+  RodPicture picture = second_kind({{0}, {0.5}}, 0);
+  picture.cell.walls = SideWalls{.arena = Arena::kChannel, .size = 8};
+  PictureStyle style = layers();
+  style.zoom = 2;
+  style.focus = Vec2(0.1, 0.5);  // from -1.5 to 3.5 mm
+  picture.frame.position[0] = Vec3(9.4, 5, 0.6);
+  EXPECT_FALSE(coloured(draw(picture, style)).empty());
+  style.focus = Vec2(0.5, 0.1);
+  picture.frame.position[0] = Vec3(5, 8.4, 0.6);
+  EXPECT_TRUE(coloured(draw(picture, style)).empty()) << "but not across";
+}
+
 TEST(RodsPass, NothingWrapsRoundAnArena) {
   RodPicture picture = second_kind({{0}, {0.5}}, 0);
   picture.cell.walls = SideWalls{Arena::kDisc, 8};

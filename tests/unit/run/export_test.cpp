@@ -96,6 +96,11 @@ TEST(Xyz, WallsAreNamedAndNothingIsPeriodicWithinThem) {
     EXPECT_THAT(text, HasSubstr(" pbc=\"F F F\" Time=2 Step=8 units=\"mm s\" arena=annulus arena_size=8 "
                                 "arena_inner=2.5\n"));
   }
+  header.cell.walls = SideWalls{.arena = Arena::kStadium, .size = 6, .length = 2.5};
+  EXPECT_THAT(text_of(*make_beads_xyz(header), {frame_of_two()}),
+              HasSubstr(" pbc=\"F F F\" Time=2 Step=8 units=\"mm s\" arena=stadium arena_size=6 arena_length=2.5\n"));
+  header.cell.walls->arena = Arena::kChannel;
+  EXPECT_THAT(text_of(*make_beads_xyz(header), {frame_of_two()}), HasSubstr(" pbc=\"T F F\""));
   header.cell.walls->arena = Arena::kDisc;
   EXPECT_THAT(text_of(*make_beads_xyz(header), {frame_of_two()}), HasSubstr(" arena=disc arena_size=8\n"));
 }

@@ -463,6 +463,12 @@ TEST(Measurements, PairsAreThoseWithinTheSideWalls) {
   EXPECT_GT(g_near(), 0);
   p.system.walls = SideWalls{Arena::kDisc, 19.5};
   EXPECT_EQ(g_near(), 0);
+  // a channel has no walls there
+  p.system.walls = SideWalls{Arena::kChannel, 19.5};
+  EXPECT_GT(g_near(), 0);
+  two.position[0] = Vec3(10, 0.5, 0.6);
+  two.position[1] = Vec3(10, 19.4, 0.6);
+  EXPECT_EQ(g_near(), 0);
 }
 
 TEST(Measurements, DefectsAreNotTrackedThroughSideWalls) {
@@ -473,8 +479,8 @@ TEST(Measurements, DefectsAreNotTrackedThroughSideWalls) {
   p.defects = plan().defects;
   Measurements measurements(p);
   const double length = p.system.rod.length;
-  analysis::DefectTracks within({20, 19 * 19, 0.05, length, 0.02, false});
-  analysis::DefectTracks through({20, 19 * 19, 0.05, length, 0.02, true});
+  analysis::DefectTracks within({{0, 0}, 19 * 19, 0.05, length, 0.02});
+  analysis::DefectTracks through({{20, 20}, 19 * 19, 0.05, length, 0.02});
   for (Tick tick = 0; tick <= 500000; tick += 5000) {
     measurements.sample(random_snapshot(tick));
     within.accumulate(static_cast<double>(tick) * kDt, measurements.last_defects()->defects);

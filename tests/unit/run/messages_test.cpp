@@ -122,6 +122,19 @@ TEST(Messages, ACellComesBackFromItsMessage) {
   }
 }
 
+TEST(Messages, AnArenaComesBackWithItsLengths) {
+  Cell cell = small_world().cell();
+  for (const SideWalls& walls : {SideWalls{.arena = Arena::kAnnulus, .size = 9, .inner = 4},
+                                 SideWalls{.arena = Arena::kStadium, .size = 5, .inner = 0, .length = 4.5},
+                                 SideWalls{.arena = Arena::kChannel, .size = 9, .inner = 0}}) {
+    cell.walls = walls;
+    const auto sent = proto::decode<frame_static_t>(proto::encode(proto::encode_cell(cell, 6, "")));
+    ASSERT_TRUE(sent);
+    EXPECT_EQ(sent->arena, name_of(walls.arena));
+    EXPECT_EQ(proto::decode_cell(*sent), cell);
+  }
+}
+
 TEST(Messages, StaticPartOfManyRodsFitsIntoOneDatagram) {
   World world = mixed_world();
   world.species_of_rod.assign(18000, 1);

@@ -121,9 +121,10 @@ TEST(Trajectory, SpeciesAndSideWallsComeBack) {
   several.cell.species.push_back({{-1.2, 0.1, 1.4}, {0.45, 1.0 / 3, 0.2}});
   for (int i = 0; i < kRods; ++i)
     several.cell.species_of_rod.push_back(static_cast<std::uint8_t>(i % 7 == 0 ? 1 : i % 5 == 0 ? 2 : 0));
-  for (const Arena arena : {Arena::kDisc, Arena::kSquare, Arena::kAnnulus}) {
+  for (const auto& [name, arena] : kArenaNames) {
     several.cell.walls = SideWalls{.arena = arena, .size = 70.25, .contact = {0.02, 0.7}};
     if (arena == Arena::kAnnulus) several.cell.walls->inner = 12.5;
+    if (arena == Arena::kStadium) several.cell.walls->length = 3.125;
     expect_frames(folder, 2, several);
   }
 }

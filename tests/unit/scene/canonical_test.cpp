@@ -62,6 +62,9 @@ nlohmann::json random_scene() {
   if (!rods.contains("count") && !(scene.contains("box") && scene["box"].contains("side")) && maybe()) {
     scene["walls"] = {{"arena", "disc"}};
     if (maybe()) scene["walls"]["size"] = between(40, 120);
+    if (maybe()) scene["walls"]["arena"] = maybe() ? "stadium" : "channel";
+    if (maybe() && scene["walls"]["arena"] == "stadium") scene["walls"]["length"] = between(0, 120);
+    if (maybe() && scene["walls"]["arena"] == "channel") scene["box"]["aspect"] = between(0.3, 3);
   }
   if (maybe()) scene["plates"]["noise"] = between(0, 1);
   if (maybe()) scene["plates"]["lid"] = false;

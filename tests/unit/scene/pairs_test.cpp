@@ -90,7 +90,8 @@ TEST(Packing, OfARectangle) {
   EXPECT_EQ(problem_of(R"({"box": {"side": 100, "aspect": 30}})"),
             "run.json:1:33: /box/aspect: a box of 100 mm by 3000 mm: sides are 1 mm to 2000 mm long");
   EXPECT_EQ(problem_of(R"({"box": {"aspect": 2}, "walls": {}})"),
-            "run.json:1:20: /box/aspect: an arena lies in the middle of a square box: remove box.aspect or walls");
+            "run.json:1:20: /box/aspect: an arena lies in the middle of a square box, unless it is a "
+            "channel: remove box.aspect or walls");
   EXPECT_EQ(problem_of(R"({"box": {"aspect": 2}, "measure": {"frank": {}}})"),
             "run.json:1:45: /measure/frank: measure.frank is of square boxes only; remove it or box.aspect");
 }
@@ -122,6 +123,62 @@ TEST(Packing, FractionAndCountMakeTheArena) {
   const System mixed =
       plan_of(R"({"rods": {"count": 300, "area_fraction": 0.5}, "rods_2": {"count": 20}, "walls": {}})").system;
   EXPECT_EQ(mixed.walls->size, disc.walls->size);
+}
+
+TEST(Packing, AStadiumIsTwiceAsLongAsWideUnlessItsLengthIsGiven) {
+  const auto stadium = [](const std::string& walls, const std::string& rest = "") {
+    return plan_of(R"({"walls": {"arena": "stadium")" + walls + "}" + rest + "}").system;
+  };
+  const System whole = stadium("");
+  EXPECT_EQ(whole.box_side, 83.73);
+  EXPECT_DOUBLE_EQ(whole.walls->size, 82.73 / 2);
+  EXPECT_EQ(whole.walls->length, whole.walls->size);
+  const System by_size = stadium(R"(, "size": 20)");
+  EXPECT_EQ(by_size.walls->length, 20);
+  EXPECT_DOUBLE_EQ(by_size.box_side, 41);
+  const System by_both = stadium(R"(, "size": 20, "length": 5)");
+  EXPECT_EQ(by_both.walls->length, 5);
+  EXPECT_DOUBLE_EQ(by_both.box_side, 26);
+  EXPECT_DOUBLE_EQ(stadium(R"(, "length": 12.73)").walls->size, 70);
+  EXPECT_EQ(stadium(R"(, "length": 0)").walls->length, 0) << "a disc";
+  for (const char* length : {"", R"(, "length": 30)"}) {
+    const System by_count = stadium(length, R"(, "rods": {"count": 300, "area_fraction": 0.5})");
+    EXPECT_NEAR(area_fraction_of(by_count), 0.5, 1e-12);
+    EXPECT_EQ(by_count.walls->length, *length ? 30 : by_count.walls->size);
+  }
+  EXPECT_EQ(
+      problem_of(R"({"walls": {"arena": "stadium", "size": 30, "length": 30}, "box": {"side": 60}})"),
+      "run.json:1:40: /walls/size: a stadium of 30 mm and 30 mm does not fit into a box of 60 mm: at most 59 mm in "
+      "all; or leave box.side out");
+  EXPECT_EQ(problem_of(R"({"walls": {"length": 30}})"),
+            "run.json:1:22: /walls/length: only a stadium has straight walls of a given length, and walls.arena is "
+            "\"disc\"; remove walls.length, or set walls.arena to \"stadium\"");
+}
+
+TEST(Packing, AChannelLiesAlongABoxOfAnyShape) {
+  const auto channel = [](const std::string& rest) {
+    return plan_of(R"({"walls": {"arena": "channel"}, )" + rest + "}").system;
+  };
+  EXPECT_DOUBLE_EQ(channel(R"("box": {"side": 40})").walls->size, 39);
+  EXPECT_DOUBLE_EQ(channel(R"("box": {"side": 40, "aspect": 0.5})").walls->size, 19);
+  const System by_size = plan_of(R"({"walls": {"arena": "channel", "size": 24}, "box": {"side": 50}})").system;
+  EXPECT_EQ(by_size.box(), Box(50, 25));
+  EXPECT_EQ(by_size.area(), 50 * 24);
+  const System by_aspect = plan_of(R"({"walls": {"arena": "channel", "size": 24}, "box": {"aspect": 0.5}})").system;
+  EXPECT_EQ(by_aspect.box(), Box(50, 25));
+  const System square = plan_of(R"({"walls": {"arena": "channel", "size": 48.3}, "box": {"side": 49.3}})").system;
+  EXPECT_EQ(square.box_aspect, 1) << "whatever rounding says";
+  const std::string both = R"("rods": {"count": 300, "area_fraction": 0.5})";
+  const System free = channel(both), long_one = channel(both + R"(, "box": {"aspect": 0.25})"),
+               of_side = channel(both + R"(, "box": {"side": 60})");
+  for (const System& system : {free, long_one, of_side}) EXPECT_NEAR(area_fraction_of(system), 0.5, 1e-12);
+  EXPECT_EQ(free.box_aspect, 1);
+  EXPECT_DOUBLE_EQ(long_one.box().y(), long_one.box().x() / 4);
+  EXPECT_DOUBLE_EQ(long_one.walls->size, long_one.box().y() - 1);
+  EXPECT_DOUBLE_EQ(of_side.box().y(), of_side.walls->size + 1);
+  EXPECT_EQ(problem_of(R"({"walls": {"arena": "channel", "size": 30}, "box": {"side": 60, "aspect": 0.5}})"),
+            "run.json:1:40: /walls/size: a channel of 30 mm does not fit into a box of 30 mm: at most 29 mm; or leave "
+            "box.aspect out");
 }
 
 TEST(Packing, OfTooMuchTheKeyThatWasGivenIsNamed) {

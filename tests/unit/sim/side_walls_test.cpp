@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <vector>
 
+#include "sim/balance.h"
+#include "sim/simulation.h"
 #include "tests/support/effort.h"
 #include "tests/support/random_rods.h"
 
@@ -39,21 +41,24 @@ struct RodByWall {
   double horizon;
 
   RodByWall(test::Draw& draw, double gap) : species(random_species(draw)) {
-    walls.arena = static_cast<Arena>(draw.integer(0, 2));
+    walls.arena = static_cast<Arena>(draw.integer(0, 4));
     const double middle = walls.arena == Arena::kAnnulus ? draw.uniform(0.1, 12) : 0.0;
     walls.inner = middle;
     walls.size = middle + (draw.integer(0, 3) ? 4.4 : 30.0) * species.reach();
-    box_side = walls.size + draw.uniform(1, 3);
+    const bool is_long = walls.arena == Arena::kStadium && draw.integer(0, 3);  // or it is a disc
+    walls.length = is_long ? draw.uniform(0, 2) * walls.size : 0.0;
+    box_side = walls.size + walls.length + draw.uniform(1, 3);
     // from where it is free on to the nearest wall that way
     const double angle = draw.uniform(0, 2 * kPi);
     const Vec3 outwards(std::cos(angle), std::sin(angle), 0);
     const double start = walls.arena == Arena::kAnnulus ? 0.25 * (walls.size + walls.inner) : 0.0;
     const Vec3 way = draw.integer(0, 1) ? outwards : Vec3(-outwards);
-    const Vec3 middle_of_box(0.5 * box_side, 0.5 * box_side, 0);
+    const double beside = 0.5 * walls.length * draw.uniform(-1, 1);
+    const Vec3 middle_of_box(0.5 * box_side + beside, 0.5 * box_side, 0);
     Pose pose{middle_of_box + start * outwards, draw.flat_direction(draw.integer(0, 3) ? 0.38 : 1)};
     for (int step = 0; step < 60; ++step) {
       const Vec3 moved = pose.position - (overlap(pose) + gap) * way;
-      if ((moved - middle_of_box).norm() > walls.size) break;  // there may be no such place that way
+      if ((moved - middle_of_box).norm() > walls.size + walls.length) break;  // there may be no such place that way
       pose.position = moved;
     }
 
@@ -79,9 +84,53 @@ struct RodByWall {
   double safe_time() const { return wall_safe_time(walls, box_side, species, pose(), flight, horizon); }
 };
 
+void expect_wall(const SideWalls& walls, const Box& box, const Vec2& point, double distance, const Vec2& normal) {
+  const WallsSeen seen = see_walls(walls, box, {point.x(), point.y(), 0.3});
+  ASSERT_EQ(seen.n, 1);
+  EXPECT_NEAR(seen.walls[0].distance, distance, 1e-12) << point.transpose();
+  EXPECT_LT((seen.walls[0].normal - Vec3(normal.x(), normal.y(), 0)).norm(), 1e-12) << point.transpose();
+  EXPECT_NEAR(distance_to_walls(walls, box, {point.x(), point.y(), 0.3}), distance, 1e-12);
+}
+
+// Round ends of radius 10 about (15, 20) and (25, 20), straight walls between them.
+TEST(SeeWalls, OfAStadium) {
+  const SideWalls walls{.arena = Arena::kStadium, .size = 20, .length = 10};
+  expect_wall(walls, 40, {25, 23}, 7, {0, -1});
+  expect_wall(walls, 40, {18, 12}, 2, {0, 1});
+  expect_wall(walls, 40, {28, 24}, 5, {-0.6, -0.8});
+  expect_wall(walls, 40, {6, 32}, -5, {0.6, -0.8});
+  expect_wall(walls, 40, {37, 20}, -2, {-1, 0});
+  EXPECT_EQ(distance_to_walls(walls, 40, {20, 20, 0}), 10);
+}
+
+TEST(SeeWalls, OfAChannel) {
+  const SideWalls walls{.arena = Arena::kChannel, .size = 20};
+  const Box box(40, 30);
+  expect_wall(walls, box, {7, 21}, 4, {0, -1});
+  expect_wall(walls, box, {100, 3}, -2, {0, 1});
+  EXPECT_EQ(period_of(box, walls), Vec2(40, 0));
+}
+
+// The share of a fine grid that lies within.
+TEST(SideWalls, AreaIsWhatLiesWithin) {
+  constexpr double kBox = 41.3;
+  constexpr int kGrid = 700;
+  for (const auto& [name, arena] : kArenaNames) {
+    const SideWalls walls{.arena = arena, .size = 23, .inner = 9, .length = 14};
+    int within = 0;
+    for (int i = 0; i < kGrid * kGrid; ++i) {
+      const Vec3 point((i % kGrid + 0.5) * kBox / kGrid, (i / kGrid + 0.5) * kBox / kGrid, 0);
+      within += distance_to_walls(walls, kBox, point) >= 0;
+    }
+    EXPECT_NEAR(within * kBox * kBox / (kGrid * kGrid) / walls.area(kBox), 1, 2e-3) << name;
+  }
+  EXPECT_DOUBLE_EQ((SideWalls{.arena = Arena::kStadium, .size = 20, .length = 10}.area(50)), 200 + 100 * kPi);
+  EXPECT_EQ((SideWalls{.arena = Arena::kChannel, .size = 20}.area(Box(40, 30))), 800);
+}
+
 TEST(WallSafeTime, NoBeadBeginsToTouchAWallBeforeItsBound) {
   test::Draw draw(31);
-  std::vector<double> share[3];
+  std::vector<double> share[kArenaNames.size()];
   int n_free = 0, n_short = 0;
   for (int trial = 0; trial < test::draws(100000); ++trial) {
     const RodByWall rod(draw, (draw.integer(0, 9) ? 1 : -1) * std::pow(10.0, draw.uniform(-7, 0.5)));
@@ -120,13 +169,15 @@ TEST(WallSafeTime, OfARodThatFliesStraightAtAWall) {
   for (const Species& species : {rod, sphere}) {
     for (const auto& [name, arena] : kArenaNames) {
       for (const double way : {1.0, -1.0}) {  // in an annulus these are its two walls
-        const SideWalls walls{arena, 30, 6, {}};
+        const bool is_stadium = arena == Arena::kStadium;
+        const SideWalls walls{arena, is_stadium ? 20.0 : 30.0, 6, {}, 10};
         const double head = species.bead_offset.back() + species.bead_radius.back();
         const double wall = arena != Arena::kAnnulus ? way * 15 : way > 0 ? 15.0 : 3.0;
+        const Vec3 towards = arena == Arena::kChannel ? Vec3(0, way, 0) : Vec3(way, 0, 0);
         Flight flight;
-        flight.position = Vec3(0.5 * kBox + wall - way * (head + kGap), 0.5 * kBox, 0.6);
-        flight.velocity = Vec3(way * kSpeed, 0, 10);
-        flight.director = Vec3(way, 0, 0);
+        flight.position = Vec3(0.5 * kBox, 0.5 * kBox, 0.6) + (way * wall - head - kGap) * towards;
+        flight.velocity = kSpeed * towards + Vec3(0, 0, 10);
+        flight.director = towards;
         flight.prepare();
         const auto bound = [&](double horizon) {
           return wall_safe_time(walls, kBox, species, {flight.position, flight.director}, flight, horizon);
@@ -176,13 +227,74 @@ TEST(MayTouchWalls, IsNeverDeniedOfARodThatDoes) {
 TEST(MayTouchWalls, OfARodThatADiscHasNoRoomFor) {
   const Species sphere = make_species({.length = 1.2, .mid_diameter = 1.2, .end_diameter = 1.2, .n_beads = 1});
   const Pose pose{Vec3(1.5, 1.5, 0.6), Vec3::UnitX()};
-  for (const Arena arena : {Arena::kDisc, Arena::kSquare}) {
-    const SideWalls walls{arena, 1.0, 0.1, {}};
+  for (const Arena arena : {Arena::kDisc, Arena::kSquare, Arena::kStadium, Arena::kChannel}) {
+    const SideWalls walls{arena, 1.0, 0.1, {}, 0.5};
     Flight flight;
     flight.position = pose.position;
     EXPECT_TRUE(may_touch_walls(walls, 3, sphere, pose));
     EXPECT_EQ(wall_safe_time(walls, 3, sphere, pose, flight, 1.0), 0);
   }
+}
+
+// A bead is found at a wall at the end of the tick in which it came there: no deeper than it goes in one.
+TEST(SideWalls, NoBeadIsEverFurtherOutsideThanATickTakesIt) {
+  for (const auto& [name, arena] : kArenaNames) {
+    System system;
+    system.rod = {.length = 3.0, .n_beads = 9, .profile = Profile::kPolar};
+    system.walls = SideWalls{.arena = arena, .size = 14, .inner = 4, .contact = {0.1, 0.7}, .length = 6};
+    system.box_side = 22;
+    system.n_rods = 30;
+    system.start = Start::kRandom;
+    auto simulation = Simulation::start(system);
+    ASSERT_TRUE(static_cast<bool>(simulation)) << name << ": " << simulation.error().message;
+    for (int part = 1; part <= 60; ++part) {
+      ASSERT_FALSE(simulation->advance_to(3000 * part).has_value());
+      const Snapshot now = simulation->snapshot();
+      const Species& rod = simulation->world().species[0];
+      for (std::size_t i = 0; i < now.position.size(); ++i) {
+        for (int b = 0; b < rod.n_beads(); ++b) {
+          const Vec3 bead = now.position[i] + rod.bead_offset[b] * now.director[i];
+          ASSERT_GT(distance_to_walls(*system.walls, 22, bead), rod.bead_radius[b] - 4e-3) << name << " " << part;
+        }
+      }
+    }
+    EXPECT_GT(simulation->world().counters.impulses_rod_wall, 30) << name;
+  }
+}
+
+// Two spheres in weightless flight along a channel, which meet beyond its border.
+TEST(SideWalls, AChannelGoesOnAcrossTheBorder) {
+  System system;
+  system.rod = {.length = 1.0, .mid_diameter = 1.0, .end_diameter = 1.0, .n_beads = 1};
+  system.walls = SideWalls{.arena = Arena::kChannel, .size = 5};
+  system.box_side = 12;
+  system.box_aspect = 0.6;
+  system.n_rods = 2;
+  system.gravity = 0;
+  system.base = system.lid = false;
+  system.rod_rod = {0.0, 1.0};
+  auto made = Simulation::start(system);
+  ASSERT_TRUE(static_cast<bool>(made)) << made.error().message;
+  World world = made->world();
+  for (const int i : {0, 1}) {
+    Flight& flight = world.rods[i];
+    flight.position = Vec3(i == 0 ? 10.0 : 4.0, 3.6, 0.6);
+    flight.velocity = Vec3(i == 0 ? 40.0 : -40.0, 0, 0);
+    flight.precession = Vec3::Zero();
+    flight.prepare();
+  }
+  world.start = content(world);
+  Simulation simulation = Simulation::start_from(world);
+  // they touch after 2.5 mm each, and are then 1.5 mm on the other side of the border, or short of it
+  ASSERT_FALSE(simulation.advance_to(static_cast<Tick>(0.1 / system.dt)).has_value());
+  const World& now = simulation.world();
+  EXPECT_EQ(now.counters.impulses_rod_rod, 1);
+  EXPECT_EQ(now.counters.impulses_rod_wall, 0);
+  EXPECT_NEAR(now.rods[0].velocity.x(), -40, 1e-9);
+  EXPECT_NEAR(now.rods[1].velocity.x(), 40, 1e-9);
+  const Snapshot shown = simulation.snapshot();
+  EXPECT_NEAR(shown.position[0].x() + 12.0 * shown.image[0][0], 10 + 2.5 - 1.5, 1e-3);
+  EXPECT_NEAR(shown.position[1].x() + 12.0 * shown.image[1][0], 4 - 2.5 + 1.5, 1e-3);
 }
 
 }  // namespace

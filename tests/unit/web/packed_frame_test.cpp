@@ -85,6 +85,9 @@ TEST(PackedFrame, SpeciesAndWallsAreThereWhereTheyAreInTheRun) {
   const std::string bytes = packed(frame);
   const std::size_t size = u16(bytes, 0);
   const auto head = nlohmann::json::parse(bytes.substr(4, size));
+  frame.cell.walls = SideWalls{.arena = Arena::kStadium, .size = 8, .length = 5};
+  const std::string other = packed(frame);
+  EXPECT_EQ(nlohmann::json::parse(other.substr(4, u16(other, 0)))["walls"]["length_mm"], 5);
   EXPECT_EQ(head["walls"], nlohmann::json({{"arena", "annulus"}, {"size_mm", 18}, {"inner_mm", 6}}));
   EXPECT_EQ(bytes.substr(4 + size + 16), std::string("\x01\x00", 2));
 }

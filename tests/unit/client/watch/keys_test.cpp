@@ -17,8 +17,8 @@ Key letter(char character) { return {Kind::kCharacter, character}; }
 
 const std::vector<std::string> kJobs{"aa", "bb", "cc"};
 
-Steering pressed(Steering state, const std::string& letters, bool is_periodic = true) {
-  for (const char c : letters) state = steered(state, letter(c), kJobs, is_periodic);
+Steering pressed(Steering state, const std::string& letters, const Vec2& period = {1, 1}) {
+  for (const char c : letters) state = steered(state, letter(c), kJobs, period);
   return state;
 }
 
@@ -89,18 +89,18 @@ TEST(Steering, TabAndNumbersSwitchRuns) {
   EXPECT_EQ(pressed(state, "\t").job, "bb");
   EXPECT_EQ(pressed(state, "nnn").job, "aa");
   EXPECT_EQ(pressed(state, "p").job, "cc");
-  EXPECT_EQ(steered(state, {Kind::kBackTab}, kJobs, true).job, "cc");
+  EXPECT_EQ(steered(state, {Kind::kBackTab}, kJobs, Vec2(1, 1)).job, "cc");
   EXPECT_EQ(pressed(state, "3").job, "cc");
   EXPECT_EQ(pressed(state, "4").job, "aa") << "there is no fourth";
   state.job = "gone";
   EXPECT_EQ(pressed(state, "p").job, "aa");
-  EXPECT_EQ(steered(state, letter('n'), {}, true).job, "gone");
+  EXPECT_EQ(steered(state, letter('n'), {}, Vec2(1, 1)).job, "gone");
 }
 
 TEST(Steering, ZoomHasBoundsAndGoesBackToTheWholeBox) {
   Steering state = pressed({}, "++");
   EXPECT_DOUBLE_EQ(state.view.zoom, 1.5625);
-  state = steered(state, {Kind::kRight}, kJobs, true);
+  state = steered(state, {Kind::kRight}, kJobs, Vec2(1, 1));
   EXPECT_DOUBLE_EQ(state.view.x, 0.5 + 0.1 / 1.5625);
   state = pressed(state, "--");
   EXPECT_DOUBLE_EQ(state.view.zoom, 1);
@@ -112,11 +112,16 @@ TEST(Steering, ZoomHasBoundsAndGoesBackToTheWholeBox) {
 TEST(Steering, ArrowsGoRoundAPeriodicBoxAndStopAtWalls) {
   Steering periodic, walled;
   for (int i = 0; i < 7; ++i) {
-    periodic = steered(periodic, {Kind::kUp}, kJobs, true);
-    walled = steered(walled, {Kind::kUp}, kJobs, false);
+    periodic = steered(periodic, {Kind::kUp}, kJobs, Vec2(1, 1));
+    walled = steered(walled, {Kind::kUp}, kJobs, Vec2(0, 0));
   }
   EXPECT_NEAR(periodic.view.y, 0.2, 1e-12);
   EXPECT_DOUBLE_EQ(walled.view.y, 1);
+  Steering channel = steered({}, {Kind::kUp}, kJobs, Vec2(10, 0));
+  for (int i = 0; i < 7; ++i)
+    channel = steered(steered(channel, {Kind::kUp}, kJobs, Vec2(10, 0)), {Kind::kRight}, kJobs, Vec2(10, 0));
+  EXPECT_NEAR(channel.view.x, 0.2, 1e-12);
+  EXPECT_DOUBLE_EQ(channel.view.y, 1);
 }
 
 TEST(Steering, LettersToggle) {

@@ -76,6 +76,14 @@ TEST(RodCells, BetweenWallsNothingIsRepeated) {
   EXPECT_EQ(drawn(frame, kDots, {.x = 0}).text(2), "     ⠒⠒⠂");
 }
 
+TEST(RodCells, AChannelIsRepeatedAlongItself) {
+  RodFrame frame = frame_of({{0, 5.25, 0, 0}});
+  frame.cell.walls = SideWalls{.arena = Arena::kChannel, .size = 40};  // out of sight
+  EXPECT_EQ(drawn(frame, kDots).text(2), "⠒⠒⠂    ⠐⠒⠒");
+  frame.rods = {{5, 0, 0, 0}};
+  EXPECT_EQ(drawn(frame, kDots).text(0), "") << "but not across";
+}
+
 TEST(RodCells, WallsAreDrawn) {
   RodFrame frame = frame_of({});
   frame.cell.walls.emplace();
