@@ -54,6 +54,8 @@ TEST(GoldenHash, TrajectoriesAreWhatTheyWere) {
       {"a pair of defects", scene_of(3.5, 18, 90), 5000, 0x8a9e2297f8de8d92},
       {"restitution that falls with speed", scene_of(2.5, 14, 60), 10000, 0x7978c5d0918dacef},
       {"species with contacts of their own in a disc", mixed(Arena::kDisc), 30000, 0x89768fba3fa03079},
+      {"several species in a stadium", mixed(Arena::kStadium), 30000, 0x6a114fe4fbb24be6},
+      {"several species in a channel, impacts at their instant", mixed(Arena::kChannel), 30000, 0xe302673a31a09784},
   };
   cases[1].system.start = Start::kRandom;
   cases[2].system.rod = {.length = 0.8, .mid_diameter = 0.8, .end_diameter = 0.8, .n_beads = 1};
@@ -78,6 +80,10 @@ TEST(GoldenHash, TrajectoriesAreWhatTheyWere) {
   cases[15].system.rod_rod.own[Contacts::place(0, 1)] = {0.3, 0.8, {}};
   cases[15].system.rod_base.own[Contacts::place(0, 2)] = {0.2, {}, 40.0};
   cases[15].system.walls->contact.own[Contacts::place(0, 1)].restitution = 0.7;
+  cases[16].system.n_rods = 8;
+  cases[16].system.walls->size = 8;
+  cases[16].system.walls->length = 5;
+  cases[17].system.impacts = ImpactTime::kAtInstant;
   for (const Golden& golden : cases) {
     auto simulation = Simulation::start(golden.system);
     ASSERT_TRUE(static_cast<bool>(simulation)) << simulation.error().message;

@@ -377,14 +377,18 @@ TEST(RodsPass, TheShadowKeepsToAFreeProfile) {
   }
 }
 
+/// The colour of the pixel at a place of the box [mm].
+Colour colour_at(const Image& image, double x, double y) {
+  const std::uint8_t* p = image.pixel(static_cast<int>(x * kScale), static_cast<int>(kSide - y * kScale));
+  return {p[0] / 255.0, p[1] / 255.0, p[2] / 255.0};
+}
+
+/// But for rounding.
+bool is(const Colour& a, const Colour& b) {
+  return std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]) < 0.02;
+}
+
 TEST(RodsPass, BeyondTheWallsTheFloorIsTinted) {
-  const auto colour_at = [](const Image& image, double x, double y) {
-    const std::uint8_t* p = image.pixel(static_cast<int>(x * kScale), static_cast<int>(kSide - y * kScale));
-    return Colour{p[0] / 255.0, p[1] / 255.0, p[2] / 255.0};
-  };
-  const auto is = [](const Colour& a, const Colour& b) {
-    return std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]) < 0.02;
-  };
   for (const Theme theme : {Theme::kLight, Theme::kDark}) {
     PictureStyle style;
     style.theme = theme;
@@ -421,9 +425,6 @@ TEST(RodsPass, BeyondTheWallsTheFloorIsTinted) {
 // Of radius 2 about (3.5, 5) and (6.5, 5); and between 3 and 7 mm upwards.
 TEST(RodsPass, AStadiumAndAChannelEndAtTheirWalls) {
   const PageColours colours = page_colours(Theme::kLight);
-  const auto is = [](const Colour& a, const Colour& b) {
-    return std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]) < 0.02;
-  };
   RodPicture picture = empty_picture(kBox);
   picture.cell.walls = SideWalls{.arena = Arena::kStadium, .size = 4, .length = 3};
   const Image stadium = draw(picture);

@@ -102,7 +102,7 @@ TEST(Xyz, WallsAreNamedAndNothingIsPeriodicWithinThem) {
   header.cell.walls->arena = Arena::kChannel;
   EXPECT_THAT(text_of(*make_beads_xyz(header), {frame_of_two()}), HasSubstr(" pbc=\"T F F\""));
   header.cell.walls->arena = Arena::kDisc;
-  EXPECT_THAT(text_of(*make_beads_xyz(header), {frame_of_two()}), HasSubstr(" arena=disc arena_size=8\n"));
+  EXPECT_THAT(text_of(*make_beads_xyz(header), {frame_of_two()}), HasSubstr(" arena=disc arena_size=6\n"));
 }
 
 TEST(Xyz, ADamagedRunIdEndsNeitherTheLineNorItsQuotes) {
