@@ -31,8 +31,7 @@ void PairMixing::accumulate(std::span<const Vec3> positions, std::span<const std
   const std::size_t n = positions.size(), n_species = rods_.size();
   const std::size_t n_bins = pairs_.size() / kinds(n_species);
   SHAKEN_CHECK(species_of.empty() || species_of.size() == n, "a species for each rod");
-  SHAKEN_CHECK(has_room(region, std::max(r_max_, near_)),
-               "distances beyond half the box have no nearest image");
+  SHAKEN_CHECK(has_room(region, std::max(r_max_, near_)), "distances beyond half the box have no nearest image");
   const auto of = [&](std::size_t i) { return species_of.empty() ? std::size_t{0} : std::size_t{species_of[i]}; };
   std::vector<double> xs, ys;
   for (const Vec3& position : positions) {

@@ -49,7 +49,8 @@ Measurements::Measurements(const scene::RunPlan& plan, Cell cell) : cell_(std::m
       const std::optional<Cadence> cadence = kind.cadence(rods.plan);
       if (!cadence) continue;
       const double interval = static_cast<double>(cadence->period()) * plan.system.dt;
-      measured.timed.push_back({std::string(kind.name), *cadence, kind.make({rods.plan, plan, species, cell_, interval}), 0});
+      measured.timed.push_back(
+          {std::string(kind.name), *cadence, kind.make({rods.plan, plan, species, cell_, interval}), 0});
       const Measurement* made = measured.timed.back().measurement.get();
       if (const auto* order = dynamic_cast<const MeasuredOrder*>(made)) measured.order = order;
       if (const auto* defects = dynamic_cast<const MeasuredDefects*>(made)) measured.defects = defects;

@@ -485,7 +485,8 @@ std::vector<MeasureMemory> measure_memory(const RunPlan& plan) {
       const double samples = std::floor(plan.longest_time() / (ticks * plan.system.dt) * (1 + 1e-12)) + 1;
       double in_stretch = 1;
       while (samples > kBlocks * in_stretch) in_stretch *= 2;
-      Sizes sizes{rods.plan, plan, samples, static_cast<double>(rods.plan.system.n_rods), std::ceil(samples / in_stretch)};
+      Sizes sizes{rods.plan, plan, samples, static_cast<double>(rods.plan.system.n_rods),
+                  std::ceil(samples / in_stretch)};
       MeasureMemory needed = one.memory(sizes);
       sizes.stretches = std::min(kBlocks, samples);
       needed.spare += one.memory(sizes).state - needed.state;

@@ -28,8 +28,8 @@ struct MeasureMemory {
 
 /// What formulas of memory are made of.
 struct Sizes {
-  const RunPlan& plan;  ///< of the rods that are measured
-  const RunPlan& run;   ///< of all species
+  const RunPlan& plan;   ///< of the rods that are measured
+  const RunPlan& run;    ///< of all species
   double samples = 0;    ///< of this measurement in the whole run
   double rods = 0;       ///< that are measured
   double stretches = 0;  ///< of time that sums are kept for; neighbours are merged now and then

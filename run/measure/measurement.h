@@ -29,9 +29,9 @@ class Measurement {
 struct MeasureContext {
   const scene::RunPlan& plan;  ///< of the rods that are measured
   const scene::RunPlan& run;   ///< of all species
-  const Species& species;  ///< of the rods that are measured
-  const Cell& cell;        ///< which rod is of which species
-  double interval;         ///< between its samples: a whole number of ticks [s]
+  const Species& species;      ///< of the rods that are measured
+  const Cell& cell;            ///< which rod is of which species
+  double interval;             ///< between its samples: a whole number of ticks [s]
 };
 
 }  // namespace shaken::run

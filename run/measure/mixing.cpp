@@ -39,8 +39,8 @@ class MeasuredMixing : public Measurement {
   void reduce(Reduction& result) const override {
     const analysis::MixingCurves curves = mixing_.after(result.t_steady).reduce();
     const auto errors = block_errors(mixing_, result.t_steady, [](const PairMixing& part) { return part.reduce().g; });
-    const auto numbers = block_estimates(mixing_, result.t_steady,
-                                         [](const PairMixing& part) { return part.reduce().segregation; });
+    const auto numbers =
+        block_estimates(mixing_, result.t_steady, [](const PairMixing& part) { return part.reduce().segregation; });
     result.arrays["/mixing/r_mm"] = curves.r;
     for (std::size_t a = 0; a < numbers_.size(); ++a) {
       for (std::size_t b = a; b < numbers_.size(); ++b) {
@@ -85,8 +85,10 @@ MeasurementKind mixing_kind() {
           },
       .numbers =
           {
-              {"segregation_12", "how far `rods` and `rods_2` keep apart: 0 if they are mixed at random, 1 if no rod has "
-                                 "a neighbour of the other species", false, "no neighbours"},
+              {"segregation_12",
+               "how far `rods` and `rods_2` keep apart: 0 if they are mixed at random, 1 if no rod has "
+               "a neighbour of the other species",
+               false, "no neighbours"},
               {"segregation_13", "the same of `rods` and `rods_3`", false, "no neighbours"},
               {"segregation_23", "the same of `rods_2` and `rods_3`", false, "no neighbours"},
           },

@@ -21,7 +21,8 @@ struct RunTotals {
 class Sample {
  public:
   /// Of the measured `rods` among `all`, which must outlive the moment.
-  Sample(const Snapshot& rods, const Snapshot& all, const RunTotals& totals) : rods_(rods), all_(all), totals_(totals) {}
+  Sample(const Snapshot& rods, const Snapshot& all, const RunTotals& totals)
+      : rods_(rods), all_(all), totals_(totals) {}
 
   const Snapshot* operator->() const { return &rods_; }
   /// Rods of all species.

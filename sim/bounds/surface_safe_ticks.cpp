@@ -7,6 +7,17 @@
 #include "sim/motion/side_walls.h"
 
 namespace shaken {
+namespace {
+
+bool is_in_plate(const Species& species, const Pose& pose, const PlateState& plates, const TickRules& rules) {
+  return std::ranges::any_of(species.outer_beads, [&](int bead) {
+    const double z = pose.position.z() + species.bead_offset[bead] * pose.director.z();
+    const double radius = species.bead_radius[bead];
+    return (rules.has_base && z - radius < plates.base) || (rules.has_lid && z + radius > plates.lid);
+  });
+}
+
+}  // namespace
 
 void off_surface_ticks(std::span<const int> rods, const World& world, const std::vector<RodAtTick>& at_tick, Tick now,
                        Tick horizon, const TickRules& rules, PlateLanes& lanes, Tick* ticks) {
@@ -25,6 +36,15 @@ void off_surface_ticks(std::span<const int> rods, const World& world, const std:
     }
     plate_safe_ticks(species, world.plates, lanes, static_cast<int>(rods.size()), rules.gravity, rules.dt, now, horizon,
                      ticks, {rules.has_base, rules.has_lid, rules.rest});
+  }
+  if (rules.impacts_at_instant) {
+    // An impact on one bead may have pressed another deeper into a plate than it was found, though it recedes: the next
+    // tick sees how deep.
+    const PlateState plates = world.plates.at(now);
+    for (std::size_t lane = 0; lane < rods.size(); ++lane) {
+      const RodAtTick& rod = at_tick[rods[lane]];
+      if (rod.displaced && is_in_plate(species, rod.pose, plates, rules)) ticks[lane] = 0;
+    }
   }
   if (!rules.walls) return;
   for (std::size_t lane = 0; lane < rods.size(); ++lane) {

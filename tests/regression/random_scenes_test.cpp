@@ -44,5 +44,21 @@ TEST(RandomScenes, SteppersAgreeWhereRodsRideOnStickyPlates) {
   }
 }
 
+// An impact at its instant on one bead presses another, which recedes, deeper into the lid than any bead was found.
+TEST(RandomScenes, SteppersAgreeOnHowDeepAnImpactPressesOtherBeads) {
+  test::SceneCase one;
+  one.scene = nlohmann::ordered_json::parse(R"({
+    "rods": {"bead_diameters": [0.743, 0.698, 0.496, 0.599, 0.627, 0.71, 0.703, 0.6, 0.47, 0.55, 0.729, 0.794, 0.742,
+                                0.686, 0.546, 0.741, 0.569, 0.8], "count": 1},
+    "box": {"gap": 0.832}, "plates": {"frequency": 331, "gamma": 28.7},
+    "time": {"step": "62.3 us", "impacts": "at_instant"}})");
+  one.ticks = 5;
+  one.stop = 4;
+  one.begin = 8589930663;  // the lid is where it cannot be at the start
+  const test::CaseResult result = test::compare_steppers(one);
+  ASSERT_TRUE(result.is_valid) << result.problem;
+  EXPECT_EQ(result.difference, "");
+}
+
 }  // namespace
 }  // namespace shaken

@@ -25,6 +25,7 @@ inline bool same(const Counters& a, const Counters& b) {
     for (const auto* sum : {&ledger.lost_rod_rod, &ledger.lost_surfaces, &ledger.given, &ledger.noise})
       values.push_back(sum->value());
     for (const auto& sum : ledger.momentum) values.push_back(sum.value());
+    for (const auto& sum : ledger.virial) values.push_back(sum.value());
     return values;
   };
   return all(a) == all(b);
