@@ -314,7 +314,7 @@ void expect_agreement(bool as_sweep, bool broken, int n, int n_at_least) {
 }
 
 TEST(Schema, AcceptsEveryAllowedValueOfAScene) { expect_agreement(false, false, test::draws(3000), test::draws(1000)); }
-TEST(Schema, AcceptsEveryAllowedValueOfASweep) { expect_agreement(true, false, test::draws(1000), test::draws(180)); }
+TEST(Schema, AcceptsEveryAllowedValueOfASweep) { expect_agreement(true, false, test::draws(1200), test::draws(200)); }
 // What does not vary with the scenes that are drawn.
 TEST(Schema, AgreesOnWhatASweepAsksOfItsExecutor) {
   const auto with = [](const char* key, Json value) {
