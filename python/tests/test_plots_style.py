@@ -200,3 +200,16 @@ def test_titles_of_axes(path: str, title: str) -> None:
 def test_labels_of_points() -> None:
     assert names.plain(names.point_label({"rods.area_fraction": 0.6, "rods.length": 2.5})) == "φ = 0.6, ℓ = 2.5 mm"
     assert names.plain(names.point_label({"plates.gamma": -3e-7})) == "Γ = −3·10⁻⁷"
+
+
+def test_titles_break_between_quantities() -> None:
+    """A symbol stays with its value, and a number with its unit."""
+    sheet = style.sheet("89mm", columns=2)
+    for panel in sheet:
+        panel.titles("x", "y", "ℓ = 2.5 mm, φ = 0.85, w = 1.2 mm")
+    sheet.finish()
+    lines = sheet[0].axes.get_title(loc="left").split("\n")
+    assert len(lines) > 1
+    for line in lines:
+        assert line.count("=") == len(line.rstrip(",").split(",")), lines
+        assert not line.rstrip(",").endswith("="), lines
