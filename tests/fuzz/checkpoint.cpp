@@ -20,7 +20,9 @@ constexpr const char* kScene = R"({
   "rods": {"length": "2.5 mm", "count": 8}, "box": {"side": "8 mm"}, "time": {"steady": 0, "measure": 1},
   "measure": {"order": {}, "angles": {"bins": 4}, "tilt": {"bins": 4}, "defects": {"list": true}, "g2": {"bins": 4},
               "msd": {}, "rotation": {}, "velocity": {}, "rods": {}, "fluctuations": {}, "frank": {},
-              "pairs": {"bins": 3}, "layers": {}, "lattice": {}, "structure": {"waves": 4}}})";
+              "pairs": {"bins": 3}, "layers": {}, "lattice": {}, "structure": {"waves": 4}, "polar": {},
+              "temperatures": {}, "scattering": {}, "van_hove": {"bins": 4}, "flow": {"bins": 4}, "clusters": {},
+              "collisions": {}, "stress": {}, "mixing": {"bins": 4}}})";
 
 const scene::RunPlan& plan() {
   static const scene::RunPlan loaded = [] {
@@ -38,7 +40,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto bytes = std::as_bytes(std::span(data, size)).subspan(1);
   if (data[0] == '0') {
     if (const auto world = restore_checkpoint(plan().system, bytes)) {
-      fuzz::promise(std::ranges::equal(save_checkpoint(*world), bytes), "a world is saved as it was read");
+      const auto saved = save_checkpoint(*world);
+      const bool is_former = bytes[7] != saved[7];  // of a format that is read, but no longer written
+      const auto again = restore_checkpoint(plan().system, saved);
+      fuzz::promise(is_former || std::ranges::equal(saved, bytes), "a world is saved as it was read");
+      fuzz::promise(again && std::ranges::equal(save_checkpoint(*again), saved), "a world is read as it was saved");
     }
     return 0;
   }
