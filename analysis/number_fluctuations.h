@@ -39,9 +39,8 @@ class NumberFluctuations : public Summed<NumberFluctuations> {
   static constexpr std::size_t kMinSizes = 3;
 
   /// `counts(centre, sides)` says whether a box counts: only those wholly inside of walls should. Without it all do.
-  /// `area` is that of the arena [mm^2], the box's without walls.
-  /// Exponents are fitted to boxes whose shorter side is `fit_from` [mm] or more: two rod
-  /// lengths, as what is smaller counts single rods and their perimeters, not density.
+  /// `area` is that of the arena [mm^2], the box's without walls. Exponents are fitted to boxes whose shorter side is
+  /// `fit_from` [mm] or more: two rod lengths, as what is smaller counts single rods and their perimeters, not density.
   using Where = std::function<bool(const Vec2& centre, const Vec2& sides)>;
   NumberFluctuations(const Box& box, double area, double fit_from, const Where& counts = {});
 

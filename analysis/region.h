@@ -26,8 +26,7 @@ class Region {
   double area() const { return walls_ ? walls_->area(box_) : box_.area(); }  ///< [mm^2]
   /// Whether a place in the box lies within the walls.
   bool contains(const Vec2& place) const;
-  /// From one place to another the shortest way: to the nearest image, or plainly where walls leave
-  /// none.
+  /// From one place to another the shortest way: to the nearest image, or plainly where walls leave none.
   Vec2 shortest(const Vec2& difference) const;
   /// Half the diameter of the inner wall, which hides what lies behind it; 0 if there is none [mm].
   double hidden_radius() const { return walls_ && walls_->arena == Arena::kAnnulus ? walls_->inner / 2 : 0.0; }

@@ -29,8 +29,8 @@ struct Steering {
   Colouring shown_colouring() const { return colouring == Colouring::kAuto ? automatic : colouring; }
 };
 
-/// What a key changes. `jobs` are those that can be chosen, in order; where `period` is
-/// not 0, the view may leave the box on one side and come back on the other.
+/// What a key changes. `jobs` are those that can be chosen, in order; where `period` is not 0, the view may leave the
+/// box on one side and come back on the other.
 Steering steered(Steering state, const Key& key, std::span<const std::string> jobs, const Vec2& period);
 
 /// The keys as a list, a line each, for the help.

@@ -47,7 +47,7 @@ double compressibility(Simulation& simulation, double begin, double end) {
 
 class HardDiscs : public testing::TestWithParam<double> {};
 
-// Z = (1 + f^2 / 8) / (1 - f)^2: Henderson, Mol. Phys. 30, 971 (1975), right to 0.3 % up to f = 0.5.
+// Z = (1 + f^2 / 8) / (1 - f)^2: Henderson, Mol. Phys. 30, 971 (1975).
 TEST_P(HardDiscs, HaveTheirEquationOfState) {
   auto simulation = Simulation::start(elastic_discs(300, GetParam()));
   ASSERT_TRUE(static_cast<bool>(simulation)) << simulation.error().message;
