@@ -9,7 +9,7 @@ import re
 import sys
 
 # Inside the physics library: each may include what stands before it, so there are no circles.
-SIM = ["sim/physics_version.h", "sim/lanes", "sim/system.h", "sim/snapshot.h", "sim/rod", "sim/cell.h", "sim/motion",
+SIM = ["sim/lanes", "sim/system.h", "sim/physics_version.h", "sim/snapshot.h", "sim/rod", "sim/cell.h", "sim/motion",
        "sim/contact", "sim/neighbors", "sim/ledger.h", "sim/world", "sim/balance", "sim/turned_rows",
        "sim/director_patterns", "sim/aligning_field", "sim/initial",
        "sim/close_up", "sim/effects", "sim/tick", "sim/bounds", "sim/schedule", "sim/stepping",

@@ -26,6 +26,7 @@
 #include "scene/canonical.h"
 #include "scene/length.h"
 #include "sim/balance.h"
+#include "sim/physics_version.h"
 
 namespace shaken::run {
 namespace {
@@ -219,6 +220,7 @@ class Loop {
     const World& world = run_.simulation.world();
     Summary summary;
     summary.run_id = run_id_;
+    summary.physics = physics_version(plan_.system);
     summary.start = plan_.start;
     summary.n_rods = static_cast<int>(world.rods.size());
     summary.sim_seconds = run_.simulation.time();

@@ -11,7 +11,6 @@
 #include "base/files.h"
 #include "base/steadiness.h"
 #include "run/files/version.h"
-#include "sim/physics_version.h"
 
 namespace shaken::run {
 namespace {
@@ -181,7 +180,7 @@ Result<void> write_summary(const std::filesystem::path& file, const Summary& sum
   }
   json["exit"] = {{"state", summary.state}, {"reason", summary.reason}, {"tick", summary.tick}, {"rods", summary.rods}};
   if (summary.done_before) json["exit"]["done_before_s"] = *summary.done_before;
-  json["versions"] = {{"shaken", version()}, {"physics", kPhysicsVersion}, {"compiler", compiler()}};
+  json["versions"] = {{"shaken", version()}, {"physics", summary.physics}, {"compiler", compiler()}};
   json["host"] = host_name();
   json["started"] = summary.started;
   json["finished"] = summary.finished;

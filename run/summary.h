@@ -27,6 +27,7 @@ struct EffectReport {
 /// What summary.json says of a run.
 struct Summary {
   std::string run_id;
+  int physics = 0;                         ///< version of the scene's physics (sim/physics_version.h)
   std::optional<scene::StartState> start;  ///< the run that left the rods as they were at the start, if one did
   int n_rods = 0;
   double sim_seconds = 0;

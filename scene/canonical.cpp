@@ -23,9 +23,9 @@ nlohmann::ordered_json& object_at(nlohmann::ordered_json& scene, std::string_vie
   return *object;
 }
 
-std::string hash_of(nlohmann::ordered_json scene) {
+std::string hash_of(const RunPlan& plan, nlohmann::ordered_json scene) {
   scene.erase("stream");
-  const std::string text = fmt::format("shaken physics {}\n{}", kPhysicsVersion, scene.dump());
+  const std::string text = fmt::format("shaken physics {}\n{}", physics_version(plan.system), scene.dump());
   return fmt::format("{:016x}", XXH3_64bits(text.data(), text.size()));
 }
 
@@ -52,9 +52,9 @@ std::string run_id(const RunPlan& plan) {
   nlohmann::ordered_json scene = to_json(plan);
   scene.erase("until");
   scene["time"].erase("measure");
-  return hash_of(std::move(scene));
+  return hash_of(plan, std::move(scene));
 }
 
-std::string scene_hash(const RunPlan& plan) { return hash_of(to_json(plan)); }
+std::string scene_hash(const RunPlan& plan) { return hash_of(plan, to_json(plan)); }
 
 }  // namespace shaken::scene

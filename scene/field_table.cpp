@@ -333,6 +333,13 @@ std::vector<std::vector<Field>> groups() {
     quantity("plates.frequency", sys<&System::frequency>, kFrequency, 0.1, 1e5,
              "Frequency f of the plates' vibration."),
     gravity(),
+    later(quantity("plates.horizontal_amplitude", sys<&System::horizontal_amplitude>, kLength, 0, 10,
+                   "Amplitude b of the plates' vibration in the plane, at the same frequency; 0: none.")),
+    later(quantity("plates.horizontal_phase", sys<&System::horizontal_phase>, kPlain, -360, 360,
+                   "Angle in degrees by which the vibration in the plane is ahead of that along z: 0 or 180 shake along "
+                   "a line, 90 or -90 along an ellipse.")),
+    later(quantity("plates.horizontal_angle", sys<&System::horizontal_angle>, kPlain, -360, 360,
+                   "Direction of the vibration in the plane, in degrees to the x axis.")),
     later(on_or_off("plates.base", sys<&System::base>, "Whether there is a base.")),
     later(on_or_off("plates.lid", sys<&System::lid>, "Whether there is a lid.")),
     later(quantity("plates.noise", sys<&System::rotational_noise>, kPlain, 0, 10,

@@ -172,6 +172,11 @@ struct MeasureMixing {
   }
   friend bool operator==(const MeasureMixing&, const MeasureMixing&) = default;
 };
+/// The common drift of the measured rods.
+struct MeasureDrift {
+  double every = 0.01;  ///< [s]
+  friend bool operator==(const MeasureDrift&, const MeasureDrift&) = default;
+};
 
 // clang-format off
 /// Every observable by its name and settings, in the order in which it stands in canonical scenes, samples and is
@@ -200,7 +205,8 @@ struct MeasureMixing {
   X(clusters, MeasureClusters) \
   X(collisions, MeasureCollisions) \
   X(stress, MeasureStress) \
-  X(mixing, MeasureMixing)
+  X(mixing, MeasureMixing) \
+  X(drift, MeasureDrift)
 // clang-format on
 
 /// Whose observables are measured.

@@ -413,6 +413,15 @@ Observable mixing() {
     .remedy = "fewer `bins`"};
 }
 
+Observable drift() {
+  return {
+    .doc = "The common drift of all rods in the plane: displacement of the mean of their centres, and mean velocity.",
+    .keys = {},
+    .memory = [](const Sizes& s) -> MeasureMemory {
+      return {"", s.series(3) + s.in_blocks(70), 0, s.series(3), s.spare_series(3)}; },
+    .remedy = "a longer `every`"};
+}
+
 // clang-format on
 
 }  // namespace rows

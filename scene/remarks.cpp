@@ -17,7 +17,16 @@ namespace shaken::scene {
 
 namespace {
 
-bool moves(const System& system) { return system.amplitude > 0 && (system.base || system.lid); }
+/// Some plate rubs on some species.
+bool has_plate_friction(const System& system) {
+  bool has = false;
+  for (std::size_t number = 0; number < kMostSpecies; ++number) {
+    if (!system.has_species(number)) continue;
+    has |= (system.base && system.rod_base.of(number).has_friction()) ||
+           (system.lid && system.rod_lid.of(number).has_friction());
+  }
+  return has;
+}
 
 /// At how many phases of a vibration samples are taken that follow each other after so many periods; 0: at many.
 int phases_met(double periods) {
@@ -57,7 +66,7 @@ std::vector<std::string> remarks(const RunPlan& plan) {
                                format_quantity(every, Dimension::kTime), format_quantity(total, Dimension::kTime)));
   };
   const auto remark_few_phases = [&](const char* name, const auto& settings) {
-    if (!settings || settings->phases != SamplePhases::kLocked || !moves(plan.system)) return;
+    if (!settings || settings->phases != SamplePhases::kLocked || !plan.system.has_moving_plates()) return;
     const double periods = settings->every * plan.system.frequency;
     if (const int phases = phases_met(periods); phases > 0) {
       list.push_back(
@@ -106,6 +115,10 @@ std::vector<std::string> remarks(const RunPlan& plan) {
         fmt::format("plates.gamma is {:.4g}: below 1 the base never falls faster than the rods, which come "
                     "to rest on it",
                     *gamma));
+  }
+  if (plan.system.has_horizontal_vibration() && !has_plate_friction(plan.system)) {
+    list.push_back(
+        "plates.horizontal_amplitude: no plate has friction, so the vibration in the plane does not reach the rods");
   }
   return list;
 }

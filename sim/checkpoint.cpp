@@ -87,6 +87,11 @@ void each_scene_key(Archive&& visit, const System& system) {
   visit(system.gap);
   visit(system.amplitude);
   visit(system.frequency);
+  if (system.horizontal_amplitude > 0) {
+    visit(system.horizontal_amplitude);
+    visit(system.horizontal_phase);
+    visit(system.horizontal_angle);
+  }
   visit(system.gravity);
   visit(system.dt);
 }
@@ -150,7 +155,7 @@ std::uint64_t state_hash(const World& world) {
 std::vector<std::byte> save_checkpoint(const World& world) {
   StateWriter writer;
   writer.put(kMagic);
-  writer.put(static_cast<std::int64_t>(kPhysicsVersion));
+  writer.put(static_cast<std::int64_t>(physics_version(world.system)));
   each_scene_key([&](const auto& key) { writer.put(key); }, world.system);
   each_counter([&](const auto& counter) { writer.put(counter); }, world.counters);
   each_sum(
@@ -175,9 +180,9 @@ Result<World> restore_checkpoint(const System& system, std::span<const std::byte
     if (magic != kMagic && magic != kMagicWithoutVirial) return Error{"not a checkpoint of this version of Shaken"};
     std::int64_t physics = 0;
     reader.get(physics);
-    if (physics != kPhysicsVersion) {
+    if (physics != physics_version(system)) {
       return Error{"the checkpoint is of physics version " + std::to_string(physics) + ", this program has version " +
-                   std::to_string(kPhysicsVersion) +
+                   std::to_string(physics_version(system)) +
                    " and would go on in another way: finish the run with the program that began it, or start it anew"};
     }
     return restore_world(system, reader, magic == kMagic);

@@ -150,7 +150,7 @@ class Compression {
   System gas() const {
     System gas = system_;
     gas.start = Start::kRandom;
-    gas.amplitude = 0;
+    gas.amplitude = gas.horizontal_amplitude = 0;
     gas.gravity = 0;
     gas.base = gas.lid = !system_.is_planar();
     const ContactParameters elastic{0.0, 1.0};

@@ -489,7 +489,7 @@ std::string start_mismatch(const System& system, const System& other) {
 }
 
 double off_the_beat(const System& system, Tick tick) {
-  if (system.amplitude == 0 || (!system.base && !system.lid)) return 0;
+  if (!system.has_moving_plates()) return 0;
   const double cycles = static_cast<double>(tick) * system.dt * system.frequency;
   return (cycles - std::round(cycles)) / system.frequency;
 }

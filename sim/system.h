@@ -169,11 +169,14 @@ struct System {
   double box_aspect = 1.0;                        ///< its side along y over that along x
   double gap = 1.2;                               ///< w, between base and lid [mm]
 
-  double amplitude = 0.043486;  ///< a, of the plates' vibration [mm]; Gamma = a (2 pi f)^2 / g
-  double frequency = 200.0;     ///< f, of the plates' vibration [Hz]
-  double gravity = 9810.0;      ///< g, downwards [mm/s^2]
-  bool base = true;             ///< whether there is a plate below
-  bool lid = true;              ///< whether there is one above
+  double amplitude = 0.043486;        ///< a, of the plates' vibration [mm]; Gamma = a (2 pi f)^2 / g
+  double frequency = 200.0;           ///< f, of the plates' vibration [Hz]
+  double horizontal_amplitude = 0.0;  ///< b, of their vibration in the plane, at the same frequency [mm]
+  double horizontal_phase = 0.0;      ///< how far that is ahead of the vibration along z [degrees]
+  double horizontal_angle = 0.0;      ///< of its direction to the x axis [degrees]
+  double gravity = 9810.0;            ///< g, downwards [mm/s^2]
+  bool base = true;                   ///< whether there is a plate below
+  bool lid = true;                    ///< whether there is one above
   std::optional<SideWalls> walls;
 
   Contacts rod_rod{0.05, 0.3};
@@ -202,6 +205,18 @@ struct System {
   }
   /// Species `number` is there: the first always, others where they are added.
   bool has_species(std::size_t number) const { return number == 0 || added[number - 1].has_value(); }
+  bool has_horizontal_vibration() const { return horizontal_amplitude > 0 && frequency > 0 && (base || lid); }
+  /// There are plates, and they move.
+  bool has_moving_plates() const {
+    return (amplitude > 0 || horizontal_amplitude > 0) && frequency > 0 && (base || lid);
+  }
+  /// The largest acceleration of the plates along z [mm/s^2].
+  double peak_acceleration() const {
+    const double angular_frequency = 2.0 * kPi * frequency;
+    return amplitude * angular_frequency * angular_frequency;
+  }
+  /// The base is too weak to throw rods, which come to rest on it.
+  bool lets_rods_rest() const { return base && peak_acceleration() < gravity; }
   bool has_rotational_noise() const { return rotational_noise > 0; }
   bool has_impacts_at_instant() const { return impacts == ImpactTime::kAtInstant; }
   Box box() const { return Box::of_aspect(box_side, box_aspect); }

@@ -32,7 +32,9 @@ World empty_world(const System& system) {
     if (more) world.species.push_back(make_species(more->rod));
   }
   world.species_of_rod = draw_kinds(system);
-  world.plates = PlateMotion(system.amplitude, system.frequency, system.gap, system.dt);
+  world.plates = PlateMotion(
+      system.amplitude, system.frequency, system.gap, system.dt,
+      {system.horizontal_amplitude, system.horizontal_phase * (kPi / 180.0), system.horizontal_angle * (kPi / 180.0)});
   return world;
 }
 

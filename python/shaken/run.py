@@ -26,6 +26,7 @@ _AXES = {
     "/polar": "/polar/time_s", "/temperatures": "/temperatures/time_s", "/scattering": "/scattering/lag_s",
     "/flow": "/flow/r_mm", "/clusters": "/clusters/time_s", "/clusters/sizes": "/clusters/sizes/size",
     "/collisions": "/collisions/time_s", "/stress": "/stress/time_s", "/mixing": "/mixing/r_mm",
+    "/drift": "/drift/time_s",
 }
 _SCATTERING = ("/scattering/q_per_mm", "/scattering/lag_s")
 _VAN_HOVE = ("/van_hove/lag_s", "/van_hove/displacement_mm")

@@ -73,4 +73,14 @@ void check_base(Resolution& scene) {
   }
 }
 
+void check_horizontal_vibration(Resolution& scene) {
+  const System& system = scene.plan.system;
+  if (system.horizontal_amplitude > 0 && system.walls && scene.ok({"plates.horizontal_amplitude"})) {
+    scene.report(
+        {"plates.horizontal_amplitude", "walls"},
+        "side walls would move through the plane with the plates, and the simulator knows walls that only rise "
+        "and fall: remove walls, or set plates.horizontal_amplitude to 0");
+  }
+}
+
 }  // namespace shaken::scene

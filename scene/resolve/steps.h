@@ -19,6 +19,8 @@ bool resolve_rod_shapes(Resolution& scene);
 bool resolve_shaking(Resolution& scene);
 /// Rods fall out of a cell without a base, if they have weight.
 void check_base(Resolution& scene);
+/// Side walls do not follow the plates through the plane.
+void check_horizontal_vibration(Resolution& scene);
 
 // contacts.cpp
 

@@ -42,6 +42,16 @@ struct Vibration {
   static void switch_off(System& system) { system.amplitude = 0; }
 };
 
+struct HorizontalVibration {
+  static bool is_on(const System& system) { return system.has_horizontal_vibration(); }
+  static std::string why(const System& system) {
+    return setting("plates.horizontal_amplitude", system.horizontal_amplitude, " mm, ") +
+           setting("plates.frequency", system.frequency, " Hz");
+  }
+  static std::int64_t work(const World& world) { return Vibration::work(world); }
+  static void switch_off(System& system) { system.horizontal_amplitude = 0; }
+};
+
 struct Tilt {
   static bool is_on(const System& system) { return !system.is_planar(); }
   static std::string why(const System& system) {
@@ -359,6 +369,7 @@ constexpr Effect line(std::string_view name, std::string_view unit, std::string_
 constexpr std::array kEffects{
     line<Gravity>("gravity", "rod_ticks", "Rods fall."),
     line<Vibration>("vibration", "periods", "Both plates vibrate."),
+    line<HorizontalVibration>("horizontal_vibration", "periods", "Both plates vibrate in the plane too."),
     line<Tilt>("tilt", "rod_ticks", "Rods leave the plane and tilt out of it."),
     line<SeveralSpecies>("species", "rods", "Rods of other species beside the first."),
     line<Taper>("taper", "rods", "Rods are thinner at their ends than in the middle, or thicker."),

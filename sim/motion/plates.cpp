@@ -21,8 +21,10 @@ constexpr Tick kLongestTable = 100000;
 
 }  // namespace
 
-PlateMotion::PlateMotion(double amplitude, double frequency, double gap, double dt)
-    : amplitude_(amplitude), angular_frequency_(2.0 * kPi * frequency), gap_(gap) {
+PlateMotion::PlateMotion(double amplitude, double frequency, double gap, double dt, const HorizontalMotion& horizontal)
+    : amplitude_(amplitude), angular_frequency_(2.0 * kPi * frequency), gap_(gap), horizontal_(horizontal) {
+  const SinCos direction = sincos(horizontal.angle);
+  direction_ = {direction.cos, direction.sin};
   const double cycles = frequency * dt;
   if (!(cycles > 0)) {
     table_.push_back(at_phase(0.0));
@@ -44,7 +46,11 @@ PlateMotion::PlateMotion(double amplitude, double frequency, double gap, double 
 PlateState PlateMotion::at_phase(double cycles) const {
   const SinCos angle = sincos(2.0 * kPi * cycles);
   const double base = amplitude_ * angle.cos + amplitude_;
-  return {base, base + gap_, -amplitude_ * angular_frequency_ * angle.sin};
+  const double velocity = -amplitude_ * angular_frequency_ * angle.sin;
+  if (!(horizontal_.amplitude > 0)) return {base, base + gap_, velocity, 0.0, 0.0};
+  const SinCos ahead = sincos(2.0 * kPi * cycles + horizontal_.phase);
+  return {base, base + gap_, velocity, horizontal_.amplitude * ahead.cos,
+          -horizontal_.amplitude * angular_frequency_ * ahead.sin};
 }
 
 PlateState PlateMotion::before(const PlateState& then, double seconds) const {
@@ -53,7 +59,10 @@ PlateState PlateMotion::before(const PlateState& then, double seconds) const {
   const double cos = then.base - amplitude_;               // a cos(phase)
   const double sin = -then.velocity / angular_frequency_;  // a sin(phase)
   const double base = amplitude_ + cos * turn.cos + sin * turn.sin;
-  return {base, base + gap_, -angular_frequency_ * (sin * turn.cos - cos * turn.sin)};
+  const double velocity = -angular_frequency_ * (sin * turn.cos - cos * turn.sin);
+  const double shift_sin = -then.slide / angular_frequency_;  // b sin(phase + phi)
+  return {base, base + gap_, velocity, then.shift * turn.cos + shift_sin * turn.sin,
+          -angular_frequency_ * (shift_sin * turn.cos - then.shift * turn.sin)};
 }
 
 PlateState PlateMotion::at_phase_of(Tick k) const {

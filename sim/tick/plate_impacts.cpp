@@ -30,6 +30,7 @@ constexpr std::string_view kKnownEffects[] = {"gravity",
                                               "side_wall_friction",
                                               "rotational_noise",
                                               "impacts_at_instant",
+                                              "horizontal_vibration",
                                               "restitution_speed",
                                               "species_contacts"};
 
@@ -76,7 +77,7 @@ struct PlateHits {
   bool is_hit(int lane, int plate) const { return meets(lane, plate) && of_plate[plate].is_hit[lane] > 0; }
 
   /// Counts the lane's hits.
-  void count(int lane, const PlateState& plates, Counters& counters) const;
+  void count(int lane, const Vec3& plate_velocity, Counters& counters) const;
   /// The lane's rod after them; its motion only where a bead is in a plate.
   void get(int lane, RodAtTick& rod) const;
   /// The lane's rod before them, and which beads they are going to hit, where impulses are left to others.
@@ -111,9 +112,9 @@ SHAKEN_INLINE Compliance<D> compliance_at(const InverseInertia& inverse, const T
 
 /// Where a rod meets a plate.
 struct PlateMet {
-  double side;      ///< +1: base, -1: lid
-  double height;    ///< [mm]
-  double velocity;  ///< [mm/s]
+  double side;    ///< +1: base, -1: lid
+  double height;  ///< [mm]
+  Vec3 velocity;  ///< [mm/s]
   const ContactParameters& contact;
 };
 
@@ -189,7 +190,11 @@ struct PlateHitKernel {
       const Triple<D> normal{zero, zero, lanes::all<W>(plate.side)};
       const Triple<D> arm = offset * director - radius * normal;
       Triple<D> u = velocity + angular_velocity.cross(arm);
-      u.z -= plate.velocity;
+      u.z -= plate.velocity.z();
+      if (rules.has_horizontal_vibration) {
+        u.x -= plate.velocity.x();
+        u.y -= plate.velocity.y();
+      }
       const D u_n = u.dot(normal);
       const D is_hit = lanes::smaller(overlap, -u_n);
 
@@ -239,15 +244,16 @@ struct PlateHitKernel {
       angular_velocity = {add(angular_velocity.x, turns.x), add(angular_velocity.y, turns.y),
                           add(angular_velocity.z, turns.z)};
     };
-    if (rules.has_base) meet_plate({1.0, plates.base, plates.velocity, species.base}, hits.of_plate[0]);
-    if (rules.has_lid) meet_plate({-1.0, plates.lid, plates.velocity, species.lid}, hits.of_plate[1]);
+    const Vec3 moving = rules.plates.velocity(plates);
+    if (rules.has_base) meet_plate({1.0, plates.base, moving, species.base}, hits.of_plate[0]);
+    if (rules.has_lid) meet_plate({-1.0, plates.lid, moving, species.lid}, hits.of_plate[1]);
     hits.velocity.store(l, velocity);
     hits.angular_velocity.store(l, angular_velocity);
     lanes::store(hits.is_other + l, other);
   }
 };
 
-void PlateHits::count(int lane, const PlateState& plates, Counters& counters) const {
+void PlateHits::count(int lane, const Vec3& plate_velocity, Counters& counters) const {
   for (int plate = 0; plate < 2; ++plate) {
     if (!meets(lane, plate)) continue;
     const OfPlate& hit = of_plate[plate];
@@ -255,10 +261,9 @@ void PlateHits::count(int lane, const PlateState& plates, Counters& counters) co
     if (!is_hit(lane, plate)) continue;
     ++(plate == 0 ? counters.impulses_rod_base : counters.impulses_rod_lid);
     counters.ledger.lost_surfaces.add(hit.lost[lane]);
-    counters.ledger.given.add(hit.impulse.z[lane] * plates.velocity);
-    counters.ledger.momentum[0].add(hit.impulse.x[lane]);
-    counters.ledger.momentum[1].add(hit.impulse.y[lane]);
-    counters.ledger.momentum[2].add(hit.impulse.z[lane]);
+    const Vec3 impulse(hit.impulse.x[lane], hit.impulse.y[lane], hit.impulse.z[lane]);
+    counters.ledger.given.add(impulse.dot(plate_velocity));
+    for (std::size_t c = 0; c < 3; ++c) counters.ledger.momentum[c].add(impulse[static_cast<Eigen::Index>(c)]);
   }
 }
 
@@ -324,6 +329,7 @@ LeftByLanes meet_plates_in_lanes(std::span<const int> rods, const std::vector<Fl
   for (PlateHits::OfPlate& of_plate : hits.of_plate) std::fill_n(of_plate.overlap, kDoubleLanes, 0.0);
   const SpeciesMechanics& species = rules.species_of(rods.front());
   const bool gives_impulses = are_usual(rules, species);
+  const Vec3 plate_velocity = rules.plates.velocity(plates);
   if (gives_impulses) {
     lanes::with_widest_doubles(PlateHitKernel<true>{species, rules, plates, in, since, n, hits});
   } else {
@@ -337,7 +343,7 @@ LeftByLanes meet_plates_in_lanes(std::span<const int> rods, const std::vector<Fl
       left.all |= 1U << lane;
     } else if (gives_impulses) {
       hits.get(lane, rod);
-      hits.count(lane, plates, counters);
+      hits.count(lane, plate_velocity, counters);
     } else {
       hits.get_before(lane, rod);
       if (!rod.has_motion) continue;

@@ -15,16 +15,24 @@ namespace {
 
 /// A plate or a wall where it is about to hit a bead.
 struct Surface {
-  Vec3 normal;      ///< away from it
-  double velocity;  ///< along z [mm/s]
+  Vec3 normal;    ///< away from it
+  Vec3 velocity;  ///< [mm/s]
   const ContactParameters& contact;
   double rest_speed;  ///< at which the bead must leave it at least [mm/s]
 };
 
+/// Model of a bead at rest: it must leave the surface at the rest speed r, as if the surface rose at the speed s with
+/// r = s - e (u_n - s). The law then gives one impulse, whose friction is that of all the weight that it carries.
 impact::Impulse impulse_with_friction(const Surface& surface, const Vec3& u, const Mat3& K, ImpulseFunction law) {
   impact::Impulse impulse{Vec3::Zero(), 0};
-  if (u.dot(surface.normal) < 0) impulse.P = law(K, surface.normal, u, surface.contact);
-  if (surface.rest_speed > 0) {
+  if (!(surface.rest_speed > 0)) {
+    if (u.dot(surface.normal) < 0) impulse.P = law(K, surface.normal, u, surface.contact);
+  } else {
+    const double u_n = u.dot(surface.normal);
+    const double e = restitution_at(surface.contact, std::max(0.0, -u_n));
+    const double rise = std::max(0.0, (surface.rest_speed + e * u_n) / (1.0 + e));
+    impulse.P = law(K, surface.normal, u - rise * surface.normal, surface.contact);
+    // of a law whose restitution is not that of the velocity some is lacking
     const double lacking = surface.rest_speed - surface.normal.dot(u + K * impulse.P);
     if (lacking > 0) impulse.P += (lacking / surface.normal.dot(K * surface.normal)) * surface.normal;
   }
@@ -45,7 +53,7 @@ impact::Impulse impulse_without_friction(const Surface& surface, const Vec3& u, 
 [[gnu::always_inline]] inline bool collide(const impact::Bead& bead, const Surface& surface, ImpulseFunction law,
                                            Ledger& ledger) {
   Vec3 u = bead.velocity();
-  u.z() -= surface.velocity;
+  u -= surface.velocity;
   if (!(u.dot(surface.normal) < surface.rest_speed)) return false;
   impact::Impulse impulse;
   if (surface.contact.has_friction()) {
@@ -56,7 +64,7 @@ impact::Impulse impulse_without_friction(const Surface& surface, const Vec3& u, 
     bead.apply_along_normal(impulse.P);
   }
   ledger.lost_surfaces.add(impulse.lost);
-  ledger.given.add(impulse.P.z() * surface.velocity);
+  ledger.given.add(impulse.P.dot(surface.velocity));
   for (std::size_t c = 0; c < 3; ++c) ledger.momentum[c].add(impulse.P[static_cast<Eigen::Index>(c)]);
   return true;
 }
@@ -75,7 +83,7 @@ impact::Impulse impulse_without_friction(const Surface& surface, const Vec3& u, 
     const double speed = -(bead().velocity().dot(normal) - plates.velocity * normal.z());
     if (const auto ago = impact::time_since_touch(overlap, speed, rules.dt)) {
       impact::fly(rod, -*ago, species, rules.gravity);
-      const Surface surface{normal, rules.plates.before(plates, *ago).velocity, contact, rest_speed};
+      const Surface surface{normal, rules.plates.velocity(rules.plates.before(plates, *ago)), contact, rest_speed};
       const bool approached = collide(bead(), surface, rules.impulse, counters.ledger);
       impact::fly(rod, *ago, species, rules.gravity);
       if (approached) {
@@ -85,7 +93,7 @@ impact::Impulse impulse_without_friction(const Surface& surface, const Vec3& u, 
       }
     }
   }
-  return collide(bead(), {normal, plates.velocity, contact, rest_speed}, rules.impulse, counters.ledger);
+  return collide(bead(), {normal, rules.plates.velocity(plates), contact, rest_speed}, rules.impulse, counters.ledger);
 }
 
 /// Looks for the deepest of a rod's beads in its surfaces. No bead order and no sign of the director has a say: two of

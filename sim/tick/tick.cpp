@@ -12,7 +12,8 @@ namespace shaken {
 
 double max_speed(const World& world) {
   const System& system = world.system;
-  const double usual = world.plates.peak_speed() + std::sqrt(2.0 * system.gravity * system.gap) + kStartSpeed;
+  const double usual = world.plates.peak_speed() + world.plates.peak_slide() +
+                       std::sqrt(2.0 * system.gravity * system.gap) + kStartSpeed;
   double thinnest = system.gap;
   for (const Species& species : world.species) {
     for (const double radius : species.bead_radius) thinnest = std::min(thinnest, radius);
@@ -49,6 +50,7 @@ TickRules::TickRules(const World& world)
       has_base(world.system.base),
       has_lid(world.system.lid),
       walls(world.system.walls),
+      has_horizontal_vibration(world.system.has_horizontal_vibration()),
       has_rotational_noise(world.system.has_rotational_noise()),
       rotational_noise(world.system.rotational_noise),
       seed(world.system.seed),
@@ -56,7 +58,7 @@ TickRules::TickRules(const World& world)
   for (const Species& one : world.species) species.emplace_back(one);
   set_contacts(world.system, species);
   max_speed2 = max_speed(world) * max_speed(world);
-  if (plates.peak_acceleration() < gravity) rest = {0.5 * gravity * dt, kRiseRate};
+  if (world.system.lets_rods_rest()) rest = {0.5 * gravity * dt, kRiseRate};
 }
 
 NumericalTrouble motion_trouble(int index, const RodAtTick& rod, Tick now, const TickRules& rules) {

@@ -71,6 +71,7 @@ struct TickRules {
   bool impacts_at_instant;
   bool has_base, has_lid;
   std::optional<SideWalls> walls;
+  bool has_horizontal_vibration;
   bool has_rotational_noise;
   double rotational_noise;  ///< [rad/mm]
   std::uint64_t seed;

@@ -49,6 +49,12 @@ INSTANTIATE_TEST_SUITE_P(
                            s.rod_rod.friction = s.rod_base.friction = 0.5;
                            s.rotational_noise = 0.1;
                          }},
+                    Case{"HorizontalVibration",
+                         [](System& s) {
+                           s.horizontal_amplitude = 0.05;
+                           s.horizontal_phase = 70;
+                           s.horizontal_angle = 30;
+                         }},
                     Case{"AtInstant", [](System& s) { s.impacts = ImpactTime::kAtInstant; }},
                     Case{"EnergeticLaw",
                          [](System& s) {

@@ -197,6 +197,21 @@ INSTANTIATE_TEST_SUITE_P(
                            s.rod_base.friction = s.rod_lid.friction = 0;
                            s.impacts = ImpactTime::kAtInstant;
                          }},
+                    Case{"HorizontalVibration",
+                         [](System& s) {
+                           s.horizontal_amplitude = 0.05;
+                           s.horizontal_phase = 70;
+                           s.horizontal_angle = 30;
+                         }},
+                    Case{"HorizontalVibrationOfStickyPlatesAtInstant",
+                         [](System& s) {
+                           s.amplitude = 0.02;
+                           s.horizontal_amplitude = 0.1;
+                           s.horizontal_phase = -90;
+                           s.rod_base.friction = s.rod_lid.friction = 1;
+                           s.law = ImpulseLaw::kEnergetic;
+                           s.impacts = ImpactTime::kAtInstant;
+                         }},
                     Case{"RestitutionOfSpeed",
                          [](System& s) {
                            s.rod_rod.restitution_speed = 20;
@@ -272,6 +287,11 @@ System draw_mix() {
     system.walls->arena = maybe() ? Arena::kStadium : Arena::kChannel;
     system.walls->length = 0.5 * *rc::gen::inRange(0, 10);
     system.walls->size = 14.5 - system.walls->length;
+  }
+  if (!system.walls && maybe()) {
+    system.horizontal_amplitude = 0.02 * *rc::gen::inRange(1, 10);
+    system.horizontal_phase = *rc::gen::inRange(-180, 180);
+    system.horizontal_angle = *rc::gen::inRange(-180, 180);
   }
   if (maybe()) system.rotational_noise = 0.05;
   if (maybe()) system.rod_base.friction = system.rod_lid.friction = 0;

@@ -56,6 +56,7 @@ TEST(GoldenHash, TrajectoriesAreWhatTheyWere) {
       {"species with contacts of their own in a disc", mixed(Arena::kDisc), 30000, 0x89768fba3fa03079},
       {"several species in a stadium", mixed(Arena::kStadium), 30000, 0x6a114fe4fbb24be6},
       {"several species in a channel, impacts at their instant", mixed(Arena::kChannel), 30000, 0xe302673a31a09784},
+      {"plates that vibrate in the plane too", scene_of(3.5, 15, 70), 5000, 0xcaaff5f1cc8cf3b2},
   };
   cases[1].system.start = Start::kRandom;
   cases[2].system.rod = {.length = 0.8, .mid_diameter = 0.8, .end_diameter = 0.8, .n_beads = 1};
@@ -84,6 +85,9 @@ TEST(GoldenHash, TrajectoriesAreWhatTheyWere) {
   cases[16].system.walls->size = 8;
   cases[16].system.walls->length = 5;
   cases[17].system.impacts = ImpactTime::kAtInstant;
+  cases[18].system.horizontal_amplitude = 0.06;
+  cases[18].system.horizontal_phase = 70;
+  cases[18].system.horizontal_angle = 30;
   for (const Golden& golden : cases) {
     auto simulation = Simulation::start(golden.system);
     ASSERT_TRUE(static_cast<bool>(simulation)) << simulation.error().message;

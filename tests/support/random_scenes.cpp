@@ -243,6 +243,15 @@ void draw_contacts(std::uint64_t seed, Json& scene) {
   if (scene.contains("walls")) of_kind(scene["walls"], species);
 }
 
+/// Plates that vibrate in the plane too, by numbers of their own.
+void draw_horizontal_vibration(std::uint64_t seed, Json& scene) {
+  SceneDraw draw(seed + 6'000'000'053);
+  if (!draw.chance(0.1) || scene.contains("walls")) return;
+  scene["plates"]["horizontal_amplitude"] = draw.by_size(0.001, 1);
+  scene["plates"]["horizontal_phase"] = draw.plain(-180, 180);
+  scene["plates"]["horizontal_angle"] = draw.plain(-180, 180);
+}
+
 }  // namespace
 
 SceneCase draw_scene_case(std::uint64_t seed) {
@@ -306,6 +315,7 @@ SceneCase draw_scene_case(std::uint64_t seed) {
   draw_start_pattern(seed, scene);
   draw_long_arena(seed, scene);
   draw_contacts(seed, scene);
+  draw_horizontal_vibration(seed, scene);
   return one;
 }
 

@@ -687,6 +687,18 @@ def check_mixing(run, table):
                   run.arrays["/g2/g" + sem][known], 1e-9)
 
 
+def check_drift(run, table):
+    frames = run.frames("drift")
+    centre = run.unwrapped[frames].mean(1)
+    steps, times = np.diff(centre, axis=0), np.diff(run.time[frames])
+    velocity, sems = jackknife(steady_parts(run, frames[:-1]), lambda some: list(steps[some].sum(0) / times[some].sum()))
+    table.add("/drift/time_s", "trajectory", run.arrays["/drift/time_s"], run.time[frames])
+    for c, axis in enumerate("xy"):
+        table.add(f"/drift/{axis}_mm", "numpy", run.arrays[f"/drift/{axis}_mm"], centre[:, c] - centre[0, c], 1e-4)
+    for name, value, sem in zip(("drift_x_mm_s", "drift_y_mm_s"), velocity, sems):
+        scalar(run, table, name, "numpy", value, sem, allowed=1e-3, allowed_sem=1e-2)
+
+
 def axes_apart(places, director, tail, head, box):
     """Distances of the axes of all pairs (n, n): of crossing lines where that lies on both, or from an end."""
     n = len(places)
@@ -1926,7 +1938,8 @@ CHECKS = {"order": check_order, "angles": check_angles, "tilt": check_tilt, "def
           "frank": check_frank, "msd": check_msd, "rotation": check_rotation, "velocity": check_velocity, "rods": check_rods,
           "temperatures": check_temperatures, "scattering": check_scattering, "van_hove": check_van_hove,
           "flow": check_flow, "clusters": check_clusters, "collisions": check_collisions,
-          "stress": check_stress, "mixing": check_mixing}
+          "stress": check_stress, "mixing": check_mixing,
+          "drift": check_drift}
 
 
 def main():

@@ -55,6 +55,8 @@ TABLE: dict[str, tuple[str, str, str]] = {
     "pressure_along_pJ_mm2": ("pressure along the director", "$p_∥$", "pJ/mm²"),
     "pressure_across_pJ_mm2": ("pressure across the director", "$p_⊥$", "pJ/mm²"),
     "segregation_12": ("segregation of the first two species", "", ""),
+    "drift_x_mm_s": ("drift velocity along x", "$v_x$", "mm/s"),
+    "drift_y_mm_s": ("drift velocity along y", "$v_y$", "mm/s"),
     "cpu_seconds": ("CPU time", "", "s"),
     # axes and curves of observables
     "/order/time_s": ("time", "$t$", "s"),
@@ -105,6 +107,9 @@ TABLE: dict[str, tuple[str, str, str]] = {
     "/stress/collisional_yy_pJ_mm2": ("pressure of impacts, yy", r"$P_{yy}$", "pJ/mm²"),
     "/mixing/r_mm": ("distance", "$r$", "mm"),
     "/mixing/g_12": ("pair distribution between species", "$g_{12}(r)$", ""),
+    "/drift/time_s": ("time", "$t$", "s"),
+    "/drift/x_mm": ("displacement along x", "$x$", "mm"),
+    "/drift/y_mm": ("displacement along y", "$y$", "mm"),
     "/msd/lag_s": ("lag", "$t$", "s"),
     "/msd/total_mm2": ("mean square displacement", "MSD", "mm²"),
     "/msd/along_mm2": ("MSD along the director", "", "mm²"),

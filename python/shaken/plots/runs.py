@@ -81,6 +81,8 @@ OBSERVABLES = (
     Observable("pressure_time", "/stress/time_s", ("/stress/collisional_xx_pJ_mm2", "/stress/collisional_yy_pJ_mm2"),
                y_title="pressure of impacts (pJ/mm²)", is_trace=True, x_range=_FROM_ZERO, y_range=_FROM_ZERO),
     Observable("g_between", "/mixing/r_mm", ("/mixing/g_12",), x_range=_FROM_ZERO, y_range=_FROM_ZERO),
+    Observable("drift", "/drift/time_s", ("/drift/x_mm", "/drift/y_mm"), y_title="displacement of all rods (mm)",
+               is_trace=True, x_range=_FROM_ZERO, zero=True),
     Observable("msd", "/msd/lag_s", ("/msd/total_mm2",), log=(True, True)),
     Observable("orientation_memory", "/rotation/lag_s", ("/rotation/c2",), log=(True, False), zero=True),
     Observable("velocity_memory", "/velocity/lag_s", ("/velocity/c_v",), log=(True, False), zero=True),

@@ -38,6 +38,7 @@ scene::RunPlan plan() {
   p.pairs = scene::MeasurePairs{0.05, 11, 0};
   p.layers = scene::MeasureLayers{0.02};
   p.mixing = scene::MeasureMixing{0.05, 20, 3};
+  p.drift = scene::MeasureDrift{0.01};
   return p;
 }
 
@@ -77,7 +78,7 @@ Reduction reduced_spheres() {
     EXPECT_FALSE(counts.contains(name)) << name;
   }
   for (const char* name : {"g2", "msd", "velocity", "rods", "fluctuations", "lattice", "structure", "temperatures",
-                           "scattering", "van_hove", "flow", "clusters", "collisions", "stress", "mixing"}) {
+                           "scattering", "van_hove", "flow", "clusters", "collisions", "stress", "mixing", "drift"}) {
     EXPECT_TRUE(counts.contains(name)) << name;
   }
   for (Tick t = measurements.next_due(0); t <= 20000; t = measurements.next_due(t + 1)) {

@@ -113,6 +113,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"clusters", {"measure={\"clusters\": {\"every\": \"20 us\"}}", "time.measure=1.2", "rods.count=2"}},
         Case{"collisions", {"measure={\"collisions\": {\"every\": \"20 us\"}}", "time.measure=1.2", "rods.count=2"}},
         Case{"stress", {"measure={\"stress\": {\"every\": \"20 us\"}}", "time.measure=1.2", "rods.count=2"}},
+        Case{"drift", {"measure={\"drift\": {\"every\": \"20 us\"}}", "time.measure=1.2", "rods.count=2"}},
         Case{"mixing", {"measure={\"mixing\": {\"every\": \"100 us\", \"bins\": 5000}}", "rods_2.count=9"}},
         Case{"several",
              {"measure={\"order\": {}, \"g2\": {\"every\": \"100 us\", \"bins\": 5000}, \"pairs\": "

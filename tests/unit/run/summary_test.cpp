@@ -21,6 +21,7 @@ Summary example() {
   s.sim_seconds = 10;
   s.cpu_seconds = 100;
   s.wall_seconds = 110;
+  s.physics = 7;
   s.collisions_rod_rod = 5'000'000'000;
   s.collisions_rod_base = 2;
   s.collisions_rod_lid = 3;
@@ -46,6 +47,7 @@ TEST(Summary, HasTheAgreedFields) {
   EXPECT_EQ(json["sim_seconds"], 10.0);
   EXPECT_EQ(json["rod_seconds_per_cpu_second"], 200.0);
   EXPECT_EQ(json["collisions"]["rod_rod"], 5'000'000'000);
+  EXPECT_EQ(json["versions"]["physics"], 7);
   EXPECT_EQ(json["order"]["mean"], 0.9);
   EXPECT_EQ(json["order"]["tau_s"], 0.5);
   EXPECT_EQ(json["order"]["t_steady_s"], 2.0);

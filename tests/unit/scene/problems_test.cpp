@@ -38,6 +38,13 @@ TEST(Problems, ContactsOfRodsThatAreNotThere) {
             "about rods_3, which the scene does not have; add rods_3 or remove the key");
 }
 
+TEST(Problems, WallsOnPlatesThatVibrateInThePlane) {
+  EXPECT_EQ(problem_of(R"({"plates": {"horizontal_amplitude": 0.05}, "walls": {}})"),
+            "run.json:1:37: /plates/horizontal_amplitude: side walls would move through the plane with the plates, and "
+            "the simulator knows walls that only rise and fall: remove walls, or set plates.horizontal_amplitude to 0");
+  EXPECT_EQ(plan_of(R"({"plates": {"horizontal_amplitude": "50 um"}})").system.horizontal_amplitude, 0.05);
+}
+
 TEST(Problems, NeighboursBeyondHalfTheBox) {
   EXPECT_EQ(problem_of(R"({"box": {"side": 20}, "measure": {"mixing": {"distance": 10.1}}})"),
             "run.json:1:58: /measure/mixing/distance: neighbours at 10.1 mm are farther than half the box, 10 mm: "

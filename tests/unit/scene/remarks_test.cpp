@@ -52,6 +52,16 @@ TEST(Remarks, NamePolarOrderOfRodsWithoutHeads) {
               ElementsAre(HasSubstr("measure.temperatures.phases \"spread\"")));
 }
 
+TEST(Remarks, NameVibrationInThePlaneThatReachesNoRod) {
+  const auto scene = [](const char* friction) {
+    return std::string(R"({"plates": {"horizontal_amplitude": 0.05}, "contacts": {"rod_base": {"friction": 0}, )") +
+           R"("rod_lid": {"friction": )" + friction + "}}}";
+  };
+  EXPECT_THAT(remarks(plan_of(scene("0"))),
+              ElementsAre(HasSubstr("plates.horizontal_amplitude: no plate has friction")));
+  EXPECT_THAT(remarks(plan_of(scene("0.1"))), IsEmpty());
+}
+
 // A body without an axis has neither order nor defects.
 TEST(Remarks, NameWhatSpheresCannotBeMeasuredFor) {
   const std::string sphere = R"("rods": {"beads": 1, "length": 0.8})";

@@ -92,13 +92,28 @@ TEST(Checkpoint, RefusesAnotherPhysicsVersionByName) {
   auto simulation = Simulation::start(system);
   ASSERT_TRUE(static_cast<bool>(simulation));
   auto bytes = simulation->checkpoint();
-  ASSERT_EQ(bytes[8], static_cast<std::byte>(kPhysicsVersion));  // behind the magic
-  bytes[8] = static_cast<std::byte>(kPhysicsVersion - 1);
+  const int version = physics_version(system);
+  ASSERT_EQ(bytes[8], static_cast<std::byte>(version));  // behind the magic
+  bytes[8] = static_cast<std::byte>(version - 1);
   const auto resumed = Simulation::resume(system, bytes);
   ASSERT_FALSE(static_cast<bool>(resumed));
-  EXPECT_NE(resumed.error().message.find("physics version " + std::to_string(kPhysicsVersion - 1)), std::string::npos)
+  EXPECT_NE(resumed.error().message.find("physics version " + std::to_string(version - 1)), std::string::npos)
       << resumed.error().message;
-  EXPECT_NE(resumed.error().message.find("version " + std::to_string(kPhysicsVersion)), std::string::npos);
+  EXPECT_NE(resumed.error().message.find("version " + std::to_string(version)), std::string::npos);
+}
+
+TEST(PhysicsVersion, IsThatOfTheLastChangeThatConcernedTheScene) {
+  System system = test::short_rods(1);
+  EXPECT_EQ(physics_version(system), 3);
+  system.amplitude = 0;
+  EXPECT_EQ(physics_version(system), 4) << "rods rest";
+  system.rod_base.friction = 0;
+  EXPECT_EQ(physics_version(system), 3) << "they rest without friction";
+  system.added[1] = AddedRods{system.rod, 1};
+  system.rod_base.own[Contacts::place(0, 2)].friction = 0.1;
+  EXPECT_EQ(physics_version(system), 4) << "some of them rub";
+  system.gravity = 0;
+  EXPECT_EQ(physics_version(system), 3) << "they float";
 }
 
 TEST(StateHash, SeesEveryRod) {

@@ -26,6 +26,7 @@ System everything_on() {
   system.rod_base.own[Contacts::place(0, 1)] = {0.1, 0.5, {}};
   system.rod_lid.own[Contacts::place(0, 2)].restitution_speed = 20.0;
   system.rod_rod.restitution_speed = 50;
+  system.horizontal_amplitude = 0.02;
   system.rotational_noise = 0.05;
   system.impacts = ImpactTime::kAtInstant;
   return system;
@@ -59,6 +60,7 @@ const std::map<std::string_view, void (*)(System&)>& neutral_by_hand() {
   static const std::map<std::string_view, void (*)(System&)> table{
       {"gravity", [](System& s) { s.gravity = 0.0; }},
       {"vibration", [](System& s) { s.amplitude = 0.0; }},
+      {"horizontal_vibration", [](System& s) { s.horizontal_amplitude = 0.0; }},
       {"tilt",
        [](System& s) {
          s.base = s.lid = false;

@@ -42,7 +42,7 @@ struct RodsNearPlates {
     System system = draw_system(draw);
     if (draw.integer(0, 1) == 0) return system;
     for (int n = draw.integer(1, 2); n > 0; --n) {
-      const int kind = draw.integer(0, 8);
+      const int kind = draw.integer(0, 9);
       if (kind == 0) system.impacts = ImpactTime::kAtInstant;
       if (kind == 1) system.law = ImpulseLaw::kPoisson;
       if (kind == 2) system.law = ImpulseLaw::kEnergetic;
@@ -52,6 +52,11 @@ struct RodsNearPlates {
       if (kind == 6) system.amplitude = 0;  // rods rest
       if (kind == 7) system.rod_base.restitution_speed = 50;
       if (kind == 8) system.rod_lid.restitution_speed = 2;
+      if (kind == 9) {
+        system.horizontal_amplitude = 0.2;
+        system.horizontal_phase = draw.uniform(-180, 180);
+        system.horizontal_angle = draw.uniform(-180, 180);
+      }
     }
     return system;
   }
@@ -105,6 +110,7 @@ TEST(PlateImpacts, AreInLanesWhateverTheSceneAsksFor) {
   };
   EXPECT_TRUE(is_in_lanes([](System&) {}));
   EXPECT_TRUE(is_in_lanes([](System& system) { system.rotational_noise = 0.01; }));
+  EXPECT_TRUE(is_in_lanes([](System& system) { system.horizontal_amplitude = 0.01; }));
   EXPECT_TRUE(is_in_lanes([](System& system) { system.impacts = ImpactTime::kAtInstant; }));
   EXPECT_TRUE(is_in_lanes([](System& system) { system.law = ImpulseLaw::kPoisson; }));
   EXPECT_TRUE(is_in_lanes([](System& system) { system.rod_base.friction = 0; }));

@@ -60,6 +60,39 @@ TEST(PlateMotion, IrrationalPeriodKeepsItsDigitsAfterABillionTicks) {
   }
 }
 
+TEST(PlateMotion, MovesAlongOneDirectionOfThePlaneAheadOfItsRise) {
+  const double b = 0.07, f = 137.0, dt = 1e-6;
+  for (const double phase : {0.0, 1.1, -0.5 * kPi}) {
+    const PlateMotion plates(0.05, f, 1.2, dt, {.amplitude = b, .phase = phase, .angle = 0.4});
+    for (const Tick k : {0, 10, 1234, 54321}) {
+      const double omega = 2 * kPi * f;
+      const double angle = omega * static_cast<double>(k) * dt + phase;
+      const PlateState now = plates.at(k);
+      EXPECT_NEAR(now.shift, b * std::cos(angle), 1e-12);
+      EXPECT_NEAR(now.slide, -b * omega * std::sin(angle), 1e-9);
+      const Vec3 expected(std::cos(0.4) * now.slide, std::sin(0.4) * now.slide, now.velocity);
+      EXPECT_LT((plates.velocity(now) - expected).norm(), 1e-12);
+      EXPECT_EQ(now.base, PlateMotion(0.05, f, 1.2, dt).at(k).base);
+    }
+    EXPECT_DOUBLE_EQ(plates.peak_slide(), b * 2 * kPi * f);
+  }
+}
+
+TEST(PlateMotion, WasBeforeWhatItWasAtAnEarlierTick) {
+  for (const double amplitude : {0.0, 0.05}) {
+    const double dt = 1e-6;
+    const PlateMotion plates(amplitude, 137.0, 1.2, dt, {.amplitude = 0.07, .phase = 0.8, .angle = 0.4});
+    for (const Tick ago : {0, 1, 50}) {
+      const PlateState then = plates.at(4321 - ago);
+      const PlateState found = plates.before(plates.at(4321), static_cast<double>(ago) * dt);
+      EXPECT_NEAR(found.base, then.base, 1e-12);
+      EXPECT_NEAR(found.velocity, then.velocity, 1e-9);
+      EXPECT_NEAR(found.shift, then.shift, 1e-12);
+      EXPECT_NEAR(found.slide, then.slide, 1e-9);
+    }
+  }
+}
+
 TEST(PlateMotion, StandsStillWithoutVibration) {
   for (const PlateMotion& plates : {PlateMotion(0, 200, 1.2, 4e-6), PlateMotion(0.1, 0, 1.2, 4e-6)}) {
     EXPECT_EQ(plates.at(0).base, plates.at(777).base);

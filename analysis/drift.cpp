@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#include "analysis/drift.h"
+
+namespace shaken::analysis {
+
+void Drift::accumulate(double time, std::span<const Vec3> unwrapped) {
+  Vec2 centre = Vec2::Zero();
+  for (const Vec3& place : unwrapped) centre += place.head<2>();
+  centre /= static_cast<double>(unwrapped.size());
+  if (!has_first_) first_ = centre;
+  series_.accumulate(time, {centre.x() - first_.x(), centre.y() - first_.y()});
+  if (has_first_) statistics_.accumulate(last_time_, Vec2(centre - last_), time - last_time_);
+  has_first_ = true;
+  last_ = centre;
+  last_time_ = time;
+}
+
+void Drift::save(StateWriter& writer) const {
+  writer.tag("Drift");
+  writer.put(std::int64_t{has_first_});
+  for (const double value : {first_.x(), first_.y(), last_.x(), last_.y(), last_time_}) writer.put(value);
+  series_.save(writer);
+  statistics_.save(writer);
+}
+
+void Drift::restore(StateReader& reader) {
+  reader.tag("Drift");
+  has_first_ = reader.integer(0, 1) != 0;
+  for (double* value : {&first_.x(), &first_.y(), &last_.x(), &last_.y(), &last_time_}) *value = reader.real();
+  series_.restore(reader);
+  statistics_.restore(reader);
+}
+
+}  // namespace shaken::analysis
