@@ -22,6 +22,9 @@ TABLE: dict[str, tuple[str, str, str]] = {
     "plates.gamma": ("shaking strength", "$Γ$", ""),
     "plates.amplitude": ("amplitude of the plates", "$a$", "mm"),
     "plates.frequency": ("frequency of the plates", "$f$", "Hz"),
+    "plates.horizontal_amplitude": ("amplitude in the plane", "$b$", "mm"),
+    "plates.horizontal_phase": ("phase of the vibration in the plane", "$φ$", "degrees"),
+    "plates.horizontal_angle": ("direction of the vibration in the plane", "", "degrees"),
     "time.step": ("time step", "$Δt$", "s"),
     # numbers of a run
     "S": ("nematic order", r"$\langle S\rangle$", ""),
