@@ -172,6 +172,25 @@ struct MeasureMixing {
   }
   friend bool operator==(const MeasureMixing&, const MeasureMixing&) = default;
 };
+/// Maps about topological defects, in the frame of each.
+struct MeasureDefectMaps {
+  double every = 0.2;       ///< half the time over which displacements are velocities, too [s]
+  int bins = 31;            ///< each way
+  double range = 0.0;       ///< radius of the maps [mm]; 0: what range_for() says
+  double separation = 0.0;  ///< of a defect from all others, at least [mm]; 0: what separation_for() says
+  double smoothing = 0.0;   ///< as of MeasureDefects
+  double grid = 0.0;        ///< as of MeasureDefects
+  /// In a box whose shorter side is `box_side`.
+  double range_for(double rod_length, double box_side) const {
+    return range > 0 ? range : std::min(2 * rod_length, box_side / 2);
+  }
+  double separation_for(double rod_length) const { return separation > 0 ? separation : rod_length; }
+  double smoothing_for(double rod_length) const {
+    return MeasureDefects{.smoothing = smoothing}.smoothing_for(rod_length);
+  }
+  double grid_for(double rod_length) const { return MeasureDefects{.grid = grid}.grid_for(rod_length); }
+  friend bool operator==(const MeasureDefectMaps&, const MeasureDefectMaps&) = default;
+};
 /// The common drift of the measured rods.
 struct MeasureDrift {
   double every = 0.01;  ///< [s]
@@ -206,6 +225,7 @@ struct MeasureDrift {
   X(collisions, MeasureCollisions) \
   X(stress, MeasureStress) \
   X(mixing, MeasureMixing) \
+  X(defect_maps, MeasureDefectMaps) \
   X(drift, MeasureDrift)
 // clang-format on
 

@@ -52,21 +52,37 @@ double half_plane(double waves, const Box& box) {
   return (most.x() + 1) * (2 * most.y() + 1);
 }
 
+/// Nodes of the director field.
+double field_nodes(const Box& box, double mesh) {
+  return std::max(4.0, std::ceil(box.x() / mesh - 1e-9)) * std::max(4.0, std::ceil(box.y() / mesh - 1e-9));
+}
+/// Bytes of a director field while it is made: Q, the density of rods and that of the nodes, each node's sum by rows
+/// and in all.
+double field_bytes(double nodes) { return 5 * kNumberBytes * nodes; }
+
 MeasureMemory of_defects(const Sizes& sizes) {
   const System& system = sizes.plan.system;
   const MeasureDefects& defects = *sizes.plan.defects;
-  const double mesh = defects.grid_for(system.rod.length);
-  const double nodes = std::max(4.0, std::ceil(system.box().x() / mesh - 1e-9)) *
-                       std::max(4.0, std::ceil(system.box().y() / mesh - 1e-9));
+  const double nodes = field_nodes(system.box(), defects.grid_for(system.rod.length));
   // Zeros of a Gaussian field that is smoothed over s: 1 / (4 pi s^2) of them an area (Halperin, Les Houches 35, 813
   // (1981)); the field has no more than one in a mesh.
   const double smoothing = defects.smoothing_for(system.rod.length);
   const double found = std::min(system.box().area() / (4 * std::numbers::pi * smoothing * smoothing), nodes);
   constexpr double kTrack = 1200;  // with its last 17 places
   const double list = defects.list ? 6 * kNumberBytes * found * sizes.samples : 0;
-  // Q, the density of rods and that of the nodes, each node's sum by rows and in all
-  return {"", sizes.series(3) + found * kTrack + list, 5 * kNumberBytes * nodes, sizes.series(3) + list,
+  return {"", sizes.series(3) + found * kTrack + list, field_bytes(nodes), sizes.series(3) + list,
           sizes.spare_series(3) + kSpare * list};
+}
+
+MeasureMemory of_defect_maps(const Sizes& sizes) {
+  const System& system = sizes.plan.system;
+  const MeasureDefectMaps& maps = *sizes.plan.defect_maps;
+  const double bins = maps.bins;
+  // Seven sums a bin and charge. Errors are found from copies of all stretches, twice, and from what each stretch adds
+  // to each number.
+  const double state = sizes.in_blocks(2 * 7 * kNumberBytes * bins * bins);
+  const double field = field_bytes(field_nodes(system.box(), maps.grid_for(system.rod.length)));
+  return {"", state + 9 * kNumberBytes * sizes.rods, std::max(field, 3 * state)};
 }
 
 MeasureMemory of_velocity(const Sizes& sizes) {
@@ -411,6 +427,32 @@ Observable mixing() {
       const double kinds = species * (species + 1) / 2, all = s.run.system.n_all_rods();
       return {"", s.in_blocks(kinds * (2 * kNumberBytes * s.plan.mixing->bins + 20) + 200), all * 40}; },
     .remedy = "fewer `bins`"};
+}
+
+Observable defect_maps() {
+  return {
+    .doc = "Maps about topological defects of +1/2 and of -1/2, each in the frame of the defect: density, director, "
+           "velocity and tilt of rods (only within the walls, if any).",
+    .axis = AxisUse::kNeeded,
+    .every_doc = "Time between samples; velocities are the displacements from the one before to the one after.",
+    .keys = {
+      whole("bins", at<&Plan::defect_maps, &MeasureDefectMaps::bins>, 2, 101,
+            "Number of bins of a map in each direction; use an odd number to have a bin centred on the defect. A run "
+            "keeps 64 sets of maps, one for each interval of time, with 112 bytes per bin: 73 MB at most."),
+      derived(quantity("range", at<&Plan::defect_maps, &MeasureDefectMaps::range>, kLength, 0.01, 1000,
+                       "Radius of the maps. It is at most half the box, by its shorter side."),
+              "two rod lengths, at most half the box"),
+      derived(quantity("separation", at<&Plan::defect_maps, &MeasureDefectMaps::separation>, kLength, 0.001, 1000,
+                       "Defects that are nearer than this to another one are left out, as the pairs that noise makes."),
+              "a rod length"),
+      derived(quantity("smoothing", at<&Plan::defect_maps, &MeasureDefectMaps::smoothing>, kLength, 0.01, 200,
+                       "Standard deviation of the Gaussian that smooths the director field."),
+              "half a rod length"),
+      derived(quantity("grid", at<&Plan::defect_maps, &MeasureDefectMaps::grid>, kLength, 0.01, 200,
+                       "Mesh width of the director field."),
+              "an eighth of a rod length")},
+    .memory = of_defect_maps,
+    .remedy = "fewer `bins`, or a coarser `grid`"};
 }
 
 Observable drift() {

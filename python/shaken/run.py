@@ -30,11 +30,15 @@ _AXES = {
 }
 _SCATTERING = ("/scattering/q_per_mm", "/scattering/lag_s")
 _VAN_HOVE = ("/van_hove/lag_s", "/van_hove/displacement_mm")
+_DEFECT_MAPS = ("/defect_maps/across_mm", "/defect_maps/along_mm")
 #: The axes of the rows and of the columns of what files hold row by row.
 _MAPS = {
     **dict.fromkeys(("/pairs/g", "/pairs/g2"), ("/pairs/across_mm", "/pairs/along_mm")),
     **{f"/scattering/{name}{sem}": _SCATTERING for name in ("f", "f_along", "f_across") for sem in ("", "_sem")},
     **{f"/van_hove/{name}{sem}_per_mm": _VAN_HOVE for name in ("along", "across", "distance") for sem in ("", "_sem")},
+    **{f"/defect_maps/{charge}/{name}{sem}{unit}": _DEFECT_MAPS for charge in ("plus", "minus") for sem in ("", "_sem")
+       for name, unit in (("density", ""), ("cos_2theta", ""), ("sin_2theta", ""), ("v_along", "_mm_s"),
+                          ("v_across", "_mm_s"), ("tilt_squared", ""))},
 }
 _TABLE = "/van_hove/displacement_mm"  # a row for each lag
 
@@ -45,7 +49,8 @@ class Array(np.ndarray):
     name:   its path in observables.h5, "/msd/total_mm2"
     unit:   "mm2"; "1" for a plain number
     axis:   the Array that it is measured at (lags, distances, times); None where it has none; a pair (of the rows, of
-            the columns) for what has two dimensions: (across, along) of the maps of `pairs`, (q, lag) of F_s(q, t),
+            the columns) for what has two dimensions: (across, along) of the maps of `pairs` and `defect_maps`,
+            (q, lag) of F_s(q, t),
             (lag, displacement) of the van Hove function, whose displacements are a row for each lag too
     error:  the Array of its standard errors, or None
     """

@@ -64,6 +64,42 @@ def test_a_row_of_what_has_several_is_drawn() -> None:
     assert (list(curve.x), list(curve.y), list(curve.error)) == ([2, 6], [0.2, 0.05], [3, 4])
 
 
+def defect_maps(prefix: str = "", flow: float = -2.0) -> dict[str, Any]:
+    """About ideal defects, whose rods all move along x'."""
+    at = np.linspace(-4, 4, 17)
+    x, y = np.meshgrid(at, at)
+    r = np.hypot(x, y)
+    known, r = r < 4, np.maximum(r, 1e-9)
+    found = {f"{prefix}/defect_maps/{axis}_mm": at for axis in ("along", "across")}
+    for charge, sign in (("plus", 1), ("minus", -1)):
+        for name, values in (("density", 1 + 0.1 * x / r), ("cos_2theta", x / r), ("sin_2theta", sign * y / r),
+                             ("v_along_mm_s", flow + 0 * x), ("v_across_mm_s", 0 * x), ("tilt_squared", 0 * x)):
+            found[f"{prefix}/defect_maps/{charge}/{name}"] = np.where(known, values, NAN).ravel()
+    return found
+
+
+def test_maps_about_defects_show_director_and_flow(tmp_path: Path) -> None:
+    found = figures(run({**defect_maps(flow=-2), **defect_maps("/rods_2")}), run(defect_maps(flow=-4)))
+    assert list(found) == ["defect_maps", "rods_2_defect_maps"]
+    sheet = found["defect_maps"]
+    assert [names.plain(panel.title) for panel in sheet] == ["about +1/2 defects", "about −1/2 defects"] * 2
+    angle = {k: next(one for one in sheet[k].drawn if one.curve.startswith("angle")) for k in (0, 1)}
+    for k, sign in ((0, 1), (1, -1)):
+        drawn = angle[k]
+        phi = np.arctan2(drawn.y, drawn.x)
+        there = np.isfinite(drawn.z) & (np.hypot(drawn.x, drawn.y) > 1)
+        assert np.allclose(np.exp(2j * np.array(drawn.z))[there], np.exp(1j * sign * phi)[there])
+    flow = np.array(sheet[2].drawn[0].z)
+    assert np.nanmin(flow) == np.nanmax(flow) == -3  # of replicas the mean
+    assert_whole(sheet.finish())
+    sheet.save(tmp_path / "maps.png")
+    several = figures(run(defect_maps(), length=2.5), run(defect_maps(), length=3), run({}, length=4))
+    assert list(several) == ["defect_maps_1", "defect_maps_2"]
+    assert "3" in several["defect_maps_2"].title
+    nothing = {name: (values if name.endswith("_mm") else NAN * values) for name, values in defect_maps().items()}
+    assert not figures(run(nothing))
+
+
 def test_replicas_are_a_mean_with_its_error() -> None:
     one = {**TILT, "/tilt/v_along_sem_mm_s": [9, 9], "/order/time_s": [0, 1], "/order/order": [1, 0.5]}
     two = {**one, "/tilt/v_along_mm_s": [3, NAN], "/order/order": [1, 0.7]}

@@ -2,7 +2,6 @@
 #include "run/measure/measure_defects.h"
 
 #include <string>
-#include <utility>
 
 #include "analysis/director_field.h"
 #include "run/measure/estimates.h"
@@ -41,6 +40,12 @@ void put_tracks(const analysis::TrackSummary::Tracks& tracks, const std::string&
 
 }  // namespace
 
+std::vector<analysis::Defect> defects_of(const Sample& sample, const analysis::Region& region, double smoothing,
+                                         double mesh) {
+  return analysis::find_defects(analysis::DirectorField(sample->position, sample->director, region,
+                                                        analysis::Grid(region.box(), mesh), smoothing));
+}
+
 MeasuredDefects::MeasuredDefects(const MeasureContext& context)
     : region_(context.plan.system.box(), context.plan.system.walls),
       smoothing_(context.plan.defects->smoothing_for(context.plan.system.rod.length)),
@@ -49,10 +54,7 @@ MeasuredDefects::MeasuredDefects(const MeasureContext& context)
       tracks_(track_settings(context)) {}
 
 void MeasuredDefects::sample(const Sample& sample) {
-  const analysis::DirectorField field(sample->position, sample->director, region_, analysis::Grid(region_.box(), mesh_),
-                                      smoothing_);
-  std::vector<analysis::Defect> defects = analysis::find_defects(field);
-  last_ = DefectSample{sample->tick, sample->time, smoothing_, std::move(defects)};
+  last_ = DefectSample{sample->tick, sample->time, smoothing_, defects_of(sample, region_, smoothing_, mesh_)};
   tracks_.accumulate(sample->time, last_->defects);
   series_.accumulate(sample->time, last_->defects, tracks_.ids());
 }

@@ -19,6 +19,10 @@ struct DefectSample {
   std::vector<analysis::Defect> defects;
 };
 
+/// The defects of the measured rods: `smoothing` of the director field and mesh width of its grid, at most, in mm.
+std::vector<analysis::Defect> defects_of(const Sample& sample, const analysis::Region& region, double smoothing,
+                                         double mesh);
+
 /// Topological defects of the smoothed director field, and their tracks.
 class MeasuredDefects : public Measurement {
  public:

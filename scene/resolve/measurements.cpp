@@ -65,6 +65,24 @@ void mixing(Resolution& scene, MeasureMixing& settings) {
                            length_text(settings.distance), length_text(half_box)));
 }
 
+void defect_maps(Resolution& scene, MeasureDefectMaps& settings) {
+  if (scene.ok({"rods.length", "measure.defect_maps.separation", "measure.defect_maps.smoothing",
+                "measure.defect_maps.grid"})) {
+    const double rod_length = scene.plan.system.rod.length;
+    settings.separation = settings.separation_for(rod_length);
+    settings.smoothing = settings.smoothing_for(rod_length);
+    settings.grid = settings.grid_for(rod_length);
+  }
+  if (!scene.ok({"rods.length", "box.side", "box.aspect", "measure.defect_maps.range"})) return;
+  const System& system = scene.plan.system;
+  const double half_box = system.box().shorter() / 2;
+  settings.range = settings.range_for(system.rod.length, 2 * half_box);
+  if (settings.range <= half_box * (1 + 1e-12)) return;
+  scene.report({"measure.defect_maps.range", "box.side", "box.aspect"},
+               fmt::format("a map of {} each way reaches beyond half the box, {}: rods have no nearest image there",
+                           length_text(settings.range), length_text(half_box)));
+}
+
 }  // namespace
 
 void resolve_measurements(Resolution& scene) {
@@ -76,6 +94,7 @@ void resolve_measurements(Resolution& scene) {
   if (plan.van_hove) van_hove(scene, *plan.van_hove);
   if (plan.clusters) clusters(scene, *plan.clusters);
   if (plan.mixing) mixing(scene, *plan.mixing);
+  if (plan.defect_maps) defect_maps(scene, *plan.defect_maps);
 }
 
 void check_walls(Resolution& scene) {

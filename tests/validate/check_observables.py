@@ -1932,13 +1932,112 @@ def check_tracks(run, table, frames, plan):
             scalar(run, table, prefix + name + "_mm_s", by, curve[2], sem[2])
 
 
+def check_defect_maps(run, table):
+    """About the defects of the list of measure.defects, which check_defects finds again."""
+    frames = run.frames("defect_maps")
+    plan, same = run.scene["measure"]["defect_maps"], ("every", "smoothing", "grid")
+    assert {key: run.scene["measure"]["defects"][key] for key in same} == {key: plan[key] for key in same}
+    listed = np.stack([run.arrays["/defects/list/" + k] for k in ("time_s", "x_mm", "y_mm", "charge", "direction_rad")],
+                      axis=1)
+    bins, reach = plan["bins"], min(plan["range"], run.shorter / 2)
+    core = min(plan["smoothing"], reach)
+    width = 2 * reach / bins
+    names = ("density", "cos_2theta", "sin_2theta", "v_along_mm_s", "v_across_mm_s", "tilt_squared")
+    size = 4 + 6 * bins ** 2
+    sums, doubt = np.zeros((len(frames) - 2, 2, size)), np.zeros((2, bins ** 2))
+    core_doubt = np.zeros(2)
+    for sample, (before, frame, after) in enumerate(zip(frames, frames[1:], frames[2:])):
+        velocity = (run.unwrapped[after] - run.unwrapped[before]) / (run.time[after] - run.time[before])
+        velocity = velocity[:, 0] + 1j * velocity[:, 1]
+        defects = listed[np.abs(listed[:, 0] - run.time[frame]) < 1e-9, 1:]
+        for k, (x, y, charge, direction) in enumerate(defects):
+            others = np.delete(defects[:, :2], k, axis=0)
+            if len(others) and np.linalg.norm(nearest(others - [x, y], run.box), axis=1).min() < plan["separation"]:
+                continue
+            if abs(charge) != 0.5:
+                continue
+            way = nearest(run.place[frame] - [x, y], run.box)
+            sign = 0 if charge > 0 else 1
+            for psi in [direction] if charge > 0 else direction + 2 * np.pi / 3 * np.arange(3):
+                turned = (way[:, 0] + 1j * way[:, 1]) * np.exp(-1j * psi)
+                place = (np.stack([turned.real, turned.imag]) + reach) / width
+                inside = np.abs(turned) < reach
+                at = np.clip(np.floor(place), 0, bins - 1).astype(int)
+                flat = (at[1] * bins + at[0])[inside]
+                # a rod this near an edge may be in the next bin, or none
+                near = (np.abs(place - np.round(place)) * width < EDGE).any(0) & (np.abs(turned) < reach + EDGE)
+                for i in np.flatnonzero(near):
+                    doubt[sign, np.unique([np.clip(np.floor(place[1, i] + b * 1e-3), 0, bins - 1) * bins +
+                                           np.clip(np.floor(place[0, i] + a * 1e-3), 0, bins - 1)
+                                           for a in (-1, 1) for b in (-1, 1)]).astype(int)] += 1
+                flow, twice = velocity * np.exp(-1j * psi), np.exp(2j * (run.theta[frame] - psi))
+                middle = np.abs(turned) < core
+                core_doubt[sign] += np.sum(np.abs(np.abs(turned) - core) < EDGE)
+                sums[sample, sign, :4] += [1, middle.sum(), flow.real[middle].sum(), flow.imag[middle].sum()]
+                for q, values in enumerate((np.ones(run.n), twice.real, twice.imag, flow.real, flow.imag,
+                                            run.director[frame, :, 2] ** 2)):
+                    here = slice(4 + q * bins ** 2, 4 + (q + 1) * bins ** 2)
+                    sums[sample, sign, here] += np.bincount(flat, values[inside], minlength=bins ** 2)
+    density, parts = run.n / run.area, steady_parts(run, frames[1:-1])
+    corners = (np.abs(np.arange(bins) - (bins - 1) / 2) + 0.5) * width
+    known = (np.hypot(*np.meshgrid(corners, corners)) <= reach * (1 + 1e-9)).ravel()
+
+    def numbers(some):
+        result = []
+        with np.errstate(all="ignore"):
+            for sign in (0, 1):
+                total = sums[some, sign].sum(0)
+                rods, *others = total[4:].reshape(6, bins ** 2)
+                maps = [rods / (total[0] * density * width ** 2), *(other / rods for other in others)]
+                result.append(np.where(known, maps, np.nan).ravel())
+                result.append([total[0] / (1, 3)[sign] / len(some), total[1] / (total[0] * density * np.pi * core ** 2),
+                               total[2] / total[1], total[3] / total[1]])
+        return np.concatenate(result)
+
+    values, sems = (one.reshape(2, -1) for one in jackknife(parts, numbers))
+    by = "numpy, rod by rod"
+    for name in ("along_mm", "across_mm"):
+        table.add(f"/defect_maps/{name}", "definition", run.arrays[f"/defect_maps/{name}"],
+                  (np.arange(bins) + 0.5) * width - reach)
+    steady = np.concatenate(parts)
+    for sign, charge in enumerate(("plus", "minus")):
+        rods, frames_of = sums[steady, sign, 4:4 + bins ** 2].sum(0), max(sums[steady, sign, 0].sum(), 1)
+        fastest = np.max(np.abs(values[sign].reshape(-1)[np.isfinite(values[sign])]), initial=1)
+        few = np.maximum(rods, 1)
+        for q, name in enumerate(names):
+            stem, unit = (name[:-5], "_mm_s") if name.endswith("_mm_s") else (name, "")
+            here = slice(q * bins ** 2, (q + 1) * bins ** 2)
+            allowed = (doubt[sign] / (frames_of * density * width ** 2) if q == 0 else
+                       2 * doubt[sign] / few * (fastest if unit else 1))
+            ours = run.arrays[f"/defect_maps/{charge}/{name}"]
+            sure = (doubt[sign] == 0) | (rods > 20)
+            table.add(f"/defect_maps/{charge}/{name}", by, ours[sure], values[sign, here][sure],
+                      allowed[sure] + (2e-3 if unit else 2e-5))
+            errors = run.arrays[f"/defect_maps/{charge}/{stem}_sem{unit}"]
+            table.compared.add(f"/defect_maps/{charge}/{stem}_sem{unit}")
+            sure = doubt[sign] == 0
+            table.add(f"sem of /defect_maps/{charge}/{name}", by, errors[sure], sems[sign, here][sure],
+                      0.02 * sems[sign, here][sure] + 1e-4)
+    for sign, charge in enumerate(("plus", "minus")):
+        mapped, core_density, along, across = values[sign, -4:]
+        error = sems[sign, -4:]
+        inside = max(sums[steady, sign, 1].sum(), 1)
+        doubtful = core_doubt[sign] / inside
+        scalar(run, table, f"mapped_defects_{charge}", by, mapped, error[0])
+        scalar(run, table, f"core_density_{charge}", by, core_density, error[1],
+               (doubtful + 1e-6) * core_density, allowed_sem=0.02)
+        if sign == 0:
+            scalar(run, table, "core_flow_along_mm_s", by, along, error[2], 20 * doubtful + 2e-3, allowed_sem=0.02)
+            scalar(run, table, "core_flow_across_mm_s", by, across, error[3], 20 * doubtful + 2e-3, allowed_sem=0.02)
+
+
 CHECKS = {"order": check_order, "angles": check_angles, "tilt": check_tilt, "defects": check_defects, "g2": check_g2,
           "pairs": check_pairs, "layers": check_layers, "lattice": check_lattice, "structure": check_structure,
           "polar": check_polar, "fluctuations": check_fluctuations,
           "frank": check_frank, "msd": check_msd, "rotation": check_rotation, "velocity": check_velocity, "rods": check_rods,
           "temperatures": check_temperatures, "scattering": check_scattering, "van_hove": check_van_hove,
           "flow": check_flow, "clusters": check_clusters, "collisions": check_collisions,
-          "stress": check_stress, "mixing": check_mixing,
+          "stress": check_stress, "mixing": check_mixing, "defect_maps": check_defect_maps,
           "drift": check_drift}
 
 

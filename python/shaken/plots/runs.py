@@ -10,8 +10,8 @@ from typing import Any, Iterator, Mapping, Sequence
 import numpy as np
 
 from ..run import error_name
-from . import names
-from .series import VERSION, Arrangement, mean_curve
+from . import maps, names
+from .series import VERSION, Arrangement, label_of, mean_curve
 from .sheet import Sheet
 
 _DEGREES = 180 / np.pi
@@ -138,6 +138,7 @@ def read_run(directory: str | Path, parameters: Mapping[str, Any], state: str = 
         summary = {}
     import h5py
     wanted = {name for one in OF_EVERY_SPECIES for name in (one.x, *one.y, error_name(one.y[0]), one.rows) if name}
+    wanted |= {species + name for species in ("", "/rods_2", "/rods_3") for name in maps.ARRAYS}
     arrays = {}
     try:
         with h5py.File(path, "r") as file:
@@ -232,8 +233,9 @@ def _thinned(curve: _Curve) -> _Curve:
 
 
 def run_figures(runs: Sequence[PlottedRun], width: str | None = None) -> Iterator[tuple[str, Sheet]]:
-    """(name, figure) of each observable that at least one run has. Of replicas by one version the mean is drawn, with
-    the standard error of replica_mean; what differs in parameters or version are different curves."""
+    """(name, figure) of each observable that at least one run has, and of the maps about defects of each
+    point. Of replicas by one version the mean is drawn, with the standard error of replica_mean; what differs in
+    parameters or version are different curves."""
     name_points(runs)
     points: list[dict[str, Any]] = []
     of_point: list[list[PlottedRun]] = []
@@ -267,3 +269,6 @@ def run_figures(runs: Sequence[PlottedRun], width: str | None = None) -> Iterato
             if of.x_ticks:
                 panel.axes.set_xticks(of.x_ticks)
         yield of.name, sheet
+    labels = [label_of(point) if len(points) > 1 else "" for point in points]
+    yield from maps.defect_figures([(label, [run.arrays for run in of_one])
+                                    for label, of_one in zip(labels, of_point)], width)

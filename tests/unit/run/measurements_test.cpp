@@ -38,6 +38,7 @@ scene::RunPlan plan() {
   p.pairs = scene::MeasurePairs{0.05, 11, 0};
   p.layers = scene::MeasureLayers{0.02};
   p.mixing = scene::MeasureMixing{0.05, 20, 3};
+  p.defect_maps = scene::MeasureDefectMaps{0.01, 7};
   p.drift = scene::MeasureDrift{0.01};
   return p;
 }
@@ -74,7 +75,8 @@ Reduction reduced_spheres() {
   spheres.system.rod.length = spheres.system.rod.mid_diameter;
   Measurements measurements(spheres);
   const auto counts = measurements.counts();
-  for (const char* name : {"order", "angles", "tilt", "defects", "frank", "rotation", "pairs", "layers", "polar"}) {
+  for (const char* name :
+       {"order", "angles", "tilt", "defects", "frank", "rotation", "pairs", "layers", "polar", "defect_maps"}) {
     EXPECT_FALSE(counts.contains(name)) << name;
   }
   for (const char* name : {"g2", "msd", "velocity", "rods", "fluctuations", "lattice", "structure", "temperatures",

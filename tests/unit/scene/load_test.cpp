@@ -118,6 +118,12 @@ TEST(LoadScene, DefectFieldFollowsTheRodsLength) {
   EXPECT_EQ(plan.defects, (MeasureDefects{0.1, 1.5, 0.375}));
 }
 
+TEST(LoadScene, DefectMapsFollowTheRodsLengthAndTheBox) {
+  EXPECT_EQ(plan_of(R"({"rods": {"length": 3}, "measure": {"defect_maps": {}}})").defect_maps,
+            (MeasureDefectMaps{0.2, 31, 6, 3, 1.5, 0.375}));
+  EXPECT_EQ(plan_of(R"({"box": {"side": 16}, "measure": {"defect_maps": {}}})").defect_maps->range, 8);
+}
+
 TEST(LoadScene, PairMapFollowsTheRodsLengthAndTheBox) {
   EXPECT_EQ(plan_of(R"({"rods": {"length": 3}, "measure": {"pairs": {}}})").pairs, (MeasurePairs{0.5, 81, 9}));
   EXPECT_EQ(plan_of(R"({"box": {"side": 20}, "measure": {"pairs": {}}})").pairs, (MeasurePairs{0.5, 81, 10}));

@@ -53,6 +53,9 @@ TEST(Problems, NeighboursBeyondHalfTheBox) {
 }
 
 TEST(Problems, MapsBeyondHalfTheBox) {
+  EXPECT_EQ(problem_of(R"({"box": {"side": 20}, "measure": {"defect_maps": {"range": 10.1}}})"),
+            "run.json:1:60: /measure/defect_maps/range: a map of 10.1 mm each way reaches beyond half the box, 10 mm: "
+            "rods have no nearest image there");
   EXPECT_EQ(problem_of(R"({"box": {"side": 20}, "measure": {"pairs": {"range": 10.1}}})"),
             "run.json:1:54: /measure/pairs/range: a map of 10.1 mm each way reaches beyond half the box, 10 mm: "
             "distances have no nearest image there");
