@@ -9,9 +9,9 @@ import re
 import sys
 
 # Inside the physics library: each may include what stands before it, so there are no circles.
-SIM = ["sim/lanes", "sim/system.h", "sim/physics_version.h", "sim/snapshot.h", "sim/rod", "sim/cell.h", "sim/motion",
-       "sim/contact", "sim/neighbors", "sim/ledger.h", "sim/world", "sim/balance", "sim/turned_rows",
-       "sim/director_patterns", "sim/aligning_field", "sim/initial",
+SIM = ["sim/lanes", "sim/system.h", "sim/physics_version.h", "sim/snapshot.h", "sim/posts.h", "sim/rod", "sim/cell.h",
+       "sim/motion", "sim/posts.cpp", "sim/contact", "sim/neighbors", "sim/ledger.h", "sim/world", "sim/balance",
+       "sim/turned_rows", "sim/director_patterns", "sim/aligning_field", "sim/initial",
        "sim/close_up", "sim/effects", "sim/tick", "sim/bounds", "sim/schedule", "sim/stepping",
        "sim/compression", "sim/checkpoint", "sim/simulation"]
 ALLOWED = {
@@ -22,7 +22,8 @@ ALLOWED = {
     "proto": ["sim/cell.h"],
     # everything outside sim/ sees simulations, not steppers
     "analysis": ["base/estimate.h", "sim/system.h", "sim/cell.h", "sim/motion/side_walls.h"],
-    "scene": ["base/keys", "sim/rod", "sim/cell.h", "sim/system.h", "sim/physics_version.h"],
+    "scene": ["base/keys", "sim/rod", "sim/cell.h", "sim/posts.h", "sim/system.h",
+              "sim/physics_version.h"],
     # whether rods can be placed, or a run begin where another ends, the simulation itself says
     "scene/stages.cpp": ["scene", "base/keys", "sim/initial.h"],
     "scene/placement.cpp": ["scene", "base/keys", "sim/rod", "sim/system.h", "sim/initial.h"],

@@ -20,10 +20,10 @@ enum class CollisionCount : std::size_t {
   kRodRod,        ///< impacts of two rods
   kBase,          ///< of a rod with the base
   kLid,           ///< with the lid
-  kWalls,         ///< with side walls
+  kWalls,         ///< with side walls and posts
   kGiven,         ///< energy that moving plates, walls and noise gave [pJ]
   kLostRodRod,    ///< energy lost in impacts of two rods [pJ]
-  kLostSurfaces,  ///< energy lost in impacts with plates and side walls [pJ]
+  kLostSurfaces,  ///< energy lost in impacts with plates, side walls and posts [pJ]
 };
 inline constexpr std::size_t kCollisionCounts = 7;
 

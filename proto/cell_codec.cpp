@@ -41,7 +41,10 @@ frame_static_t encode_cell(const Cell& cell, std::size_t n_rods, const std::stri
 }
 
 std::optional<Cell> decode_cell(const frame_static_t& message) {
-  Cell cell{.box = {message.box_x_mm, message.box_y_mm}, .gap = message.gap_mm, .species_of_rod = message.rod_species};
+  Cell cell;
+  cell.box = {message.box_x_mm, message.box_y_mm};
+  cell.gap = message.gap_mm;
+  cell.species_of_rod = message.rod_species;
   std::span<const double> offsets(message.bead_offset_mm), radii(message.bead_radius_mm);
   for (const std::int32_t n_beads : message.species_beads) {
     if (n_beads < 1 || static_cast<std::size_t>(n_beads) > std::min(offsets.size(), radii.size())) return std::nullopt;

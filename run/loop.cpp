@@ -38,7 +38,8 @@ RunTotals totals_of(const scene::RunPlan& plan, const World& world, const Snapsh
   RunTotals totals;
   totals.collisions = {
       {static_cast<double>(counters.impulses_rod_rod), static_cast<double>(counters.impulses_rod_base),
-       static_cast<double>(counters.impulses_rod_lid), static_cast<double>(counters.impulses_rod_wall),
+       static_cast<double>(counters.impulses_rod_lid),
+       static_cast<double>(counters.impulses_rod_wall + counters.impulses_rod_post),
        ledger.given.value() + ledger.noise.value(), ledger.lost_rod_rod.value(), ledger.lost_surfaces.value()},
       static_cast<double>(world.rods.size())};
   if (plan.stress) {
@@ -230,6 +231,7 @@ class Loop {
     summary.collisions_rod_base = world.counters.impulses_rod_base;
     summary.collisions_rod_lid = world.counters.impulses_rod_lid;
     summary.collisions_rod_wall = world.counters.impulses_rod_wall;
+    summary.collisions_rod_post = world.counters.impulses_rod_post;
     summary.max_overlap = world.counters.max_overlap();
     summary.balance = balance(world);
     summary.t_steady = reduction.t_steady;

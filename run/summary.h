@@ -37,6 +37,7 @@ struct Summary {
   std::int64_t collisions_rod_base = 0;
   std::int64_t collisions_rod_lid = 0;
   std::int64_t collisions_rod_wall = 0;
+  std::int64_t collisions_rod_post = 0;
   double max_overlap = 0;                        ///< [mm]
   Balance balance;                               ///< of energy and momentum
   double t_steady = 0;                           ///< where the steady state begins [s]

@@ -11,6 +11,12 @@
 
 namespace shaken::scene {
 
+namespace {
+
+constexpr std::size_t kMostPosts = 200 * 200;  ///< sites of the largest lattice
+
+}  // namespace
+
 Result<void> check_cell(const Cell& cell, std::size_t n_rods) {
   std::string wrong;
   const auto hold = [&](const char* what, double value, const char* path, double share = 1) {
@@ -34,6 +40,12 @@ Result<void> check_cell(const Cell& cell, std::size_t n_rods) {
     hold("arena", cell.walls->size, "walls.size");
     if (cell.walls->arena == Arena::kAnnulus) hold("inner wall", cell.walls->inner, "walls.inner");
     if (cell.walls->arena == Arena::kStadium) hold("straight wall", cell.walls->length, "walls.length");
+  }
+  if (!cell.posts.centres.empty()) hold("post", cell.posts.diameter, "posts.diameter");
+  if (cell.posts.centres.size() > kMostPosts) return Error{"more posts than a scene can have"};
+  for (const Vec2& centre : cell.posts.centres) {
+    const bool is_inside = (centre.array() >= 0).all() && (centre.array() <= cell.box.sides().array()).all();
+    if (!is_inside) return Error{"a post outside of the box"};
   }
   if (!wrong.empty()) return Error{wrong};
   if (cell.species.empty()) return Error{"no species"};

@@ -75,6 +75,36 @@ Field straight_walls() {
   return field;
 }
 
+/// A number of sites along one axis; nothing where each place is given.
+Field lattice_sites(const std::string& path, auto access, const std::string& doc) {
+  Field field = whole(path, access, 1, 200, doc);
+  field.fetch = [always = field.fetch](const RunPlan& p) {
+    return p.system.posts->places.empty() ? always(p) : Value();
+  };
+  return field;
+}
+
+Field post_places() {
+  return {{.path = "posts.places",
+           .form = Form::kPairs,
+           .dimension = kLength,
+           .low = 0,
+           .high = 2000,
+           .most = 1000,
+           .fallback_note = "none",
+           .doc = "Where the axis of each post stands, from the corner of the box, in place of a lattice."},
+          [](const RunPlan& p) {
+            std::vector<std::array<double, 2>> places;
+            for (const Vec2& place : p.system.posts->places) places.push_back({place.x(), place.y()});
+            return places.empty() ? Value() : Value(places);
+          },
+          [](RunPlan& p, const Value& value) {
+            p.system.posts->places.clear();
+            for (const auto& [x, y] : std::get<std::vector<std::array<double, 2>>>(value))
+              p.system.posts->places.emplace_back(x, y);
+          }};
+}
+
 Field steady() {
   return {{.path = "time.steady",
            .dimension = kTime,
@@ -148,8 +178,8 @@ Field start_run() {
                 .expected = "the id of a run, 16 hex digits",
                 .fallback_note = "must be given",
                 .doc = "Id of the run whose rods are taken over. It must have the same rods, shape of the box, "
-                       "plates and walls; side and gap (without walls), shaking, gravity, contacts, step and seed may "
-                       "differ."},
+                       "plates, walls and posts; side and gap (without walls and posts), shaking, gravity, contacts, "
+                       "step and seed may differ."},
                at<&RunPlan::start, &StartState::run>);
 }
 
@@ -222,7 +252,7 @@ std::vector<Field> added_rods(const std::string& name) {
   std::ranges::move(shape<&RunPlan::system, &System::added, k, &AddedRods::rod>(name, ""), std::back_inserter(rows));
   rows.push_back(
     derived(instead(name + ".area_fraction", added_fraction<k>, kPlain, 1e-6, kMaxAreaFractionAligned, {},
-                    "Area of these rods, lying flat, divided by the area of the box (or arena)."),
+                    "Area of these rods, lying flat, divided by the area of the box (or arena) that posts leave."),
             "from count"));
   rows.push_back(
     derived(whole(name + ".count", sys<&System::added, k, &AddedRods::count>, 1, 1e6, "Number of rods."),
@@ -305,7 +335,7 @@ std::vector<std::vector<Field>> groups() {
     shape<&RunPlan::system, &System::rod>("rods", " It sets the unit of energy; between species it is the ratio that matters."), {
     instead("rods.area_fraction", [](const RunPlan& p) { return Value(to_ten_digits(area_fraction_of(p.system))); },
             kPlain, 1e-6, kMaxAreaFractionAligned, kDefaultAreaFraction,
-            "Area of all rods, lying flat, divided by the area of the box (or arena)."),
+            "Area of all rods, lying flat, divided by the area of the box (or arena) that posts leave."),
     derived(whole("rods.count", sys<&System::n_rods>, 1, 1e6, "Number of rods."), "from area_fraction and side"),
     rods_start(),
     rods_start_angle(),
@@ -357,7 +387,17 @@ std::vector<std::vector<Field>> groups() {
     inner_wall(),
     straight_walls(),
     },
-    surface_contact<&System::walls, &SideWalls::contact>("walls", "wall"),
+    surface_contact<&System::walls, &SideWalls::contact>("walls", "wall"), {
+    block("posts", sys<&System::posts>, false,
+          "Round posts from base to lid that stand among the rods and move with the plates."),
+    quantity("posts.diameter", sys<&System::posts, &Posts::diameter>, kLength, 0.05, 1000, "Diameter of each post."),
+    lattice_sites("posts.columns", sys<&System::posts, &Posts::columns>,
+                  "Posts side by side along x, in equal parts of the box or of the rectangle round the arena. Those that "
+                  "would not stand wholly within the walls are left out."),
+    lattice_sites("posts.rows", sys<&System::posts, &Posts::rows>, "The same along y."),
+    post_places(),
+    },
+    surface_contact<&System::posts, &Posts::contact>("posts", "post"),
     rod_contact(),
     surface_contact<&System::rod_base>("contacts.rod_base", "base"),
     surface_contact<&System::rod_lid>("contacts.rod_lid", "lid"), {

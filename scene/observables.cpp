@@ -168,6 +168,7 @@ Observable defects() {
   return {
     .doc = "Topological defects of the smoothed director field, where there are rods (and only within the walls, if "
            "any).",
+    .open = "the director at every place",
     .axis = AxisUse::kNeeded,
     .keys = {
       derived(quantity("smoothing", at<&Plan::defects, &MeasureDefects::smoothing>, kLength, 0.01, 200,
@@ -189,6 +190,7 @@ Observable defects() {
 Observable g2() {
   return {
     .doc = "Orientational correlation G2(r) and pair distribution g(r) (only within the walls, if any).",
+    .open = "lines of sight",
     .axis = AxisUse::kPartly,
     .keys = {
       whole("bins", at<&Plan::g2, &MeasureG2::bins>, 2, 10000,
@@ -210,6 +212,7 @@ Observable msd() {
 Observable fluctuations() {
   return {
     .doc = "Giant number fluctuations, from the numbers of rods in boxes of 1/4 to 1/400 of the area.",
+    .open = "numbers in boxes of equal area",
     // 1054 boxes of ten sizes
     .memory = [](const Sizes& s) -> MeasureMemory { return {"", s.in_blocks(1054 * 20), 0}; }};
 }
@@ -365,6 +368,7 @@ Observable van_hove() {
 Observable flow() {
   return {
     .doc = "Correlation C(r) of the velocities of two rods against their distance (only within the walls, if any).",
+    .open = "lines of sight",
     .axis = AxisUse::kPartly,
     .every_doc = "Time between samples; velocities are the displacements from one to the next.",
     .keys = {
@@ -414,6 +418,7 @@ Observable mixing() {
   return {
     .doc = "Pair distributions g(r) of every two species, and how far the species keep apart (only within the walls, "
            "if any); of all rods, whatever `measure.of` says.",
+    .open = "lines of sight",
     .keys = {
       whole("bins", at<&Plan::mixing, &MeasureMixing::bins>, 2, 10000,
             "Number of bins over distances from 0 to half the box, by its shorter side."),
@@ -474,7 +479,11 @@ Observable of(const char* name, Observable row) {
   row.name = name;
   const std::string path = "measure." + row.name;
   std::string doc = row.doc;
-  if (!row.within_walls()) doc += " Not available with walls.";
+  if (!row.within_walls()) {
+    doc += " Not available with walls or posts.";
+  } else if (!row.among_posts()) {
+    doc += " Not available with posts.";
+  }
   if (row.is_of_squares) doc += " Only in square boxes.";
   if (row.axis == AxisUse::kNeeded) doc += " Not measured of spheres, which have no axis.";
   row.block = block(path, at<settings>, row.is_usual, doc);

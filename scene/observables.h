@@ -51,6 +51,7 @@ struct Observable {
   std::string doc;             ///< one line, for the reference
   bool is_usual = false;       ///< measured where a scene has no "measure" at all
   std::string periodic = "";   ///< what it takes of a periodic box ("the waves"); empty: nothing
+  std::string open = "";       ///< what it takes of a plane without posts ("lines of sight"); empty: nothing
   bool is_of_squares = false;  ///< of a periodic box it takes that it is square
   AxisUse axis = AxisUse::kNone;
   std::string every_doc = "Time between samples.";     ///< of the key `every`
@@ -61,6 +62,8 @@ struct Observable {
 
   /// Whether it can be measured within side walls too.
   bool within_walls() const { return periodic.empty(); }
+  /// Whether it can be measured among posts too.
+  bool among_posts() const { return periodic.empty() && open.empty(); }
   /// Whether the plan asks for it, although it is of an axis and the first species, which is measured, has none.
   bool lacks_axis(const RunPlan& plan) const;
   /// The time between samples [s]; none if the plan does not ask for it, or it lacks_axis().

@@ -27,6 +27,7 @@ RunPlan placed_alike(const RunPlan& plan) {
   alike.system.box_aspect = system.box_aspect;
   alike.system.gap = system.gap;
   alike.system.walls = system.walls;
+  alike.system.posts = system.posts;
   alike.system.start = system.start;
   alike.system.start_angle = system.start_angle;
   alike.start = plan.start;
@@ -70,7 +71,9 @@ class Placings {
 /// another start; at an angle nearly every side holds as many. Rows are not commensurate with every side, so it need
 /// not be the largest that counts.
 std::optional<double> nearest_side(const System& system) {
-  if (system.start != Start::kAligned || system.start_angle != 0 || system.walls) return std::nullopt;
+  if (system.start != Start::kAligned || system.start_angle != 0 || system.walls || system.posts) {
+    return std::nullopt;
+  }
   constexpr int kMostTries = 60;
   const double per_mm = system.box_side < 5 ? 10 : 2;
   System larger = system;

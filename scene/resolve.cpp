@@ -16,7 +16,10 @@ std::optional<RunPlan> resolve(const Draft& draft, std::vector<Problem>& problem
   const bool shapes_are_known = resolve_rod_shapes(scene);
   const bool shaking_is_known = resolve_shaking(scene);
   if (shapes_are_known) {
-    if (resolve_arena(scene)) resolve_numbers(scene);
+    if (resolve_arena(scene) && resolve_posts(scene)) {
+      resolve_numbers(scene);
+      check_posts(scene);
+    }
     check_box(scene);
     resolve_start_pattern(scene);
   }
@@ -30,7 +33,7 @@ std::optional<RunPlan> resolve(const Draft& draft, std::vector<Problem>& problem
     check_intervals(scene);
     resolve_measurements(scene);
   }
-  check_walls(scene);
+  check_surroundings(scene);
   check_until(scene);
   check_start(scene);
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "sim/posts.h"
 #include "sim/rod/bead_row.h"
 #include "sim/system.h"
 
@@ -17,6 +18,7 @@ struct Cell {
   Box box;         ///< periodic where no walls stand
   double gap = 0;  ///< between the plates [mm]
   std::optional<SideWalls> walls{};
+  StandingPosts posts{};                       ///< if any
   std::vector<BeadRow> species{};              ///< order, director and defects are of the first
   std::vector<std::uint8_t> species_of_rod{};  ///< (n_rods) from 0; empty if there is one species
 
@@ -35,7 +37,7 @@ struct Cell {
   /// Whether the rods of the first species have axes: spheres have none, and no order, director or defects.
   bool has_axes() const { return !species.empty() && species.front().has_axis(); }
   /// What the rods have to share [mm^2].
-  double area() const { return walls ? walls->area(box) : box.area(); }
+  double area() const { return (walls ? walls->area(box) : box.area()) - posts.area(); }
   /// After what the plane repeats itself along x and along y [mm]; 0 where side walls end it.
   Vec2 period() const { return period_of(box, walls); }
 

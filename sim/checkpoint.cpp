@@ -28,7 +28,7 @@ void each_field(Archive&& visit, F& flight) {
 }
 
 template <class Archive, class C>
-void each_counter(Archive&& visit, C& counters) {
+void each_counter(Archive&& visit, C& counters, bool has_posts) {
   visit(counters.impulses_rod_rod);
   visit(counters.impulses_rod_base);
   visit(counters.impulses_rod_lid);
@@ -37,6 +37,7 @@ void each_counter(Archive&& visit, C& counters) {
   visit(counters.impulses_rod_wall);
   visit(counters.noise_kicks);
   visit(counters.impacts_at_instant);
+  if (has_posts) visit(counters.impulses_rod_post);
 }
 
 /// Calls visit(sum) for the ledger's sums in a fixed order.
@@ -82,6 +83,14 @@ void each_scene_key(Archive&& visit, const System& system) {
     visit(system.walls->inner);
     if (system.walls->arena == Arena::kStadium) visit(system.walls->length);
   }
+  if (system.posts) {
+    const StandingPosts posts = standing_posts(system);
+    visit(posts.diameter);
+    for (const Vec2& centre : posts.centres) {
+      visit(centre.x());
+      visit(centre.y());
+    }
+  }
   visit(system.box_side);
   if (system.box_aspect != 1) visit(system.box_aspect);
   visit(system.gap);
@@ -113,7 +122,7 @@ Result<World> restore_world(const System& system, StateReader& reader, bool has_
   if (!same_scene) return Error{"the checkpoint belongs to another scene"};
 
   World world = empty_world(system);
-  each_counter([&](auto& counter) { reader.get(counter); }, world.counters);
+  each_counter([&](auto& counter) { reader.get(counter); }, world.counters, system.posts.has_value());
   each_sum(
       [&](auto& sum) {
         std::uint64_t low = 0;
@@ -157,7 +166,7 @@ std::vector<std::byte> save_checkpoint(const World& world) {
   writer.put(kMagic);
   writer.put(static_cast<std::int64_t>(physics_version(world.system)));
   each_scene_key([&](const auto& key) { writer.put(key); }, world.system);
-  each_counter([&](const auto& counter) { writer.put(counter); }, world.counters);
+  each_counter([&](const auto& counter) { writer.put(counter); }, world.counters, world.system.posts.has_value());
   each_sum(
       [&](const auto& sum) {
         writer.put(sum.low());

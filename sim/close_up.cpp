@@ -7,6 +7,7 @@
 
 #include "sim/contact/bead_contacts.h"
 #include "sim/contact/impulse.h"
+#include "sim/motion/post_contacts.h"
 #include "sim/motion/side_walls.h"
 #include "sim/neighbors/neighbor_list.h"
 
@@ -40,19 +41,35 @@ void add_plate_contacts(const World& world, const CloseUp::Rod& rod, CloseUp& ou
   }
 }
 
+void add_upright_contact(const CloseUp::Rod& rod, int other, const Species& species, int bead, const WallSeen& seen,
+                         CloseUp& out) {
+  const double overlap = species.bead_radius[bead] - seen.distance;
+  if (!(overlap > 0)) return;
+  const Vec3 arm = species.bead_offset[bead] * rod.pose.director - species.bead_radius[bead] * seen.normal;
+  const double u_n = point_velocity(rod.motion, arm).dot(seen.normal);
+  out.contacts.push_back({rod.rod, other, bead, -1, overlap, -u_n});
+}
+
 void add_wall_contacts(const World& world, const CloseUp::Rod& rod, CloseUp& out) {
   if (!world.system.walls) return;
   const Species& species = world.species_of(static_cast<std::size_t>(rod.rod));
   for (int bead = 0; bead < species.n_beads(); ++bead) {
     const Vec3 center = rod.pose.position + species.bead_offset[bead] * rod.pose.director;
     const WallsSeen seen = see_walls(*world.system.walls, world.system.box(), center);
-    for (int w = 0; w < seen.n; ++w) {
-      const double overlap = species.bead_radius[bead] - seen.walls[w].distance;
-      if (!(overlap > 0)) continue;
-      const Vec3 arm = center - rod.pose.position - species.bead_radius[bead] * seen.walls[w].normal;
-      const double u_n = point_velocity(rod.motion, arm).dot(seen.walls[w].normal);
-      out.contacts.push_back({rod.rod, CloseUp::kWall, bead, -1, overlap, -u_n});
-    }
+    for (int w = 0; w < seen.n; ++w) add_upright_contact(rod, CloseUp::kWall, species, bead, seen.walls[w], out);
+  }
+}
+
+void add_post_contacts(const World& world, const CloseUp::Rod& rod, CloseUp& out) {
+  if (!world.system.posts) return;
+  const Species& species = world.species_of(static_cast<std::size_t>(rod.rod));
+  const System& system = world.system;
+  const PostGrid posts(standing_posts(system), system.box(), period_of(system.box(), system.walls));
+  for (int bead = 0; bead < species.n_beads(); ++bead) {
+    const Vec3 center = rod.pose.position + species.bead_offset[bead] * rod.pose.director;
+    posts.for_each_within(center.head<2>(), posts.radius() + species.bead_radius[bead], [&](int, const Vec2& axis) {
+      add_upright_contact(rod, CloseUp::kPost, species, bead, see_post(axis, posts.radius(), center), out);
+    });
   }
 }
 
@@ -74,6 +91,7 @@ void add_rod_contacts(const World& world, const CloseUp::Rod& i, const CloseUp::
 }  // namespace
 
 const char* surface_name(int other) {
+  if (other == CloseUp::kPost) return "post";
   if (other == CloseUp::kWall) return "side wall";
   return other == CloseUp::kBase ? "base" : "lid";
 }
@@ -96,6 +114,7 @@ CloseUp look_closely(const World& world, Tick tick, const std::vector<int>& conc
     const CloseUp::Rod rod = out.rods[a];
     add_plate_contacts(world, rod, out);
     add_wall_contacts(world, rod, out);
+    add_post_contacts(world, rod, out);
   }
 
   for (int other = 0; other < static_cast<int>(world.rods.size()); ++other) {

@@ -14,6 +14,7 @@ struct CloseUp {
   static constexpr int kBase = -1;  ///< in place of a rod
   static constexpr int kLid = -2;   ///< the same
   static constexpr int kWall = -3;  ///< the same
+  static constexpr int kPost = -4;  ///< the same
 
   struct Rod {
     int rod;
@@ -23,7 +24,7 @@ struct CloseUp {
   };
   struct Contact {
     int rod;
-    int other;  ///< a rod, kBase, kLid or kWall
+    int other;  ///< a rod, kBase, kLid, kWall or kPost
     int bead;
     int other_bead;   ///< of a rod
     double overlap;   ///< [mm]

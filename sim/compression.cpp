@@ -15,6 +15,7 @@
 #include "sim/contact/bead_contacts.h"
 #include "sim/director_patterns.h"
 #include "sim/initial.h"
+#include "sim/motion/post_contacts.h"
 #include "sim/neighbors/neighbor_list.h"
 #include "sim/stepping/stepper.h"
 
@@ -155,6 +156,7 @@ class Compression {
     gas.base = gas.lid = !system_.is_planar();
     const ContactParameters elastic{0.0, 1.0};
     gas.rod_rod = gas.rod_base = gas.rod_lid = elastic;
+    if (gas.posts) gas.posts->contact = elastic;
     gas.rotational_noise = 0;
     gas.law = ImpulseLaw::kNewton;
     gas.solver_sweeps = 1;
@@ -174,15 +176,24 @@ class Compression {
     }
   }
 
+  /// Gives the box such a side. Posts, and the ways between them, are then as much larger than wanted as the box is.
+  void resize(System& gas, double side) const {
+    gas.box_side = side;
+    if (!gas.posts) return;
+    gas.posts->diameter = system_.posts->diameter * (side / system_.box_side);
+    gas.posts->places = standing_posts(system_).centres;
+    for (Vec2& place : gas.posts->places) place *= side / system_.box_side;
+  }
+
   /// Rods at random places of a box that is larger than wanted, if need be.
   Result<void> insert() {
     System loose = gas();
     loose.gap = std::min(system_.gap, 1.5 * 2.0 * thickest_);
     thicken(loose, loose.gap);
-    const double fraction = area_of(aim_) / system_.box().area();
+    const double fraction = area_of(aim_) / system_.area();
     double wanted = kLoose;
     for (int k = 1;; ++k, wanted *= kLooser) {
-      loose.box_side = system_.box_side * std::max(1.0, std::sqrt(fraction / wanted));
+      resize(loose, system_.box_side * std::max(1.0, std::sqrt(fraction / wanted)));
       const double scale = system_.box_side / loose.box_side;
       const auto widened = [&](const Vec2& place) { return pattern_(scale * place); };
       Result<World> made = pattern_ ? make_world_along(loose, widened) : make_world(loose);
@@ -238,6 +249,22 @@ class Compression {
     return overlap;
   }
 
+  /// Deepest overlap of rods of these species and posts where the rods are now, with centres and posts moved together
+  /// to a box of such a side.
+  double deepest_in_posts(const std::vector<Species>& species, double side) const {
+    if (!system_.posts) return 0;
+    System resized = world_.system;
+    resize(resized, side);
+    const PostGrid posts(standing_posts(resized), resized.box(), period_of(resized.box(), resized.walls));
+    double overlap = 0;
+    for (std::size_t i = 0; i < poses_.size(); ++i) {
+      Pose pose = poses_[i];
+      pose.position *= side / world_.system.box_side;
+      overlap = std::max(overlap, overlap_with_posts(posts, species[world_.species_of_rod[i]], pose));
+    }
+    return overlap;
+  }
+
   NeighborList neighbors() const {
     NeighborList list(world_.species, world_.species_of_rod, world_.system.box(), NeighborList::kSkin);
     list.build(poses_);
@@ -253,7 +280,8 @@ class Compression {
     for (double by = std::min(kMostChange, most);;) {
       const double new_side = step_towards(system_.box_side, side, by), new_gap = step_towards(gap_, gap, by);
       const bool is_apart = deepest(near, world_.species, new_side / side, new_gap / gap) <= kPushed * thinnest_ &&
-                            (new_gap == gap || deepest_in_plates(new_gap) <= kPushed * thinnest_);
+                            (new_gap == gap || deepest_in_plates(new_gap) <= kPushed * thinnest_) &&
+                            deepest_in_posts(world_.species, new_side) <= kPushed * thinnest_;
       if (is_apart) return fly_anew_in(new_side, new_gap);
       by *= 0.5;
       if (by < kLeastChange) return;
@@ -264,7 +292,7 @@ class Compression {
   void fly_anew_in(double side, double gap) {
     const double wide = side / world_.system.box_side, high = gap / world_.system.gap;
     if (field_) follow_field();
-    world_.system.box_side = side;
+    resize(world_.system, side);
     if (gap != world_.system.gap) {
       world_.system.gap = gap;
       world_.plates = PlateMotion(0, world_.system.frequency, gap, world_.system.dt);
@@ -308,7 +336,7 @@ class Compression {
     char text[160];
     const bool could_be_aligned = are_placed_ && aim_.species.size() == 1;
     std::snprintf(text, sizeof text, "the rods jammed at area fraction %.3f, before they were compressed to %.3f%s",
-                  area_of(aim_) / world_.system.box().area(), area_of(aim_) / system_.box().area(),
+                  area_of(aim_) / world_.system.area(), area_of(aim_) / system_.area(),
                   could_be_aligned ? "; rods.start \"aligned\" packs more" : "");
     return text;
   }
@@ -334,6 +362,7 @@ class Compression {
   std::optional<std::vector<Flight>> settled() {
     look();
     if (deepest(neighbors(), aim_.species, 1.0, 1.0) > 0) return std::nullopt;
+    if (deepest_in_posts(aim_.species, world_.system.box_side) > 0) return std::nullopt;
     const double raised = 2.0 * system_.amplitude + 0.5 * (system_.gap - world_.system.gap);
     std::vector<Flight> flights(poses_.size());
     for (std::size_t i = 0; i < poses_.size(); ++i) {

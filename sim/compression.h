@@ -24,6 +24,7 @@ using GoOn = std::function<bool()>;
 /// Patterns: where rods start along domains or a pair of defects (sim/director_patterns.h), they are inserted along the
 ///           director of their place, with the head at either end, and turned towards it between the steps by a field
 ///           (sim/aligning_field.h). Turns that hits give them last until the next step.
+/// Posts:    they shrink with the box, with the ways between them, so that posts that touch do so all along.
 /// Source:   as the quick compression of hard particles of HOOMD-blue (Anderson et al. 2020), with impulses in place
 ///           of Monte Carlo moves.
 /// Numerics: depends on the system alone: bitwise the same at every compiler and number of threads.
@@ -37,7 +38,8 @@ Result<World> make_compressed_world(const System& system, const GoOn& go_on = {}
 /// fly about between plates at rest as above. So a packing is changed without a change of the rods: all centres keep
 /// their places in units of the box, and directors change only where rods hit each other.
 ///
-/// Errors: rods, their number, plates or the shape of the box are not those of `left`; or it has walls; or rods jam.
+/// Errors: rods, their number, plates or the shape of the box are not those of `left`; or it has walls or posts; or
+/// rods jam.
 /// Velocities at tick 0 are those of any other start, since those of `left` have been lost in the gas.
 Result<World> make_resized_world(const System& system, const World& left, const GoOn& go_on = {});
 

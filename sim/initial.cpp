@@ -13,6 +13,7 @@
 #include "base/core/rng.h"
 #include "sim/balance.h"
 #include "sim/contact/bead_contacts.h"
+#include "sim/motion/post_contacts.h"
 #include "sim/motion/side_walls.h"
 #include "sim/neighbors/neighbor_list.h"
 #include "sim/turned_rows.h"
@@ -29,11 +30,36 @@ Lattice every_other_row_shifted(int columns, int rows, double clearance = 0) {
   return {columns, rows, rows / 2, clearance};
 }
 
+/// Radius of the thickest bead [mm].
+double thickest(const Species& kind) { return *std::max_element(kind.bead_radius.begin(), kind.bead_radius.end()); }
+
+/// The most that a rod is tilted, as n_z; this keeps it off both plates.
+double most_tilt(const System& system, const Species& species) {
+  if (system.is_planar() || !(species.half_length > 0)) return 0.0;
+  const double room = 0.5 * system.gap - thickest(species);
+  return std::min(0.02, 0.3 * room / species.half_length);
+}
+
+/// By how much any rod is shorter in the plane, on either side, for being tilted [mm].
+double shortened_by_tilt(const System& system, std::span<const Species> species) {
+  double shorter = 0;
+  for (const Species& kind : species) {
+    const double tilt = most_tilt(system, kind);
+    shorter = std::max(shorter, kind.half_length * (1.0 - std::sqrt(1.0 - tilt * tilt)));
+  }
+  return shorter;
+}
+
 /// The species to be placed, and how each may lie along x.
 class Placement {
  public:
   Placement(const System& for_scene, std::span<const Species> of_species, std::span<const std::uint8_t> of_kinds)
       : system(for_scene), species(of_species), species_of_rod(of_kinds) {
+    if (system.posts) {
+      StandingPosts standing = standing_posts(system);
+      standing.diameter += 2.0 * (kClearance + shortened_by_tilt(system, species));
+      posts.emplace(standing, system.box(), period_of(system.box(), system.walls));
+    }
     for (const Species& kind : of_species) {
       Beads ahead{kind.bead_offset, kind.bead_radius};
       Beads back = ahead;
@@ -67,10 +93,6 @@ class Placement {
     return std::sqrt(least2);
   }
 
-  /// Of the thickest bead.
-  static double thickest(const Species& kind) {
-    return *std::max_element(kind.bead_radius.begin(), kind.bead_radius.end());
-  }
   double max_radius() const {
     double radius = 0;
     for (const Species& kind : species) radius = std::max(radius, thickest(kind));
@@ -83,6 +105,15 @@ class Placement {
   const System& system;
   std::span<const Species> species;
   std::span<const std::uint8_t> species_of_rod;
+  std::optional<PostGrid> posts;  ///< thicker, by as much as a bead comes nearer when its rod is tilted
+
+  /// Whether something stands in the box, so that not every place of it is free.
+  bool has_uprights() const { return system.walls || posts; }
+  /// A rod of this kind touches neither walls nor posts.
+  bool is_clear(const Species& kind, const Pose& pose) const {
+    return !(system.walls && !is_within(*system.walls, system.box(), kind, pose)) &&
+           !(posts && !is_clear_of_posts(*posts, kind, pose));
+  }
 
  private:
   struct Beads {
@@ -110,28 +141,25 @@ Vec3 site_position(const Lattice& lattice, const Box& box, int site) {
   return {(column + 0.25 + shift) * (box.x() / lattice.columns), (row + 0.5) * (box.y() / lattice.rows), 0};
 }
 
-/// Sites at which any rod is clear of the side walls, whichever way it lies along x.
+/// Sites at which any rod is clear of side walls and posts, whichever way it lies along x.
 std::vector<int> usable_sites(const Lattice& lattice, const Placement& rods) {
   const Box box = rods.system.box();
   const double reach = 0.5 * rods.rod_extent() + kClearance;  // beyond it no bead is near a wall, however the rod lies
+  const auto is_clear = [&](const Vec3& position) {
+    const bool is_near = rods.posts || distance_to_walls(*rods.system.walls, box, position) < reach;
+    return !is_near || std::ranges::all_of(rods.species, [&](const Species& kind) {
+      return rods.is_clear(kind, {position, Vec3(1, 0, 0)}) && rods.is_clear(kind, {position, Vec3(-1, 0, 0)});
+    });
+  };
   std::vector<int> sites;
   for (int site = 0; site < lattice.sites(); ++site) {
-    const Vec3 position = site_position(lattice, box, site);
-    bool clear = true;
-    if (rods.system.walls && distance_to_walls(*rods.system.walls, box, position) < reach) {
-      for (const Species& kind : rods.species) {
-        for (const double sign : {1.0, -1.0}) {
-          clear = clear && is_within(*rods.system.walls, box, kind, Pose{position, Vec3(sign, 0, 0)});
-        }
-      }
-    }
-    if (clear) sites.push_back(site);
+    if (!rods.has_uprights() || is_clear(site_position(lattice, box, site))) sites.push_back(site);
   }
   return sites;
 }
 
 int n_usable(const Lattice& lattice, const Placement& rods) {
-  return rods.system.walls ? static_cast<int>(usable_sites(lattice, rods).size()) : lattice.sites();
+  return rods.has_uprights() ? static_cast<int>(usable_sites(lattice, rods).size()) : lattice.sites();
 }
 
 /// The lattices with so many rods to a row: every even number of rows up to `max_rows`.
@@ -200,7 +228,7 @@ std::optional<Lattice> winding_rows(int columns, int rows, const Placement& rods
 template <class Visit>
 void for_each_columns(const Placement& rods, const Visit& visit) {
   constexpr int kMostRods = 1000;  // beyond, whole rods leave little of a side over, and the search takes seconds
-  if (rods.system.walls || rods.n_rods() > kMostRods) return;
+  if (rods.has_uprights() || rods.n_rods() > kMostRods) return;
   const Box box = rods.system.box();
   double area = 0;
   for (const Species& kind : rods.species) area = std::max(area, kind.area);
@@ -246,13 +274,6 @@ int most_usable_sites(const Placement& rods) {
   return most;
 }
 
-/// The most that a rod is tilted, as n_z; this keeps it off both plates.
-double most_tilt(const System& system, const Species& species) {
-  if (system.is_planar() || !(species.half_length > 0)) return 0.0;
-  const double room = 0.5 * system.gap - Placement::thickest(species);
-  return std::min(0.02, 0.3 * room / species.half_length);
-}
-
 Vec2 unit_vector(double angle) {
   const SinCos along = sincos(angle);
   return {along.cos, along.sin};
@@ -264,7 +285,7 @@ void lift_and_push(Flight& flight, const Placement& rods, const Species& species
   const System& system = rods.system;
   const bool planar = system.is_planar();
   const double base = 2.0 * system.amplitude;  // cos(0) = 1: the plates start at the top of their stroke
-  const double room = 0.5 * system.gap - Placement::thickest(species);
+  const double room = 0.5 * system.gap - thickest(species);
   flight.position.z() = base + 0.5 * system.gap + (planar ? 0.0 : 0.3 * room * rng.uniform(-1, 1));
   const double most = flat ? 0.0 : most_tilt(system, species);
   const double tilt = most > 0 ? most * rng.uniform(-1, 1) : 0.0;
@@ -305,12 +326,9 @@ Result<Lattice> lattice_along_x(const Placement& rods) {
 /// The same of rods that lie at the angle of the start.
 Result<Lattice> lattice_at_angle(const Placement& rods, const SinCos& angle) {
   const System& system = rods.system;
-  if (system.walls) return does_not_fit(rods, "rows at an angle to the box are for periodic boxes, without walls");
-  double shorter = 0;  // that a rod is in the plane, on either side, for being tilted
-  for (const Species& kind : rods.species) {
-    const double tilt = most_tilt(system, kind);
-    shorter = std::max(shorter, kind.half_length * (1.0 - std::sqrt(1.0 - tilt * tilt)));
-  }
+  if (rods.has_uprights())
+    return does_not_fit(rods, "rows at an angle to the box are for periodic boxes, without walls or posts");
+  const double shorter = shortened_by_tilt(system, rods.species);
   const TurnedRows turned(rods.species, system.box(), Vec2(angle.cos, angle.sin), kClearance + 2.0 * shorter);
   if (const auto lattice = turned.find(rods.n_rods())) return *lattice;
   char degrees[32];
@@ -369,8 +387,7 @@ Result<std::vector<Flight>> place_random(const Placement& rods, const DirectorAt
     return std::min(rows - 1, static_cast<int>(rod.position.y() / box.y() * rows));
   };
   const auto is_free = [&](const Flight& candidate, const Species& species) {
-    if (system.walls && !is_within(*system.walls, box, species, Pose{candidate.position, candidate.director}))
-      return false;
+    if (!rods.is_clear(species, {candidate.position, candidate.director})) return false;
     const auto touches = [&](int other) {
       contacts.clear();
       Vec3 D = nearest_image(candidate.position, flights[other].position, box);
@@ -481,7 +498,8 @@ std::string start_mismatch(const System& system, const System& other) {
   compare(system.box_aspect == other.box_aspect, "the shape of the box");
   compare(system.base == other.base && system.lid == other.lid, "the plates that are there");
   compare(arena_of(system) == arena_of(other), "the walls");
-  if (system.walls && other.walls) {
+  compare(standing_posts(system) == standing_posts(other), "the posts");
+  if ((system.walls && other.walls) || (system.posts && other.posts)) {
     compare(system.box_side == other.box_side, "the side of the box");
     compare(system.gap == other.gap, "the gap");
   }

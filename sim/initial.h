@@ -53,7 +53,7 @@ Result<World> make_world_along(const System& system, const DirectorAt& directors
 Result<World> make_world(const System& system, const World& left);
 
 /// What keeps a run of `system` from beginning where one of `other` has left its rods, as "their number, the walls";
-/// empty if nothing does. The side of the box and the gap may differ, but in an arena.
+/// empty if nothing does. The side of the box and the gap may differ, but not with walls or posts.
 std::string start_mismatch(const System& system, const System& other);
 
 /// Whether the box or the gap is another.

@@ -153,6 +153,17 @@ struct SideWalls {
   friend bool operator==(const SideWalls&, const SideWalls&) = default;
 };
 
+/// Round posts that stand upright on the base and move with it, all of one diameter: at the sites of a lattice, or at
+/// given places (sim/posts.h).
+struct Posts {
+  double diameter = 4.0;       ///< [mm]
+  int columns = 4;             ///< sites of the lattice along x
+  int rows = 4;                ///< and along y
+  std::vector<Vec2> places{};  ///< (n_posts) where their axes stand in the box, in place of a lattice; or empty [mm]
+  Contacts contact{0.01, 0.3};
+  friend bool operator==(const Posts&, const Posts&) = default;
+};
+
 /// After what the plane repeats itself along x and along y [mm]; 0 where side walls end it.
 inline Vec2 period_of(const Box& box, const std::optional<SideWalls>& walls) {
   if (!walls) return box.sides();
@@ -178,6 +189,7 @@ struct System {
   bool base = true;                   ///< whether there is a plate below
   bool lid = true;                    ///< whether there is one above
   std::optional<SideWalls> walls;
+  std::optional<Posts> posts;
 
   Contacts rod_rod{0.05, 0.3};
   Contacts rod_base{0.01, 0.3};
@@ -220,8 +232,8 @@ struct System {
   bool has_rotational_noise() const { return rotational_noise > 0; }
   bool has_impacts_at_instant() const { return impacts == ImpactTime::kAtInstant; }
   Box box() const { return Box::of_aspect(box_side, box_aspect); }
-  /// Area that the rods have to share [mm^2].
-  double area() const { return walls ? walls->area(box()) : box().area(); }
+  /// Area that the rods have to share: that of the box or the arena, less that of the posts [mm^2].
+  double area() const;
   /// Nothing pushes or pulls across the plane, and rods that start in it stay there to the last bit.
   bool is_planar() const { return !base && !lid && gravity == 0; }
 

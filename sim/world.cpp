@@ -39,7 +39,7 @@ World empty_world(const System& system) {
 }
 
 Cell World::cell() const {
-  Cell cell{.box = system.box(), .gap = system.gap, .walls = system.walls};
+  Cell cell{.box = system.box(), .gap = system.gap, .walls = system.walls, .posts = standing_posts(system)};
   for (const Species& kind : species) cell.species.push_back(kind.beads());
   if (species.size() > 1) cell.species_of_rod = species_of_rod;
   return cell;

@@ -23,10 +23,11 @@ struct Counters {
   std::int64_t impulses_rod_base = 0;
   std::int64_t impulses_rod_lid = 0;
   std::int64_t impulses_rod_wall = 0;
+  std::int64_t impulses_rod_post = 0;
   std::int64_t noise_kicks = 0;
   std::int64_t impacts_at_instant = 0;  ///< impulses given at their own instant within a tick
   double max_overlap_rod_rod = 0;       ///< deepest bead-bead overlap seen at a contact [mm]
-  double max_overlap_rod_plate = 0;     ///< deepest overlap of a bead with plate or wall seen at a contact [mm]
+  double max_overlap_rod_plate = 0;     ///< deepest overlap of a bead with plate, wall or post seen at a contact [mm]
   Ledger ledger;
 
   void add(const Counters& more) {
@@ -34,6 +35,7 @@ struct Counters {
     impulses_rod_base += more.impulses_rod_base;
     impulses_rod_lid += more.impulses_rod_lid;
     impulses_rod_wall += more.impulses_rod_wall;
+    impulses_rod_post += more.impulses_rod_post;
     noise_kicks += more.noise_kicks;
     impacts_at_instant += more.impacts_at_instant;
     max_overlap_rod_rod = std::max(max_overlap_rod_rod, more.max_overlap_rod_rod);

@@ -75,6 +75,9 @@ std::string example_for(const Rule& rule) {
       return "true or false";
     case Form::kNumbers:
       return fmt::format("a list of numbers in {} or of texts with a unit", unit);
+    case Form::kPairs:
+      return fmt::format("a list of {}pairs of numbers, [[a, b], [c, d], ...]",
+                         rule.most > 0 ? fmt::format("at most {} ", rule.most) : "");
     case Form::kBlock:
       return "an object, null or false";
     case Form::kElsewhere:
@@ -119,6 +122,10 @@ class ValueReader {
       case Form::kNumbers:
         if (node.items.empty()) return expected(node, given), given;
         read_list<double>(node, given, &ValueReader::read_quantity);
+        break;
+      case Form::kPairs:
+        if (node.items.empty()) return expected(node, given), given;
+        read_list<std::array<double, 2>>(node, given, &ValueReader::read_pair);
         break;
       case Form::kBlock:
       case Form::kElsewhere:
@@ -218,6 +225,8 @@ class ValueReader {
     given.value = std::move(list);
   }
 
+  void read_pair(const Node& node, Given& given) { read_two(node, given, &ValueReader::read_quantity); }
+
   void read_two(const Node& node, Given& given, Part read_item) {
     if (node.kind != Node::Kind::kArray || node.items.size() != 2) return expected(node, given);
     std::array<double, 2> two{};
@@ -295,6 +304,8 @@ std::string allowed(const Rule& rule) {
       return "`true` or `false`";
     case Form::kNumbers:
       return "list of " + range_of(rule);
+    case Form::kPairs:
+      return "list of [a, b], " + range_of(rule) + " each";
     case Form::kBlock:
       return "object or `null`";
     case Form::kElsewhere:
@@ -314,6 +325,11 @@ std::string show(const Rule& rule, const Value& value) {
     std::string text;
     for (const double number : *numbers)
       text += fmt::format("{}{}", text.empty() ? "" : ", ", format_quantity(number, rule.dimension));
+    return "[" + text + "]";
+  }
+  if (const auto* pairs = std::get_if<std::vector<std::array<double, 2>>>(&value)) {
+    std::string text;
+    for (const auto& [a, b] : *pairs) text += fmt::format("{}[{}, {}]", text.empty() ? "" : ", ", a, b);
     return "[" + text + "]";
   }
   if (const auto* texts = std::get_if<std::vector<std::string>>(&value); texts != nullptr && !texts->empty()) {

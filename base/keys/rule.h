@@ -17,9 +17,9 @@
 namespace shaken::keys {
 
 /// The value of one key: nothing, on or off (blocks and switches), a number in the default unit, a text, two numbers,
-/// or a list of numbers in the default unit or of texts.
+/// or a list of numbers in the default unit, of texts or of two numbers each.
 using Value = std::variant<std::monostate, bool, double, std::string, std::array<double, 2>, std::vector<double>,
-                           std::vector<std::string>>;
+                           std::vector<std::string>, std::vector<std::array<double, 2>>>;
 
 /// How a key is written.
 enum class Form {
@@ -32,6 +32,7 @@ enum class Form {
   kSize,       ///< [width, height], whole numbers; on a command line WIDTHxHEIGHT
   kSwitch,     ///< true or false; on a command line --KEY and --no-KEY
   kNumbers,    ///< a list of numbers or strings with a unit
+  kPairs,      ///< a list of [a, b], numbers or strings with a unit
   kBlock,      ///< an object that switches something on; null or false switches it off
   kElsewhere,  ///< whatever another reader makes of it
 };
@@ -49,7 +50,7 @@ struct Rule {
   std::vector<std::string> names = {};
   std::string pattern = {};           ///< that a text fits as a whole, a POSIX extended and an ECMAScript expression
   std::size_t longest = 0;            ///< bytes of a text with a pattern
-  std::size_t most = 0;               ///< texts in a list; 0: any number
+  std::size_t most = 0;               ///< texts or pairs in a list; 0: any number
   bool may_look_like_number = false;  ///< of texts: the quotes of one that has only digits may be missing
   /// What else is wrong with a text, as a sentence.
   std::function<std::optional<std::string>(const std::string&)> problem = {};

@@ -46,7 +46,8 @@ std::string description_of(const Rule& rule) {
   std::string range;
   if (rule.form == Form::kWhole) {
     range = fmt::format(" Allowed: {:.16g} to {:.16g}.", rule.low, rule.high);
-  } else if (rule.form == Form::kQuantity || rule.form == Form::kNumbers || rule.form == Form::kPair) {
+  } else if (rule.form == Form::kQuantity || rule.form == Form::kNumbers || rule.form == Form::kPair ||
+             rule.form == Form::kPairs) {
     range = fmt::format(" Allowed: {}.", range_of(rule));
   }
   return fmt::format("{}{}{} Default: {}.", rule.doc, rule.doc.ends_with('.') ? "" : ".", range, fallback_of(rule));
@@ -94,6 +95,11 @@ Schema value_schema(const Rule& rule) {
     case Form::kNumbers:
       list_of(number_of(rule), 1, 0);
       break;
+    case Form::kPairs: {
+      const Schema pair{{"type", "array"}, {"items", number_of(rule)}, {"minItems", 2}, {"maxItems", 2}};
+      list_of(pair, 1, rule.most);
+      break;
+    }
     case Form::kBlock:
     case Form::kElsewhere:
       break;

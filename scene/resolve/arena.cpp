@@ -33,9 +33,10 @@ void check_kind(Resolution& scene) {
   }
 }
 
-/// The area that so many rods of such an area fraction need, if both are given [mm^2].
+/// The area that so many rods of such an area fraction need, if both are given; none among posts, whose number depends
+/// on the arena [mm^2].
 std::optional<double> area_wanted(const Resolution& scene) {
-  if (!scene.given("rods.count") || !scene.given("rods.area_fraction")) return std::nullopt;
+  if (!scene.given("rods.count") || !scene.given("rods.area_fraction") || scene.plan.system.posts) return std::nullopt;
   const System& system = scene.plan.system;
   return system.n_rods * species_of(system.rod).area / scene.number("rods.area_fraction");
 }

@@ -45,7 +45,7 @@ void resolve_contacts(Resolution& scene) {
   const Group second{"rods_2", system.has_species(1)};
   const Group third{"rods_3", system.has_species(2)};
   for (const Group& group : {second, third}) {
-    for (const char* surface : {"contacts.rod_base.", "contacts.rod_lid.", "walls."})
+    for (const char* surface : {"contacts.rod_base.", "contacts.rod_lid.", "walls.", "posts."})
       check_group(scene, surface + group.name, group);
     check_group(scene, "contacts.rod_rod.rods_" + group.name, group);
     check_group(scene, "contacts.rod_rod." + group.name + "_" + group.name, group);
@@ -54,6 +54,7 @@ void resolve_contacts(Resolution& scene) {
 
   for (Contacts* contacts : {&system.rod_rod, &system.rod_base, &system.rod_lid}) forget_what_is_common(*contacts);
   if (system.walls) forget_what_is_common(system.walls->contact);
+  if (system.posts) forget_what_is_common(system.posts->contact);
 }
 
 }  // namespace shaken::scene

@@ -97,7 +97,7 @@ void resolve_measurements(Resolution& scene) {
   if (plan.defect_maps) defect_maps(scene, *plan.defect_maps);
 }
 
-void check_walls(Resolution& scene) {
+void check_surroundings(Resolution& scene) {
   const System& system = scene.plan.system;
   for (const Observable& observable : observables()) {
     const std::string& block = observable.block.path;
@@ -105,9 +105,15 @@ void check_walls(Resolution& scene) {
     if (observable.is_of_squares && system.box_aspect != 1 && !system.walls) {
       scene.report({block, "box.aspect"}, fmt::format("{} is of square boxes only; remove it or box.aspect", block));
     }
-    if (observable.within_walls() || !system.walls) continue;
-    scene.report({block, "walls"},
-                 fmt::format("{} is of {} of a periodic box: walls leave none", block, observable.periodic));
+    if (!observable.within_walls() && system.walls) {
+      scene.report({block, "walls"},
+                   fmt::format("{} is of {} of a periodic box: walls leave none", block, observable.periodic));
+    } else if (!observable.among_posts() && system.posts) {
+      const bool is_periodic = !observable.within_walls();
+      scene.report({block, "posts"},
+                   fmt::format("{} is of {}, which posts interrupt: remove it or posts", block,
+                               is_periodic ? observable.periodic + " of a periodic box" : observable.open));
+    }
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "scene/derived.h"
 #include "scene/resolve/steps.h"
+#include "sim/posts.h"
 #include "sim/rod/species.h"
 
 namespace shaken::scene {
@@ -52,7 +53,7 @@ bool resolve_number_of(Resolution& scene, const RodGroup& group) {
     }
     group.count = static_cast<int>(count_for());
   } else if (is_first && scene.given(fraction_path) && !scene.given("box.side") && !system.walls) {
-    system.box_side = std::sqrt(group.count * area / (wanted * system.box_aspect));
+    system.box_side = std::sqrt((group.count * area / wanted + standing_posts(system).area()) / system.box_aspect);
     scene.check_derived("box.side", {"rods.count", "rods.area_fraction", "box.aspect"});
   } else if (scene.given(fraction_path) && count_for() != group.count &&
              !agree(area_fraction_of(system, group.rod, group.count), wanted)) {
@@ -84,9 +85,10 @@ void resolve_numbers(Resolution& scene) {
   const double most = in_rows ? kMaxAreaFractionAligned : random ? kMaxAreaFractionRandom : kMaxAreaFractionCompressed;
   if (scene.draft.is_ok("rods.start") && fraction > most) {
     scene.report(causes,
-                 fmt::format("{} rods in {} of {} are an area fraction of {:.4g}; {} at most {} can be placed{}",
+                 fmt::format("{} rods in {} of {}{} are an area fraction of {:.4g}; {} at most {} can be placed{}",
                              system.n_all_rods(), system.walls ? "an arena" : "a box",
-                             system.walls ? length_text(system.walls->size) : sides_text(system), fraction,
+                             system.walls ? length_text(system.walls->size) : sides_text(system),
+                             system.posts ? " with posts" : "", fraction,
                              in_rows  ? "in rows"
                              : random ? "at random"
                                       : "by compression",

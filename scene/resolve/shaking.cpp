@@ -75,12 +75,15 @@ void check_base(Resolution& scene) {
 
 void check_horizontal_vibration(Resolution& scene) {
   const System& system = scene.plan.system;
-  if (system.horizontal_amplitude > 0 && system.walls && scene.ok({"plates.horizontal_amplitude"})) {
-    scene.report(
-        {"plates.horizontal_amplitude", "walls"},
-        "side walls would move through the plane with the plates, and the simulator knows walls that only rise "
-        "and fall: remove walls, or set plates.horizontal_amplitude to 0");
-  }
+  if (!(system.horizontal_amplitude > 0) || !scene.ok({"plates.horizontal_amplitude"})) return;
+  const auto refuse = [&](const char* block, const char* what) {
+    scene.report({"plates.horizontal_amplitude", block},
+                 fmt::format("{0} would move through the plane with the plates, and the simulator knows {0} that only "
+                             "rise and fall: remove {1}, or set plates.horizontal_amplitude to 0",
+                             what, block));
+  };
+  if (system.walls) refuse("walls", "side walls");
+  if (system.posts) refuse("posts", "posts");
 }
 
 }  // namespace shaken::scene

@@ -19,7 +19,7 @@ bool resolve_rod_shapes(Resolution& scene);
 bool resolve_shaking(Resolution& scene);
 /// Rods fall out of a cell without a base, if they have weight.
 void check_base(Resolution& scene);
-/// Side walls do not follow the plates through the plane.
+/// Side walls and posts do not follow the plates through the plane.
 void check_horizontal_vibration(Resolution& scene);
 
 // contacts.cpp
@@ -32,9 +32,16 @@ void resolve_contacts(Resolution& scene);
 /// Arena and box, which must fit into each other. Needs the shapes of the rods.
 bool resolve_arena(Resolution& scene);
 
+// posts.cpp
+
+/// Posts stand at given places or at the sites of a lattice, and leave room. Needs the arena.
+bool resolve_posts(Resolution& scene);
+/// Posts may touch each other and the walls, and no more. Needs the numbers of rods, from which the box may follow.
+void check_posts(Resolution& scene);
+
 // packing.cpp; all but the last need the shapes of the rods.
 
-/// Numbers of rods, box and area fractions. Needs the arena.
+/// Numbers of rods, box and area fractions. Needs the arena and the posts.
 void resolve_numbers(Resolution& scene);
 /// No rod may meet itself through the periodic border.
 void check_box(Resolution& scene);
@@ -67,7 +74,7 @@ void check_start(Resolution& scene);
 
 /// Defaults of observables that follow from rods and box, and conditions between the keys of one.
 void resolve_measurements(Resolution& scene);
-/// Observables of a periodic box exclude walls.
-void check_walls(Resolution& scene);
+/// Observables of a periodic box exclude walls; those and others exclude posts.
+void check_surroundings(Resolution& scene);
 
 }  // namespace shaken::scene

@@ -102,6 +102,10 @@ void check_placing(Resolution& scene) {
     scene.report({"rods.start_angle", "walls"},
                  "rows at an angle close around a periodic box, which walls take the place of: remove "
                  "rods.start_angle or walls");
+  } else if (system.start_angle != 0 && system.start == Start::kAligned && system.posts) {
+    scene.report(
+        {"rods.start_angle", "posts"},
+        "rows at an angle close around an empty box, in which no posts stand: remove rods.start_angle or posts");
   }
   if (is_compressed(system.start) && system.walls) {
     scene.report({"rods.start", "walls"},

@@ -3,12 +3,12 @@
 
 #include <cmath>
 
-/// Every margin by which a bound errs on the early side, in one place, but for the side walls' own, which contacts with
-/// them share (motion/side_walls.cpp). Bounds are computed in single precision (a float
-/// carries 6e-8 of its value), so each sum and product may be wrong by that, and each margin says how many such errors
-/// it covers. A margin that is too small is a contact that is found late: the trajectory would differ from the
-/// reference stepper's. One that is too large only brings rods and pairs up sooner. docs/stepper.md says
-/// what they are for; tests/regression/margins.py says which tests fail without one.
+/// Every margin by which a bound errs on the early side, in one place, but for those of side walls and posts, which
+/// contacts with them share (motion/side_walls.cpp, post_contacts.cpp). Bounds are computed in single precision (a
+/// float carries 6e-8 of its value), so each sum and product may be wrong by that, and each margin says how many such
+/// errors it covers. A margin that is too small is a contact that is found late: the trajectory would differ from the
+/// reference stepper's. One that is too large only brings rods and pairs up sooner. docs/stepper.md says what they are
+/// for; tests/regression/margins.py says which tests fail without one.
 namespace shaken::margins {
 
 // ---- velocities of rods (bounds/safe_time.h)
@@ -63,7 +63,7 @@ inline constexpr float kPlateSpeed = 1e-4F;
 /// Constants of the scene that were rounded to floats: largest accelerations, offsets of beads, speeds of rest.
 inline constexpr double kPlateConstants = 1e-6;
 
-// ---- side walls (bounds/surface_safe_ticks.cpp; double precision)
+// ---- side walls and posts (bounds/surface_safe_ticks.cpp; double precision)
 
 inline constexpr double kWallTime = 1e-9;
 

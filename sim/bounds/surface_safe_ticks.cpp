@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "sim/bounds/margins.h"
+#include "sim/motion/post_contacts.h"
 #include "sim/motion/side_walls.h"
 
 namespace shaken {
@@ -46,10 +47,13 @@ void off_surface_ticks(std::span<const int> rods, const World& world, const std:
       if (rod.displaced && is_in_plate(species, rod.pose, plates, rules)) ticks[lane] = 0;
     }
   }
-  if (!rules.walls) return;
+  if (!rules.has_uprights()) return;
   for (std::size_t lane = 0; lane < rods.size(); ++lane) {
-    const double time = wall_safe_time(*rules.walls, rules.box, species, at_tick[rods[lane]].pose,
-                                       world.rods[rods[lane]], static_cast<double>(horizon) * rules.dt);
+    const Pose& pose = at_tick[rods[lane]].pose;
+    const Flight& flight = world.rods[rods[lane]];
+    double time = static_cast<double>(horizon) * rules.dt;
+    if (rules.walls) time = wall_safe_time(*rules.walls, rules.box, species, pose, flight, time);
+    if (rules.posts) time = post_safe_time(*rules.posts, rules.box, species, pose, flight, time);
     ticks[lane] = std::min(ticks[lane], static_cast<Tick>(time / rules.dt * (1.0 - margins::kWallTime)));
   }
 }

@@ -143,6 +143,21 @@ struct RodWall {
   static auto& of(auto& system) { return system.walls->contact; }
 };
 
+struct RodPost {
+  static constexpr const char* kKey = "posts";
+  static constexpr auto kImpulses = &Counters::impulses_rod_post;
+  static constexpr bool kIsOfTwoRods = false;
+  static bool is_there(const System& system) { return system.posts.has_value(); }
+  static auto& of(auto& system) { return system.posts->contact; }
+};
+
+/// Whether a system says what the contacts of one kind are like: of walls and posts only where it has them.
+template <class Contact>
+bool has_values(const System& system) {
+  constexpr bool is_optional = std::is_same_v<Contact, RodWall> || std::is_same_v<Contact, RodPost>;
+  return !is_optional || Contact::is_there(system);
+}
+
 /// Does something with every kind of contact.
 template <class Do>
 void each_kind(const Do& act) {
@@ -150,6 +165,7 @@ void each_kind(const Do& act) {
   act(RodBase{});
   act(RodLid{});
   act(RodWall{});
+  act(RodPost{});
 }
 
 /// One pair of materials that may meet in a scene.
@@ -213,6 +229,15 @@ struct WallCollisions {
   static void switch_off(System& system) { system.walls.reset(); }
 };
 
+struct PostCollisions {
+  static bool is_on(const System& system) { return system.posts.has_value(); }
+  static std::string why(const System& system) {
+    return system.posts ? setting("posts.diameter", system.posts->diameter, " mm") : "no posts";
+  }
+  static std::int64_t work(const World& world) { return world.counters.impulses_rod_post; }
+  static void switch_off(System& system) { system.posts.reset(); }
+};
+
 /// A value of contacts that is on where any pair of materials has it above 0.
 template <class Contact, auto value, auto own_value>
 struct ContactValue {
@@ -225,13 +250,14 @@ struct ContactValue {
     if constexpr (std::is_same_v<Contact, RodWall>) {
       if (!system.walls) return WallCollisions::why(system);
     }
+    if constexpr (std::is_same_v<Contact, RodPost>) {
+      if (!system.posts) return PostCollisions::why(system);
+    }
     return setting(std::string(Contact::kKey) + name, Contact::of(system).*value);
   }
   static std::int64_t work(const World& world) { return world.counters.*Contact::kImpulses; }
   static void switch_off(System& system) {
-    if constexpr (std::is_same_v<Contact, RodWall>) {
-      if (!system.walls) return;
-    }
+    if (!has_values<Contact>(system)) return;
     Contacts& contacts = Contact::of(system);
     contacts.*value = 0;
     for (OwnContact& own : contacts.own) (own.*own_value).reset();
@@ -279,10 +305,7 @@ struct OnContacts {
   }
   static void switch_off(System& system) {
     each_kind([&](auto kind) {
-      if constexpr (std::is_same_v<decltype(kind), RodWall>) {
-        if (!system.walls) return;
-      }
-      Effect::remove(decltype(kind)::of(system));
+      if (has_values<decltype(kind)>(system)) Effect::remove(decltype(kind)::of(system));
     });
   }
 };
@@ -385,6 +408,8 @@ constexpr std::array kEffects{
     line<Restitution<RodLid>>("rod_lid_restitution", "impulses", "Rods bounce off the lid."),
     line<WallCollisions>("side_walls", "impulses", "Walls round an arena."),
     line<Friction<RodWall>>("side_wall_friction", "impulses", "Coulomb's friction between rod and side wall."),
+    line<PostCollisions>("posts", "impulses", "Round posts that stand among the rods."),
+    line<Friction<RodPost>>("post_friction", "impulses", "Coulomb's friction between rod and post."),
     line<RestitutionSpeed>("restitution_speed", "impulses", "Restitution falls with the speed of an impact."),
     line<SpeciesContacts>("species_contacts", "impulses", "Species have friction and restitution of their own."),
     line<RotationalNoise>("rotational_noise", "kicks", "Rough plates turn rods at random."),

@@ -10,7 +10,7 @@
 
 namespace shaken {
 
-/// One wall as a bead sees it.
+/// One wall, or one post, as a bead sees it.
 struct WallSeen {
   double distance = 0;         ///< of the bead's centre, positive inside of the arena [mm]
   Vec3 normal = Vec3::Zero();  ///< from the wall into the arena

@@ -196,8 +196,8 @@ void ScheduledStepper::meet_surfaces_due(World& world, const PlateState& plates,
       } else if ((left.hits >> lane & 1U) != 0) {
         note_trouble(
             meet_surfaces_from(left.beads[lane], i, rods_[i], world.rods[i], plates, now, rules_, share.met.counters));
-      } else if (rules_.walls) {
-        note_trouble(meet_side_walls(i, rods_[i], world.rods[i], plates, now, rules_, share.met.counters));
+      } else if (rules_.has_uprights()) {
+        note_trouble(meet_uprights(i, rods_[i], world.rods[i], plates, now, rules_, share.met.counters));
       }
       end_visit(i);
     }

@@ -10,7 +10,7 @@
 namespace shaken {
 namespace {
 
-/// The effects that the lanes know. Those between rods, and at side walls, take place elsewhere.
+/// The effects that the lanes know. Those between rods, at side walls and at posts take place elsewhere.
 constexpr std::string_view kKnownEffects[] = {"gravity",
                                               "vibration",
                                               "tilt",
@@ -28,6 +28,8 @@ constexpr std::string_view kKnownEffects[] = {"gravity",
                                               "rod_lid_restitution",
                                               "side_walls",
                                               "side_wall_friction",
+                                              "posts",
+                                              "post_friction",
                                               "rotational_noise",
                                               "impacts_at_instant",
                                               "horizontal_vibration",

@@ -5,7 +5,9 @@
 #include <bitset>
 #include <cmath>
 #include <string>
+#include <vector>
 
+#include "sim/motion/post_contacts.h"
 #include "sim/motion/side_walls.h"
 #include "sim/tick/impact.h"
 #include "sim/tick/rotational_noise.h"
@@ -224,40 +226,86 @@ std::optional<NumericalTrouble> meet_plates(PlateVisit visit, const BeadsInPlate
   return {};
 }
 
+/// A rod's visit to what stands upright: side walls, posts.
+struct UprightVisit {
+  int index;
+  RodAtTick& rod;
+  const Flight& flight;
+  const PlateState& plates;
+  Tick now;
+  const TickRules& rules;
+  Counters& counters;
+  const SpeciesMechanics& species = rules.species_of(index);
+
+  /// The surfaces of one kind, which have the numbers 0 .. `n` - 1: `see(bead's centre, its radius, note)` calls
+  /// note(number, as seen) of those that the bead may touch. No overlap may be more than a part of `thinnest` [mm].
+  template <class See>
+  std::optional<NumericalTrouble> meet(int n, const See& see, double thinnest, const ContactParameters& contact,
+                                       const char* name, std::int64_t& impulses) {
+    std::vector<int> met;  // of each bead its surfaces, in one number
+    while (true) {
+      Deepest deepest(rod.pose.director);
+      for (int bead = 0; bead < species.n_beads(); ++bead) {
+        see_from(bead, see, [&](int surface, const WallSeen& seen) {
+          const int item = n * bead + surface;
+          if (std::find(met.begin(), met.end(), item) != met.end()) return;
+          deepest.see(item, species.bead_offset[bead], species.bead_radius[bead] - seen.distance);
+        });
+      }
+      if (!deepest.found()) return {};
+      const int bead = deepest.item() / n;
+      const double overlap = deepest.overlap();
+      met.push_back(deepest.item());
+      if (overlap > kMaxOverlapFraction * std::min(thinnest, species.bead_radius[bead]))
+        return too_deep(now, index, bead, overlap, name);
+      evaluate_motion(rod, flight, now, species, rules);
+      counters.max_overlap_rod_plate = std::max(counters.max_overlap_rod_plate, overlap);
+      Vec3 normal = Vec3::Zero();
+      see_from(bead, see, [&](int surface, const WallSeen& seen) {
+        if (n * bead + surface == deepest.item()) normal = seen.normal;
+      });
+      if (collide_with(normal, bead, overlap, contact, rod, species, plates, rules, counters)) ++impulses;
+    }
+  }
+
+ private:
+  template <class See, class Note>
+  void see_from(int bead, const See& see, const Note& note) const {
+    see(Vec3(rod.pose.position + species.bead_offset[bead] * rod.pose.director), species.bead_radius[bead], note);
+  }
+};
+
+std::optional<NumericalTrouble> meet_side_walls(UprightVisit& visit) {
+  const SideWalls& walls = *visit.rules.walls;
+  const Box& box = visit.rules.box;
+  if (!may_touch_walls(walls, box, visit.species, visit.rod.pose)) return {};
+  const auto see = [&](const Vec3& center, double, const auto& note) {
+    const WallsSeen seen = see_walls(walls, box, center);
+    for (int w = 0; w < seen.n; ++w) note(w, seen.walls[static_cast<std::size_t>(w)]);
+  };
+  return visit.meet(2, see, INFINITY, visit.species.wall, "side wall", visit.counters.impulses_rod_wall);
+}
+
+std::optional<NumericalTrouble> meet_posts(UprightVisit& visit) {
+  const PostGrid& posts = *visit.rules.posts;
+  if (!may_touch_posts(posts, visit.species, visit.rod.pose)) return {};
+  const auto see = [&](const Vec3& center, double radius, const auto& note) {
+    posts.for_each_within(center.head<2>(), posts.radius() + radius,
+                          [&](int post, const Vec2& axis) { note(post, see_post(axis, posts.radius(), center)); });
+  };
+  return visit.meet(posts.n_posts(), see, posts.radius(), visit.species.post, "post", visit.counters.impulses_rod_post);
+}
+
 }  // namespace
 
-std::optional<NumericalTrouble> meet_side_walls(int index, RodAtTick& rod, const Flight& flight,
-                                                const PlateState& plates, Tick now, const TickRules& rules,
-                                                Counters& counters) {
-  const SpeciesMechanics& species = rules.species_of(index);
-  const SideWalls& walls = *rules.walls;
-  if (!may_touch_walls(walls, rules.box, species, rod.pose)) return {};
-  const auto seen_by = [&](int bead) {
-    return see_walls(walls, rules.box, rod.pose.position + species.bead_offset[bead] * rod.pose.director);
-  };
-  std::bitset<std::size_t{2} * kMostBeads> met;  // of each bead one wall or two
-  while (true) {
-    Deepest deepest(rod.pose.director);
-    for (int bead = 0; bead < species.n_beads(); ++bead) {
-      const WallsSeen seen = seen_by(bead);
-      for (int w = 0; w < seen.n; ++w) {
-        const int item = 2 * bead + w;
-        if (!met[item])
-          deepest.see(item, species.bead_offset[bead], species.bead_radius[bead] - seen.walls[w].distance);
-      }
-    }
-    if (!deepest.found()) return {};
-    const int bead = deepest.item() / 2;
-    const double overlap = deepest.overlap();
-    met.set(deepest.item());
-    if (overlap > kMaxOverlapFraction * species.bead_radius[bead])
-      return too_deep(now, index, bead, overlap, "side wall");
-    evaluate_motion(rod, flight, now, species, rules);
-    counters.max_overlap_rod_plate = std::max(counters.max_overlap_rod_plate, overlap);
-    const Vec3 normal = seen_by(bead).walls[deepest.item() % 2].normal;
-    if (collide_with(normal, bead, overlap, species.wall, rod, species, plates, rules, counters))
-      ++counters.impulses_rod_wall;
+std::optional<NumericalTrouble> meet_uprights(int index, RodAtTick& rod, const Flight& flight, const PlateState& plates,
+                                              Tick now, const TickRules& rules, Counters& counters) {
+  UprightVisit visit{index, rod, flight, plates, now, rules, counters};
+  if (rules.walls) {
+    if (auto trouble = meet_side_walls(visit)) return trouble;
   }
+  if (rules.posts) return meet_posts(visit);
+  return {};
 }
 
 std::optional<NumericalTrouble> meet_surfaces(int index, RodAtTick& rod, const Flight& flight, const PlateState& plates,
@@ -265,7 +313,7 @@ std::optional<NumericalTrouble> meet_surfaces(int index, RodAtTick& rod, const F
   if (rules.has_base || rules.has_lid) {
     if (auto trouble = meet_plates({index, rod, flight, plates, now, rules, counters})) return trouble;
   }
-  if (rules.walls) return meet_side_walls(index, rod, flight, plates, now, rules, counters);
+  if (rules.has_uprights()) return meet_uprights(index, rod, flight, plates, now, rules, counters);
   return {};
 }
 
@@ -273,7 +321,7 @@ std::optional<NumericalTrouble> meet_surfaces_from(const BeadsInPlates& found, i
                                                    const Flight& flight, const PlateState& plates, Tick now,
                                                    const TickRules& rules, Counters& counters) {
   if (auto trouble = meet_plates({index, rod, flight, plates, now, rules, counters}, found)) return trouble;
-  if (rules.walls) return meet_side_walls(index, rod, flight, plates, now, rules, counters);
+  if (rules.has_uprights()) return meet_uprights(index, rod, flight, plates, now, rules, counters);
   return {};
 }
 

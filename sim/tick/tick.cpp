@@ -33,6 +33,7 @@ void set_contacts(const System& system, std::vector<SpeciesMechanics>& species) 
     species[k].base = system.rod_base.of(numbers[k]);
     species[k].lid = system.rod_lid.of(numbers[k]);
     if (system.walls) species[k].wall = system.walls->contact.of(numbers[k]);
+    if (system.posts) species[k].post = system.posts->contact.of(numbers[k]);
     for (std::size_t other = 0; other < species.size(); ++other)
       species[k].rods[other] = system.rod_rod.of(numbers[k], numbers[other]);
   }
@@ -56,6 +57,7 @@ TickRules::TickRules(const World& world)
       seed(world.system.seed),
       plates(world.plates) {
   for (const Species& one : world.species) species.emplace_back(one);
+  if (world.system.posts) posts.emplace(standing_posts(world.system), box, period_of(box, walls));
   set_contacts(world.system, species);
   max_speed2 = max_speed(world) * max_speed(world);
   if (world.system.lets_rods_rest()) rest = {0.5 * gravity * dt, kRiseRate};

@@ -12,12 +12,13 @@
 #include "sim/contact/impulse_law.h"
 #include "sim/motion/flight.h"
 #include "sim/motion/plates.h"
+#include "sim/motion/post_grid.h"
 #include "sim/motion/rest_speed.h"
 #include "sim/neighbors/neighbor_list.h"
 #include "sim/world.h"
 
 /// What a tick means: the one definition that all steppers share. At tick k, in this order:
-///   1. surfaces:   every rod against base, lid and side walls, in this order; of each the deepest bead first
+///   1. surfaces:   every rod against base, lid, side walls and posts, in this order; of each the deepest bead first
 ///   2. detection:  overlapping bead pairs of every neighbour pair, from the poses at tick k
 ///   3. response:   those contacts, sorted by (i, j, depth), each that approaches gets an impulse
 ///   4. storing:    rods whose velocity changed begin a new flight at tick k
@@ -38,7 +39,7 @@ struct SpeciesMechanics : Species {
         inertia_ratio(species.inertia_par / species.inertia_perp) {}
   InverseInertia inverse;
   double inertia_ratio;  ///< I_par / I_perp
-  ContactParameters base{}, lid{}, wall{};
+  ContactParameters base{}, lid{}, wall{}, post{};
   std::array<ContactParameters, kMostSpecies> rods{};  ///< with each species, as TickRules counts them
 };
 
@@ -71,6 +72,8 @@ struct TickRules {
   bool impacts_at_instant;
   bool has_base, has_lid;
   std::optional<SideWalls> walls;
+  std::optional<PostGrid> posts;
+  bool has_uprights() const { return walls || posts; }
   bool has_horizontal_vibration;
   bool has_rotational_noise;
   double rotational_noise;  ///< [rad/mm]

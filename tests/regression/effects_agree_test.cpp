@@ -190,6 +190,49 @@ INSTANTIATE_TEST_SUITE_P(
                            s.impacts = ImpactTime::kAtInstant;
                            s.n_rods = 50;
                          }},
+                    Case{"Posts",
+                         [](System& s) {
+                           s.posts = Posts{.diameter = 1.5, .columns = 3, .rows = 3, .contact = {0.3, 0.6}};
+                           s.n_rods = 50;
+                         }},
+                    Case{"PolarAmongManyPosts",
+                         [](System& s) {
+                           s.posts = Posts{.diameter = 0.3, .columns = 12, .rows = 9};
+                           s.rod = kPolarRod;
+                           s.n_rods = 8;
+                           s.start = Start::kRandom;
+                         }},
+                    Case{"PinsByATrap",
+                         [](System& s) {
+                           s.posts = Posts{.diameter = 1.0, .contact = {0.2, 0.5}};
+                           for (int k = 0; k < 6; ++k) {
+                             s.posts->places.emplace_back(0.2 + 0.8 * k, 8 + 0.6 * k);
+                             if (k > 0) s.posts->places.emplace_back(0.2 + 0.8 * k, 8 - 0.6 * k);
+                           }
+                           s.rod = kBowlingPin;
+                           s.n_rods = 40;
+                           s.start = Start::kRandom;
+                           s.impacts = ImpactTime::kAtInstant;
+                         }},
+                    Case{"PostsInADisc",
+                         [](System& s) {
+                           s.walls = SideWalls{Arena::kDisc, 14.0};
+                           s.posts = Posts{.diameter = 1.2, .columns = 4, .rows = 4};
+                           s.n_rods = 20;
+                           s.added = {AddedRods{kPolarRod, 8}, AddedRods{kSphere, 10}};
+                           s.posts->contact.own[Contacts::place(0, 2)] = {0.5, 0.9, {}};
+                           s.start = Start::kRandom;
+                         }},
+                    Case{"PlanarPostsInAChannel",
+                         [](System& s) {
+                           s.base = s.lid = false;
+                           s.gravity = 0;
+                           s.rod_rod = {0.0, 0.95};
+                           s.walls = SideWalls{.arena = Arena::kChannel, .size = 11, .contact = {0.0, 0.95}};
+                           s.posts = Posts{.diameter = 2.0, .columns = 4, .rows = 2, .contact = {0.0, 0.95}};
+                           s.box_aspect = 0.75;
+                           s.n_rods = 30;
+                         }},
                     Case{"Noise", [](System& s) { s.rotational_noise = 0.1; }},
                     Case{"NoiseFrictionlessAtInstant",
                          [](System& s) {
@@ -288,7 +331,13 @@ System draw_mix() {
     system.walls->length = 0.5 * *rc::gen::inRange(0, 10);
     system.walls->size = 14.5 - system.walls->length;
   }
-  if (!system.walls && maybe()) {
+  if (*rc::gen::inRange(0, 4) == 0) {
+    system.posts = Posts{.diameter = 0.3 * *rc::gen::inRange(1, 8), .contact = {0.1 * *rc::gen::inRange(0, 5), 0.5}};
+    system.posts->columns = *rc::gen::inRange(1, 6);
+    system.posts->rows = *rc::gen::inRange(1, 6);
+    system.n_rods /= 2;
+  }
+  if (!system.walls && !system.posts && maybe()) {
     system.horizontal_amplitude = 0.02 * *rc::gen::inRange(1, 10);
     system.horizontal_phase = *rc::gen::inRange(-180, 180);
     system.horizontal_angle = *rc::gen::inRange(-180, 180);

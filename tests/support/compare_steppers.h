@@ -17,6 +17,7 @@ inline bool same(const Counters& a, const Counters& b) {
                                static_cast<double>(c.impulses_rod_base),
                                static_cast<double>(c.impulses_rod_lid),
                                static_cast<double>(c.impulses_rod_wall),
+                               static_cast<double>(c.impulses_rod_post),
                                static_cast<double>(c.noise_kicks),
                                static_cast<double>(c.impacts_at_instant),
                                c.max_overlap_rod_rod,

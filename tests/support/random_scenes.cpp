@@ -246,7 +246,7 @@ void draw_contacts(std::uint64_t seed, Json& scene) {
 /// Plates that vibrate in the plane too, by numbers of their own.
 void draw_horizontal_vibration(std::uint64_t seed, Json& scene) {
   SceneDraw draw(seed + 6'000'000'053);
-  if (!draw.chance(0.1) || scene.contains("walls")) return;
+  if (!draw.chance(0.1) || scene.contains("walls") || scene.contains("posts")) return;
   scene["plates"]["horizontal_amplitude"] = draw.by_size(0.001, 1);
   scene["plates"]["horizontal_phase"] = draw.plain(-180, 180);
   scene["plates"]["horizontal_angle"] = draw.plain(-180, 180);

@@ -36,9 +36,10 @@ TEST(Fields, EveryDefaultIsAllowedAndReadsBack) {
 }
 
 TEST(Fields, KnowTheTreeOfNames) {
-  EXPECT_EQ(fields().names_in(""), (std::vector<std::string>{"rods", "rods_2", "rods_3", "start", "box", "plates",
-                                                             "gravity", "walls", "contacts", "accuracy", "time",
-                                                             "until", "measure", "trajectory", "stream", "movie"}));
+  EXPECT_EQ(
+      fields().names_in(""),
+      (std::vector<std::string>{"rods", "rods_2", "rods_3", "start", "box", "plates", "gravity", "walls", "posts",
+                                "contacts", "accuracy", "time", "until", "measure", "trajectory", "stream", "movie"}));
   EXPECT_EQ(fields().names_in("contacts.rod_lid"),
             (std::vector<std::string>{"friction", "restitution", "restitution_speed", "rods_2", "rods_3"}));
   EXPECT_TRUE(fields().is_group("contacts.rod_lid"));

@@ -38,10 +38,13 @@ TEST(Problems, ContactsOfRodsThatAreNotThere) {
             "about rods_3, which the scene does not have; add rods_3 or remove the key");
 }
 
-TEST(Problems, WallsOnPlatesThatVibrateInThePlane) {
+TEST(Problems, WallsAndPostsOnPlatesThatVibrateInThePlane) {
   EXPECT_EQ(problem_of(R"({"plates": {"horizontal_amplitude": 0.05}, "walls": {}})"),
             "run.json:1:37: /plates/horizontal_amplitude: side walls would move through the plane with the plates, and "
-            "the simulator knows walls that only rise and fall: remove walls, or set plates.horizontal_amplitude to 0");
+            "the simulator knows side walls that only rise and fall: remove walls, or set plates.horizontal_amplitude "
+            "to 0");
+  EXPECT_THAT(problem_of(R"({"plates": {"horizontal_amplitude": 0.05}, "posts": {"columns": 2, "rows": 2}})"),
+              testing::HasSubstr("posts would move through the plane with the plates"));
   EXPECT_EQ(plan_of(R"({"plates": {"horizontal_amplitude": "50 um"}})").system.horizontal_amplitude, 0.05);
 }
 

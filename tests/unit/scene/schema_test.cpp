@@ -79,6 +79,12 @@ class Writer {
         for (int k = 0; k < 1 + 2 * below(8); ++k) list.push_back(quantity(field, one));
         return list;
       }
+      case Form::kPairs: {
+        Json list = Json::array();
+        for (int k = 0; k < 1 + below(3); ++k)
+          list.push_back({quantity(field, number(field)), quantity(field, number(field))});
+        return list;
+      }
       case Form::kWhole: {
         const Json whole = static_cast<std::int64_t>(std::clamp(std::round(number(field)), field.low, field.high));
         return one_in(4) ? Json(whole.dump()) : whole;
@@ -170,7 +176,8 @@ class Writer {
 
   Json values(const Field& field) {
     if (is_number(field) && one_in(3)) return range(field);
-    if (field.form != Form::kNumbers && one_in(3)) return value(field);
+    const bool is_list = field.form == Form::kNumbers || field.form == Form::kPairs;
+    if (!is_list && one_in(3)) return value(field);
     Json list = Json::array({value(field)});
     while (one_in(2)) list.push_back(is_number(field) && one_in(4) ? range(field) : value(field));
     return list;
@@ -252,6 +259,7 @@ void break_scene(Json& scene, Writer& writer) {
         const bool too_large = writer.one_in(2);
         const double outside = too_large ? 2 * field.high + 2 : field.low - 1 - std::abs(field.low);
         if (field.form == Form::kNumbers) return set(field, Json::array({outside}));
+        if (field.form == Form::kPairs) return set(field, Json::array({Json::array({outside, outside})}));
         if (field.form == Form::kSize) return set(field, Json::array({64, outside}));
         if (field.form != Form::kQuantity && field.form != Form::kWhole) continue;
         return set(field, outside);

@@ -21,6 +21,8 @@ System everything_on() {
   system.added[0] = AddedRods{{.length = 2.5, .n_beads = 9, .profile = Profile::kPolar}, 25};
   system.added[1] = AddedRods{{.length = 0.8, .n_beads = 1}, 10};
   system.walls = SideWalls{Arena::kSquare, 18.0, 1.0, {0.1, 0.3}};
+  system.posts = Posts{.diameter = 1.2, .columns = 2, .rows = 2, .contact = {0.1, 0.3}};
+  system.posts->contact.own[Contacts::place(0, 2)].friction = 0.4;
   system.walls->contact.own[Contacts::place(0, 1)].restitution = 0.6;
   system.rod_rod.own[Contacts::place(1, 1)].friction = 0.2;
   system.rod_base.own[Contacts::place(0, 1)] = {0.1, 0.5, {}};
@@ -74,6 +76,8 @@ const std::map<std::string_view, void (*)(System&)>& neutral_by_hand() {
       {"rod_lid_collisions", [](System& s) { s.lid = false; }},
       {"side_walls", [](System& s) { s.walls = std::nullopt; }},
       {"side_wall_friction", [](System& s) { no_friction(s.walls->contact); }},
+      {"posts", [](System& s) { s.posts = std::nullopt; }},
+      {"post_friction", [](System& s) { no_friction(s.posts->contact); }},
       {"rotational_noise", [](System& s) { s.rotational_noise = 0.0; }},
       {"impacts_at_instant", [](System& s) { s.impacts = ImpactTime::kTickEnd; }},
       {"taper",
@@ -84,7 +88,8 @@ const std::map<std::string_view, void (*)(System&)>& neutral_by_hand() {
        }},
       {"spin",
        [](System& s) {
-         for (Contacts* contacts : {&s.rod_rod, &s.rod_base, &s.rod_lid, &s.walls->contact}) no_friction(*contacts);
+         for (Contacts* contacts : {&s.rod_rod, &s.rod_base, &s.rod_lid, &s.walls->contact, &s.posts->contact})
+           no_friction(*contacts);
        }},
       {"rod_rod_friction", [](System& s) { no_friction(s.rod_rod); }},
       {"rod_rod_restitution", [](System& s) { no_restitution(s.rod_rod); }},
@@ -99,7 +104,8 @@ const std::map<std::string_view, void (*)(System&)>& neutral_by_hand() {
        }},
       {"species_contacts",
        [](System& s) {
-         for (Contacts* contacts : {&s.rod_rod, &s.rod_base, &s.rod_lid, &s.walls->contact}) contacts->own = {};
+         for (Contacts* contacts : {&s.rod_rod, &s.rod_base, &s.rod_lid, &s.walls->contact, &s.posts->contact})
+           contacts->own = {};
        }},
   };
   return table;
@@ -189,6 +195,7 @@ TEST(Effects, WithoutGravityARodFliesStraight) {
   system.gravity = 0;
   system.amplitude = 0;
   system.walls.reset();
+  system.posts.reset();
   system.added = {};
   system.n_rods = 1;
   system.gap = 20;
