@@ -23,7 +23,7 @@ constexpr const char* kScene = R"({
               "pairs": {"bins": 3}, "layers": {}, "lattice": {}, "structure": {"waves": 4}, "polar": {},
               "temperatures": {}, "scattering": {}, "van_hove": {"bins": 4}, "flow": {"bins": 4}, "clusters": {},
               "collisions": {}, "stress": {}, "mixing": {"bins": 4},
-              "defect_maps": {"bins": 2}}})";
+              "defect_maps": {"bins": 2}, "density": {}}})";
 
 const scene::RunPlan& plan() {
   static const scene::RunPlan loaded = [] {
