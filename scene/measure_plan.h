@@ -191,6 +191,14 @@ struct MeasureDefectMaps {
   double grid_for(double rod_length) const { return MeasureDefects{.grid = grid}.grid_for(rod_length); }
   friend bool operator==(const MeasureDefectMaps&, const MeasureDefectMaps&) = default;
 };
+/// Maps of the density against time.
+struct MeasureDensity {
+  double every = 0.1;     ///< [s]
+  double duration = 1.0;  ///< over which one map is averaged [s]
+  double grid = 0.0;      ///< mesh width [mm]; 0: what grid_for() says
+  double grid_for(double rod_length) const { return grid > 0 ? grid : rod_length; }
+  friend bool operator==(const MeasureDensity&, const MeasureDensity&) = default;
+};
 /// The common drift of the measured rods.
 struct MeasureDrift {
   double every = 0.01;  ///< [s]
@@ -226,6 +234,7 @@ struct MeasureDrift {
   X(stress, MeasureStress) \
   X(mixing, MeasureMixing) \
   X(defect_maps, MeasureDefectMaps) \
+  X(density, MeasureDensity) \
   X(drift, MeasureDrift)
 // clang-format on
 

@@ -52,7 +52,7 @@ double half_plane(double waves, const Box& box) {
   return (most.x() + 1) * (2 * most.y() + 1);
 }
 
-/// Nodes of the director field.
+/// Nodes of a grid over the box (analysis/director_field.h).
 double field_nodes(const Box& box, double mesh) {
   return std::max(4.0, std::ceil(box.x() / mesh - 1e-9)) * std::max(4.0, std::ceil(box.y() / mesh - 1e-9));
 }
@@ -83,6 +83,15 @@ MeasureMemory of_defect_maps(const Sizes& sizes) {
   const double state = sizes.in_blocks(2 * 7 * kNumberBytes * bins * bins);
   const double field = field_bytes(field_nodes(system.box(), maps.grid_for(system.rod.length)));
   return {"", state + 9 * kNumberBytes * sizes.rods, std::max(field, 3 * state)};
+}
+
+MeasureMemory of_density(const Sizes& sizes) {
+  const MeasureDensity& density = *sizes.plan.density;
+  const System& system = sizes.plan.system;
+  const double cells = field_nodes(system.box(), density.grid_for(system.rod.length));
+  const double maps = std::floor(sizes.samples / std::max(1.0, std::round(density.duration / density.every)));
+  const double bytes = maps * (cells + 1) * kNumberBytes;
+  return {"", bytes + 3 * kNumberBytes * cells, 0, bytes, kSpare * bytes};
 }
 
 MeasureMemory of_velocity(const Sizes& sizes) {
@@ -438,6 +447,7 @@ Observable defect_maps() {
   return {
     .doc = "Maps about topological defects of +1/2 and of -1/2, each in the frame of the defect: density, director, "
            "velocity and tilt of rods (only within the walls, if any).",
+    .open = "the director at every place",
     .axis = AxisUse::kNeeded,
     .every_doc = "Time between samples; velocities are the displacements from the one before to the one after.",
     .keys = {
@@ -458,6 +468,21 @@ Observable defect_maps() {
               "an eighth of a rod length")},
     .memory = of_defect_maps,
     .remedy = "fewer `bins`, or a coarser `grid`"};
+}
+
+Observable density() {
+  return {
+    .doc = "Maps of the area fraction in time, how much it varies from place to place, and for how long a map keeps (only "
+           "within the walls, if any).",
+    .open = "cells of known area",
+    .keys = {
+      quantity("duration", at<&Plan::density, &MeasureDensity::duration>, kTime, 1e-7, 1e7,
+               "Time over which one map is averaged, rounded to a multiple of `every`. All maps of the run are kept."),
+      derived(quantity("grid", at<&Plan::density, &MeasureDensity::grid>, kLength, 0.01, 1000,
+                       "Width of the cells of a map, at most; there are at least four each way."),
+              "a rod length")},
+    .memory = of_density,
+    .remedy = "a coarser `grid`, or a longer `duration`"};
 }
 
 Observable drift() {

@@ -26,12 +26,14 @@ _AXES = {
     "/polar": "/polar/time_s", "/temperatures": "/temperatures/time_s", "/scattering": "/scattering/lag_s",
     "/flow": "/flow/r_mm", "/clusters": "/clusters/time_s", "/clusters/sizes": "/clusters/sizes/size",
     "/collisions": "/collisions/time_s", "/stress": "/stress/time_s", "/mixing": "/mixing/r_mm",
+    "/density/memory": "/density/memory/lag_s",
     "/drift": "/drift/time_s",
 }
 _SCATTERING = ("/scattering/q_per_mm", "/scattering/lag_s")
 _VAN_HOVE = ("/van_hove/lag_s", "/van_hove/displacement_mm")
 _DEFECT_MAPS = ("/defect_maps/across_mm", "/defect_maps/along_mm")
-#: The axes of the rows and of the columns of what files hold row by row.
+_CELLS = ("/density/y_mm", "/density/x_mm")
+#: The axes of the rows and of the columns of what files hold row by row, and of the times where there is a map of each.
 _MAPS = {
     **dict.fromkeys(("/pairs/g", "/pairs/g2"), ("/pairs/across_mm", "/pairs/along_mm")),
     **{f"/scattering/{name}{sem}": _SCATTERING for name in ("f", "f_along", "f_across") for sem in ("", "_sem")},
@@ -39,6 +41,7 @@ _MAPS = {
     **{f"/defect_maps/{charge}/{name}{sem}{unit}": _DEFECT_MAPS for charge in ("plus", "minus") for sem in ("", "_sem")
        for name, unit in (("density", ""), ("cos_2theta", ""), ("sin_2theta", ""), ("v_along", "_mm_s"),
                           ("v_across", "_mm_s"), ("tilt_squared", ""))},
+    "/density/mean_area_fraction": _CELLS, "/density/area_fraction": ("/density/time_s", *_CELLS),
 }
 _TABLE = "/van_hove/displacement_mm"  # a row for each lag
 
@@ -50,14 +53,14 @@ class Array(np.ndarray):
     unit:   "mm2"; "1" for a plain number
     axis:   the Array that it is measured at (lags, distances, times); None where it has none; a pair (of the rows, of
             the columns) for what has two dimensions: (across, along) of the maps of `pairs` and `defect_maps`,
-            (q, lag) of F_s(q, t),
-            (lag, displacement) of the van Hove function, whose displacements are a row for each lag too
+            (q, lag) of F_s(q, t), (lag, displacement) of the van Hove function, whose displacements are a row for each
+            lag too; three of the maps of `density`, (time, y, x)
     error:  the Array of its standard errors, or None
     """
 
     name: str
     unit: str
-    axis: "Array | tuple[Array, Array] | None"
+    axis: "Array | tuple[Array, ...] | None"
     error: "Array | None"
 
     def __new__(cls, values: Any, name: str = "", unit: str | None = None) -> "Array":
@@ -103,9 +106,9 @@ class Arrays(Mapping[str, Array]):
         species, own = split_species(path)
         species = f"/{species}" if species else ""
         if own in _MAPS:
-            rows, columns = (self._fetch(species + axis) for axis in _MAPS[own])
-            array = Array(np.asarray(array).reshape(len(rows), columns.shape[-1]), path, unit)
-            array.axis = (rows, columns)
+            *rows, columns = axes = tuple(self._fetch(species + axis) for axis in _MAPS[own])
+            array = Array(np.asarray(array).reshape(*map(len, rows), columns.shape[-1]), path, unit)
+            array.axis = axes
         elif own == _TABLE:
             rows = self._fetch(species + _MAPS["/van_hove/along_per_mm"][0])
             array = Array(np.asarray(array).reshape(len(rows), -1), path, unit)

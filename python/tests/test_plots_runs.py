@@ -100,6 +100,20 @@ def test_maps_about_defects_show_director_and_flow(tmp_path: Path) -> None:
     assert not figures(run(nothing))
 
 
+def test_maps_of_the_density_in_time(tmp_path: Path) -> None:
+    maps = np.arange(5 * 6, dtype=float)
+    maps[::6] = NAN  # a cell beyond walls
+    density = {"/density/time_s": [1, 2, 3, 4, 5], "/density/x_mm": [1, 3, 5], "/density/y_mm": [1, 3],
+               "/density/area_fraction": maps[:-2], "/density/mean_area_fraction": [NAN, 1, 2, 3, 4, 5],
+               "/density/memory/lag_s": [0, 1], "/density/memory/correlation": [1, 0.5]}
+    found = figures(run(density))
+    assert list(found) == ["density_memory", "density_maps"]
+    panels = [panel for panel in found["density_maps"] if panel.is_used]
+    assert [names.plain(panel.title) for panel in panels] == ["t = 1 s", "t = 3 s", "t = 4 s", "mean"]
+    assert list(panels[1].drawn[0].z[1:]) == [13, 14, 15, 16, 17]  # the fifth is not on the disk yet
+    assert_whole(found["density_maps"].finish())
+
+
 def test_replicas_are_a_mean_with_its_error() -> None:
     one = {**TILT, "/tilt/v_along_sem_mm_s": [9, 9], "/order/time_s": [0, 1], "/order/order": [1, 0.5]}
     two = {**one, "/tilt/v_along_mm_s": [3, NAN], "/order/order": [1, 0.7]}

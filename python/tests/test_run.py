@@ -79,6 +79,9 @@ def test_arrays_of_two_dimensions_have_two_axes(run_at):
                 "van_hove/along_per_mm": ([4, 3, 2, 1], "mm-1"), "van_hove/along_sem_per_mm": ([1, 1, 2, 2], "mm-1")}
     measured["defect_maps/along_mm"] = measured["defect_maps/across_mm"] = ([-1, 0, 1], "mm")
     measured["defect_maps/plus/v_along_mm_s"] = measured["defect_maps/plus/v_along_sem_mm_s"] = (range(9), "mm s-1")
+    measured["density/time_s"] = measured["density/x_mm"] = ([1, 2, 3], "mm")
+    measured["density/y_mm"] = ([5, 6], "mm")
+    measured["density/area_fraction"] = (range(18), "1")
     run = run_at("a", arrays={**measured, **{"rods_2/" + name: of for name, of in measured.items()}})
     for species in ("", "/rods_2"):
         f_s = run[species + "/scattering/f"]
@@ -88,6 +91,8 @@ def test_arrays_of_two_dimensions_have_two_axes(run_at):
         g_s = run[species + "/van_hove/along_per_mm"]
         assert g_s.tolist() == [[4, 3], [2, 1]] and g_s.error.tolist() == [[1, 1], [2, 2]]
         assert g_s.axis[0].tolist() == [1, 4] and g_s.axis[1].tolist() == [[1, 3], [2, 6]]
+        maps = run[species + "/density/area_fraction"]
+        assert maps.shape == (3, 2, 3) and maps[1, 1, 0] == 9 and maps.axis[1].tolist() == [5, 6]
         v = run[species + "/defect_maps/plus/v_along_mm_s"]
         assert v.shape == v.error.shape == (3, 3) and v.axis[1].name == species + "/defect_maps/along_mm"
 

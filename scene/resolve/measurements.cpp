@@ -83,6 +83,16 @@ void defect_maps(Resolution& scene, MeasureDefectMaps& settings) {
                            length_text(settings.range), length_text(half_box)));
 }
 
+void density(Resolution& scene, MeasureDensity& settings) {
+  if (scene.ok({"rods.length", "measure.density.grid"})) {
+    settings.grid = settings.grid_for(scene.plan.system.rod.length);
+  }
+  if (!scene.ok({"measure.density.every", "measure.density.duration"}) || settings.duration >= settings.every) return;
+  scene.report({"measure.density.duration", "measure.density.every"},
+               fmt::format("measure.density.duration {} is shorter than measure.density.every {}",
+                           time_text(settings.duration), time_text(settings.every)));
+}
+
 }  // namespace
 
 void resolve_measurements(Resolution& scene) {
@@ -95,6 +105,7 @@ void resolve_measurements(Resolution& scene) {
   if (plan.clusters) clusters(scene, *plan.clusters);
   if (plan.mixing) mixing(scene, *plan.mixing);
   if (plan.defect_maps) defect_maps(scene, *plan.defect_maps);
+  if (plan.density) density(scene, *plan.density);
 }
 
 void check_surroundings(Resolution& scene) {

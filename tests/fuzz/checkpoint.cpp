@@ -22,7 +22,8 @@ constexpr const char* kScene = R"({
               "msd": {}, "rotation": {}, "velocity": {}, "rods": {}, "fluctuations": {}, "frank": {},
               "pairs": {"bins": 3}, "layers": {}, "lattice": {}, "structure": {"waves": 4}, "polar": {},
               "temperatures": {}, "scattering": {}, "van_hove": {"bins": 4}, "flow": {"bins": 4}, "clusters": {},
-              "collisions": {}, "stress": {}, "mixing": {"bins": 4}, "defect_maps": {"bins": 2}, "drift": {}}})";
+              "collisions": {}, "stress": {}, "mixing": {"bins": 4}, "defect_maps": {"bins": 2}, "density": {},
+              "drift": {}}})";
 
 const scene::RunPlan& plan() {
   static const scene::RunPlan loaded = [] {

@@ -2031,6 +2031,60 @@ def check_defect_maps(run, table):
             scalar(run, table, "core_flow_across_mm_s", by, across, error[3], 20 * doubtful + 2e-3, allowed_sem=0.02)
 
 
+def check_density(run, table):
+    frames = run.frames("density")
+    plan = run.scene["measure"]["density"]
+    each = max(1, round(plan["duration"] / plan["every"]))
+    n = len(frames) // each
+    columns, rows = np.maximum(4, np.ceil(run.box / plan["grid"] - 1e-9).astype(int))
+    edges = [np.linspace(0, run.box[1], rows + 1), np.linspace(0, run.box[0], columns + 1)]
+    groups = [frames[k * each:(k + 1) * each] for k in range(n)]
+    counts = np.array([np.histogram2d(*run.place[some].reshape(-1, 2).T[::-1], edges)[0] for some in groups]) / each
+    density = counts / (run.n / (rows * columns))
+    start = np.array([run.time[some[0]] for some in groups])
+    # Which cell has a rod near an edge is not known: of each map, so many in every cell, as where rods start in rows.
+    mesh = run.box / [columns, rows]
+    place = run.place / mesh
+    near = (np.abs(place - np.round(place)) * mesh < EDGE).any(-1).sum(1)
+    doubt = np.array([near[some].sum() for some in groups]) / each / (run.n / (rows * columns)) + 1e-6
+    steady = is_steady(start, run.t_steady)
+    shape, by = run.scene["rods"], "numpy histogram2d"
+    phi = shape["area_fraction"]
+    table.add("/density/time_s", "trajectory", run.arrays["/density/time_s"], [run.time[some].mean() for some in groups])
+    for k, name in enumerate(("x_mm", "y_mm")):
+        at = edges[1 - k]
+        table.add(f"/density/{name}", "definition", run.arrays[f"/density/{name}"], (at[1:] + at[:-1]) / 2)
+    ours = run.arrays["/density/area_fraction"]
+    table.add("/density/area_fraction", by, ours, phi * density.ravel(), phi * np.repeat(doubt, rows * columns),
+              f"{np.mean(doubt < 1e-5):.0%} of the maps without rods on edges")
+    known = density[steady] if steady.any() else np.full((1, rows, columns), np.nan)
+    table.add("/density/mean_area_fraction", by, run.arrays["/density/mean_area_fraction"], phi * known.mean(0).ravel(),
+              phi * doubt[steady].mean() if steady.any() else 0)
+    delta = (ours.reshape(n, rows, columns) / phi - 1)[steady]  # ours from here on, or edges would matter
+    squares = np.mean(delta ** 2, axis=(1, 2))
+
+    def parts(series):
+        return np.array([part.mean() for part in np.array_split(series, min(64, len(series)))])
+
+    lags = np.arange(min(512, (len(delta) + 3) // 4))
+    correlation, errors = [], []
+    for lag in lags:
+        products = np.mean(delta[:len(delta) - lag] * delta[lag:], axis=(1, 2))
+        correlation.append(products.mean() / squares.mean())
+        rest = (products - correlation[-1] * squares[:len(products)]) / squares.mean()
+        errors.append(float(sem_of_parts(parts(rest)[:, None])[0]))
+    correlation, errors = np.array(correlation), np.array(errors)
+    path = "/density/memory/"
+    table.add(path + "lag_s", "definition", run.arrays[path + "lag_s"], lags * each * plan["every"])
+    table.add(path + "correlation", "numpy", run.arrays[path + "correlation"], correlation, 1e-9)
+    table.add(path + "correlation_sem", "numpy", run.arrays[path + "correlation_sem"], errors, 1e-2 * errors + 1e-9)
+    scalar(run, table, "density_variance", "numpy", squares.mean(), float(sem_of_parts(parts(squares)[:, None])[0]),
+           allowed_sem=1e-2)
+    scalar(run, table, "density_variance_of_mean", "numpy", np.mean(delta.mean(0) ** 2))
+    time, sem = decay_time(lags[1:] * each * plan["every"], correlation[1:], errors[1:])
+    scalar(run, table, "density_correlation_s", "numpy interp", time, sem, 1e-6, allowed_sem=1e-2)
+
+
 CHECKS = {"order": check_order, "angles": check_angles, "tilt": check_tilt, "defects": check_defects, "g2": check_g2,
           "pairs": check_pairs, "layers": check_layers, "lattice": check_lattice, "structure": check_structure,
           "polar": check_polar, "fluctuations": check_fluctuations,
@@ -2038,7 +2092,7 @@ CHECKS = {"order": check_order, "angles": check_angles, "tilt": check_tilt, "def
           "temperatures": check_temperatures, "scattering": check_scattering, "van_hove": check_van_hove,
           "flow": check_flow, "clusters": check_clusters, "collisions": check_collisions,
           "stress": check_stress, "mixing": check_mixing, "defect_maps": check_defect_maps,
-          "drift": check_drift}
+          "density": check_density, "drift": check_drift}
 
 
 def main():

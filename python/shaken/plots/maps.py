@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Maps about topological defects (`measure.defect_maps`): the director on the density, and the flow."""
+"""Maps: about topological defects (`measure.defect_maps`), the director on the density, and the flow; and of the
+density in time (`measure.density`)."""
 from __future__ import annotations
 
 from typing import Iterator, Mapping, Sequence
@@ -16,6 +17,8 @@ CHARGES = {"plus": "+1/2", "minus": "−1/2"}
 VALUES = ("density", "cos_2theta", "sin_2theta", "v_along_mm_s", "v_across_mm_s", "tilt_squared")
 #: Every array that the figure is made of.
 ARRAYS = (*AXES, *(f"{GROUP}/{charge}/{value}" for charge in CHARGES for value in VALUES))
+#: The same of the maps of the density.
+DENSITY = ("/density/time_s", "/density/x_mm", "/density/y_mm", "/density/area_fraction", "/density/mean_area_fraction")
 _MOST_MARKS = 16  # arrows or rods each way
 
 
@@ -98,13 +101,40 @@ def defect_figure(runs: Sequence[Mapping[str, np.ndarray]], width: str | None = 
     return sheet
 
 
-def defect_figures(points: Sequence[tuple[str, Sequence[Mapping[str, np.ndarray]]]],
-                   width: str | None = None) -> Iterator[tuple[str, Sheet]]:
-    """(name, figure) of each of the points, (label, replicas), that has maps: "defect_maps", and with a number behind
-    where there are several."""
+def density_figure(runs: Sequence[Mapping[str, np.ndarray]], width: str | None = None, title: str = "",
+                   prefix: str = "") -> Sheet | None:
+    """The figure of the first of the replicas that has maps of the density: its first, middle and last one, and the
+    mean over the steady state, in the same colours. None where none has."""
+    for run in runs:
+        time, x, y, maps, mean = (run.get(prefix + name, np.array([])) for name in DENSITY)
+        n = min(len(time), len(maps) // max(1, len(x) * len(y)))  # a file that is still being written
+        if n:
+            break
+    else:
+        return None
+    maps = maps[:n * len(x) * len(y)].reshape(n, len(y), len(x))
+    shown = [(f"$t$ = {time[k]:.4g} s", maps[k]) for k in sorted({0, n // 2, n - 1})]
+    if np.isfinite(mean).any():
+        shown.append(("mean", mean.reshape(len(y), len(x))))
+    sheet = style.sheet(width or "183mm", 1, len(shown), title=title).share_axes()
+    seen = np.concatenate([values[np.isfinite(values)] for _, values in shown])
+    drawn = None
+    for panel, (name, values) in zip(sheet, shown):
+        panel.titles(names.axis_title(DENSITY[1]), names.axis_title(DENSITY[2]), name)
+        drawn = panel.map(x, y, values, names.axis_title(DENSITY[3]), bar=False,
+                          limits=(float(seen.min()), float(max(seen.max(), seen.min() + 1e-9))))
+    sheet.colourbar(drawn, None, names.axis_title(DENSITY[3]))
+    return sheet
+
+
+def map_figures(points: Sequence[tuple[str, Sequence[Mapping[str, np.ndarray]]]],
+                width: str | None = None) -> Iterator[tuple[str, Sheet]]:
+    """(name, figure) of each of the points, (label, replicas), that has maps: "defect_maps" and "density_maps", with a
+    number behind where there are several."""
     for species in ("", "rods_2", "rods_3"):
         prefix, before = (f"/{species}", f"{species}_") if species else ("", "")
-        made = [(label, defect_figure(runs, width, label, prefix)) for label, runs in points]
-        sheets = [sheet for _, sheet in made if sheet is not None]
-        for k, sheet in enumerate(sheets):
-            yield before + "defect_maps" + (f"_{k + 1}" if len(sheets) > 1 else ""), sheet
+        for name, figure in (("defect_maps", defect_figure), ("density_maps", density_figure)):
+            made = [figure(runs, width, label, prefix) for label, runs in points]
+            sheets = [sheet for sheet in made if sheet is not None]
+            for k, sheet in enumerate(sheets):
+                yield before + name + (f"_{k + 1}" if len(sheets) > 1 else ""), sheet

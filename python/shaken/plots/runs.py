@@ -81,6 +81,8 @@ OBSERVABLES = (
     Observable("pressure_time", "/stress/time_s", ("/stress/collisional_xx_pJ_mm2", "/stress/collisional_yy_pJ_mm2"),
                y_title="pressure of impacts (pJ/mm²)", is_trace=True, x_range=_FROM_ZERO, y_range=_FROM_ZERO),
     Observable("g_between", "/mixing/r_mm", ("/mixing/g_12",), x_range=_FROM_ZERO, y_range=_FROM_ZERO),
+    Observable("density_memory", "/density/memory/lag_s", ("/density/memory/correlation",), zero=True,
+               x_range=_FROM_ZERO),
     Observable("drift", "/drift/time_s", ("/drift/x_mm", "/drift/y_mm"), y_title="displacement of all rods (mm)",
                is_trace=True, x_range=_FROM_ZERO, zero=True),
     Observable("msd", "/msd/lag_s", ("/msd/total_mm2",), log=(True, True)),
@@ -138,7 +140,7 @@ def read_run(directory: str | Path, parameters: Mapping[str, Any], state: str = 
         summary = {}
     import h5py
     wanted = {name for one in OF_EVERY_SPECIES for name in (one.x, *one.y, error_name(one.y[0]), one.rows) if name}
-    wanted |= {species + name for species in ("", "/rods_2", "/rods_3") for name in maps.ARRAYS}
+    wanted |= {species + name for species in ("", "/rods_2", "/rods_3") for name in maps.ARRAYS + maps.DENSITY}
     arrays = {}
     try:
         with h5py.File(path, "r") as file:
@@ -233,9 +235,9 @@ def _thinned(curve: _Curve) -> _Curve:
 
 
 def run_figures(runs: Sequence[PlottedRun], width: str | None = None) -> Iterator[tuple[str, Sheet]]:
-    """(name, figure) of each observable that at least one run has, and of the maps about defects of each
-    point. Of replicas by one version the mean is drawn, with the standard error of replica_mean; what differs in
-    parameters or version are different curves."""
+    """(name, figure) of each observable that at least one run has, and of the maps of each point. Of replicas by one
+    version the mean is drawn, with the standard error of replica_mean; what differs in parameters or version are
+    different curves."""
     name_points(runs)
     points: list[dict[str, Any]] = []
     of_point: list[list[PlottedRun]] = []
@@ -270,5 +272,5 @@ def run_figures(runs: Sequence[PlottedRun], width: str | None = None) -> Iterato
                 panel.axes.set_xticks(of.x_ticks)
         yield of.name, sheet
     labels = [label_of(point) if len(points) > 1 else "" for point in points]
-    yield from maps.defect_figures([(label, [run.arrays for run in of_one])
-                                    for label, of_one in zip(labels, of_point)], width)
+    yield from maps.map_figures([(label, [run.arrays for run in of_one]) for label, of_one in zip(labels, of_point)],
+                                width)

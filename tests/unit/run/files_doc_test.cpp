@@ -109,6 +109,7 @@ scene::RunPlan everything() {
   plan.velocity->window = 0.01;
   plan.rods = scene::MeasureRods{0.01, 2, 0.2};
   plan.pairs = scene::MeasurePairs{0.02, 9, 6};
+  plan.density->duration = 0.02;
   plan.trajectory = scene::Trajectory{0.1};
   plan.stream.reset();
   plan.movie.reset();

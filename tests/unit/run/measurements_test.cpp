@@ -39,6 +39,7 @@ scene::RunPlan plan() {
   p.layers = scene::MeasureLayers{0.02};
   p.mixing = scene::MeasureMixing{0.05, 20, 3};
   p.defect_maps = scene::MeasureDefectMaps{0.01, 7};
+  p.density = scene::MeasureDensity{0.01, 0.02};
   p.drift = scene::MeasureDrift{0.01};
   return p;
 }
@@ -80,7 +81,8 @@ Reduction reduced_spheres() {
     EXPECT_FALSE(counts.contains(name)) << name;
   }
   for (const char* name : {"g2", "msd", "velocity", "rods", "fluctuations", "lattice", "structure", "temperatures",
-                           "scattering", "van_hove", "flow", "clusters", "collisions", "stress", "mixing", "drift"}) {
+                           "scattering", "van_hove", "flow", "clusters", "collisions", "stress", "mixing", "density",
+                           "drift"}) {
     EXPECT_TRUE(counts.contains(name)) << name;
   }
   for (Tick t = measurements.next_due(0); t <= 20000; t = measurements.next_due(t + 1)) {

@@ -116,6 +116,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"drift", {"measure={\"drift\": {\"every\": \"20 us\"}}", "time.measure=1.2", "rods.count=2"}},
         Case{"mixing", {"measure={\"mixing\": {\"every\": \"100 us\", \"bins\": 5000}}", "rods_2.count=9"}},
         Case{"defect_maps", {"measure={\"defect_maps\": {\"every\": \"200 us\", \"bins\": 61}}"}},
+        Case{"density", {"measure={\"density\": {\"every\": \"20 us\", \"duration\": \"40 us\", \"grid\": 1}}"}},
         Case{"several",
              {"measure={\"order\": {}, \"g2\": {\"every\": \"100 us\", \"bins\": 5000}, \"pairs\": "
               "{\"every\": \"200 us\"}, \"rods\": {\"every\": \"20 us\", \"count\": 100}}"}}),

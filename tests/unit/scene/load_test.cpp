@@ -124,6 +124,10 @@ TEST(LoadScene, DefectMapsFollowTheRodsLengthAndTheBox) {
   EXPECT_EQ(plan_of(R"({"box": {"side": 16}, "measure": {"defect_maps": {}}})").defect_maps->range, 8);
 }
 
+TEST(LoadScene, DensityMapsFollowTheRodsLength) {
+  EXPECT_EQ(plan_of(R"({"rods": {"length": 3}, "measure": {"density": {}}})").density, (MeasureDensity{0.1, 1, 3}));
+}
+
 TEST(LoadScene, PairMapFollowsTheRodsLengthAndTheBox) {
   EXPECT_EQ(plan_of(R"({"rods": {"length": 3}, "measure": {"pairs": {}}})").pairs, (MeasurePairs{0.5, 81, 9}));
   EXPECT_EQ(plan_of(R"({"box": {"side": 20}, "measure": {"pairs": {}}})").pairs, (MeasurePairs{0.5, 81, 10}));

@@ -55,6 +55,12 @@ TEST(Problems, NeighboursBeyondHalfTheBox) {
   EXPECT_EQ(plan_of(R"({"measure": {"mixing": {}}})").mixing->distance, 4.5);
 }
 
+TEST(Problems, DensityMapsShorterThanASample) {
+  EXPECT_EQ(problem_of(R"({"measure": {"density": {"duration": "50 ms"}}})"),
+            "run.json:1:38: /measure/density/duration: measure.density.duration 50 ms is shorter than "
+            "measure.density.every 100 ms");
+}
+
 TEST(Problems, MapsBeyondHalfTheBox) {
   EXPECT_EQ(problem_of(R"({"box": {"side": 20}, "measure": {"defect_maps": {"range": 10.1}}})"),
             "run.json:1:60: /measure/defect_maps/range: a map of 10.1 mm each way reaches beyond half the box, 10 mm: "

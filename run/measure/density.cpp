@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/density_maps.h"
+#include "run/measure/estimates.h"
+#include "run/measure/measurement_kinds.h"
+#include "scene/derived.h"
+
+namespace shaken::run {
+namespace {
+
+class MeasuredDensity : public Measurement {
+ public:
+  MeasuredDensity(const System& system, const scene::MeasureDensity& settings, double interval)
+      : area_fraction_(scene::area_fraction_of(system)),
+        maps_(analysis::Region(system.box(), system.walls),
+              analysis::Grid(system.box(), settings.grid_for(system.rod.length)), interval,
+              std::max<std::int64_t>(1, std::llround(settings.duration / interval))),
+        mesh_(system.box().x() / maps_.grid().columns, system.box().y() / maps_.grid().rows) {}
+
+  void sample(const Sample& sample) override { maps_.accumulate(sample->time, sample->position); }
+  void reduce(Reduction& result) const override {
+    const analysis::DensitySummary summary = maps_.reduce(result.t_steady);
+    result.arrays["/density/time_s"] = maps_.times();
+    result.arrays["/density/x_mm"] = centres(maps_.grid().columns, mesh_.x());
+    result.arrays["/density/y_mm"] = centres(maps_.grid().rows, mesh_.y());
+    result.arrays["/density/area_fraction"] = area_fractions(maps_.densities());
+    result.arrays["/density/mean_area_fraction"] = area_fractions(summary.mean);
+    result.arrays["/density/memory/lag_s"] = summary.lag;
+    put(result, "/density/memory/correlation", "", summary.correlation);
+    result.scalars["density_variance"] = scalar(summary.variance);
+    result.scalars["density_variance_of_mean"] = scalar(summary.variance_of_mean);
+    result.scalars["density_correlation_s"] = scalar(summary.correlation_time);
+  }
+  void save(StateWriter& writer) const override { maps_.save(writer); }
+  void restore(StateReader& reader) override { maps_.restore(reader); }
+
+ private:
+  static std::vector<double> centres(int n, double mesh) {
+    std::vector<double> at;
+    for (int k = 0; k < n; ++k) at.push_back((k + 0.5) * mesh);
+    return at;
+  }
+  std::vector<double> area_fractions(std::vector<double> densities) const {
+    for (double& density : densities) density *= area_fraction_;
+    return densities;
+  }
+
+  double area_fraction_;
+  analysis::DensityMaps maps_;
+  Vec2 mesh_;  ///< each way [mm]
+};
+
+}  // namespace
+
+MeasurementKind density_kind() {
+  return {
+      .name = "density",
+      .sources = "density_maps, region",
+      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
+        return std::make_unique<MeasuredDensity>(context.plan.system, *context.plan.density, context.interval);
+      },
+      .arrays =
+          {
+              {"time_s", "(maps) middle of the time that a map is averaged over"},
+              {"x_mm", "(columns) centres of the cells along x"},
+              {"y_mm", "(rows) centres of the cells along y"},
+              {"area_fraction",
+               "(maps · rows · columns) area fraction in the cells, map by map and row by row; NaN beyond walls"},
+              {"mean_area_fraction", "(rows · columns) mean over the maps of the steady state"},
+              {"memory/lag_s", "time from one map to another"},
+              {"memory/correlation", "⟨δ(t)δ(t + lag)⟩/⟨δ²⟩ of the relative deviations δ of cells from the mean",
+               kWithError},
+          },
+      .numbers =
+          {
+              {"density_variance", "⟨δ²⟩ over cells and maps, δ being the relative deviation of a cell from the mean"},
+              {"density_variance_of_mean", "that of the mean map: what does not change in time"},
+              {"density_correlation_s", "lag at which the correlation falls to 1/e", false,
+               "it does not within the lags, or there are too few maps"},
+          },
+  };
+}
+
+}  // namespace shaken::run

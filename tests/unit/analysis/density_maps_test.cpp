@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "analysis/density_maps.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sim/system.h"
+#include "tests/unit/analysis/analysis_samples.h"
+#include "tests/unit/analysis/state_checks.h"
+
+namespace shaken::analysis {
+namespace {
+
+constexpr double kStep = 0.1;
+
+Grid grid_of(int columns, int rows) {
+  Grid grid(columns);
+  grid.rows = rows;
+  return grid;
+}
+
+// The slow twin: every rod of every sample, in a box that is not square, wherever its image is.
+TEST(DensityMaps, AreTheMeanNumbersInTheCells) {
+  Draw draw(71);
+  const Box box(20, 12);
+  DensityMaps maps(box, grid_of(5, 4), kStep, 3);
+  std::vector<double> expected(2 * 20);
+  for (std::size_t k = 0; k < 8; ++k) {  // two maps, and two samples of a third
+    std::vector<Vec3> places = random_places(draw, 50, box);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const auto cell = static_cast<std::size_t>(places[i].y() / 3) * 5 + static_cast<std::size_t>(places[i].x() / 4);
+      if (k < 6) expected[k / 3 * 20 + cell] += 1 / 3.0 / 12 / (50 / 240.0);
+      places[i] += Vec3(20.0 * static_cast<double>(i % 3), -12.0 * static_cast<double>(i % 2), 0);
+    }
+    maps.accumulate(static_cast<double>(k) * kStep, places);
+  }
+  ASSERT_EQ(maps.times().size(), 2u);
+  EXPECT_NEAR(maps.times()[0], 0.1, 1e-12);
+  EXPECT_NEAR(maps.times()[1], 0.4, 1e-12);
+  ASSERT_EQ(maps.densities().size(), expected.size());
+  double square = 0, of_mean = 0;
+  for (std::size_t k = 0; k < expected.size(); ++k) {
+    EXPECT_NEAR(maps.densities()[k], expected[k], 1e-9);
+    square += std::pow(expected[k] - 1, 2) / 40;
+    if (k < 20) of_mean += std::pow((expected[k] + expected[k + 20]) / 2 - 1, 2) / 20;
+  }
+  const DensitySummary all = maps.reduce(0);
+  EXPECT_NEAR(all.variance.value, square, 1e-9);
+  EXPECT_NEAR(all.variance_of_mean.value, of_mean, 1e-9);
+  EXPECT_NEAR(all.mean[7], (expected[7] + expected[27]) / 2, 1e-9);
+  EXPECT_NEAR(maps.reduce(0.25).mean[7], expected[27], 1e-9) << "the map that begins at 0.3 s";
+  EXPECT_TRUE(std::isnan(maps.reduce(5).mean[7]));
+}
+
+// A gas within walls has the same density in every cell, and none beyond them.
+TEST(DensityMaps, OfAGasAreEvenWithinTheWalls) {
+  Draw draw(72);
+  const Box box(40);
+  for (const SideWalls& walls : {SideWalls{Arena::kDisc, 36}, SideWalls{Arena::kAnnulus, 38, 16},
+                                 SideWalls{Arena::kSquare, 31}, SideWalls{Arena::kChannel, 33}}) {
+    const Region region(box, walls);
+    DensityMaps maps(region, Grid(8), kStep, 40);
+    for (int k = 0; k < 40; ++k) {
+      std::vector<Vec3> places;
+      while (places.size() < 2000) {
+        const Vec3 place(draw.uniform(0, 40), draw.uniform(0, 40), 0);
+        if (region.contains(place.head<2>())) places.push_back(place);
+      }
+      maps.accumulate(k * kStep, places);
+    }
+    int outside = 0;
+    for (const double density : maps.densities()) {
+      if (std::isnan(density)) {
+        ++outside;
+      } else {
+        EXPECT_NEAR(density, 1, 0.2) << static_cast<int>(walls.arena);
+      }
+    }
+    EXPECT_GE(outside, walls.arena == Arena::kChannel ? 0 : 4);
+    EXPECT_LT(maps.reduce(0).variance.value, 1e-3);
+  }
+}
+
+// Independent rods: the variance is one over the number that a cell counts; nothing stays, and nothing is remembered.
+TEST(DensityMaps, OfIndependentRodsVaryAsAGasDoes) {
+  Draw draw(73);
+  DensityMaps maps(Box(20), Grid(10), kStep, 2);
+  for (int k = 0; k < 800; ++k) maps.accumulate(k * kStep, random_places(draw, 400, Box(20)));
+  const DensitySummary summary = maps.reduce(0);
+  EXPECT_NEAR(summary.variance.value, 0.99 / 8, 5 * summary.variance.sem);
+  EXPECT_LT(summary.variance.sem, 2e-3);
+  EXPECT_LT(summary.variance_of_mean.value, 1e-3);
+  EXPECT_EQ(summary.correlation.value[0], 1);
+  EXPECT_NEAR(summary.lag[1], 0.2, 1e-12);
+  double chi2 = 0;
+  for (std::size_t k = 1; k < summary.lag.size(); ++k) {
+    chi2 += std::pow(summary.correlation.value[k] / summary.correlation.sem[k], 2);
+  }
+  EXPECT_NEAR(chi2 / static_cast<double>(summary.lag.size() - 1), 1, 0.5);
+}
+
+// Each rod stays with probability a until the next sample: the map forgets as a^k.
+TEST(DensityMaps, ForgetAsTheRodsDo) {
+  Draw draw(74);
+  DensityMaps maps(Box(20), Grid(10), kStep, 1);
+  std::vector<Vec3> places = random_places(draw, 400, Box(20));
+  constexpr double kStays = 0.9;
+  for (int k = 0; k < 4000; ++k) {
+    for (Vec3& place : places) {
+      if (draw.uniform(0, 1) > kStays) place = Vec3(draw.uniform(0, 20), draw.uniform(0, 20), 0);
+    }
+    maps.accumulate(k * kStep, places);
+  }
+  const DensitySummary summary = maps.reduce(0);
+  for (std::size_t k = 1; k < 20; ++k) {
+    EXPECT_NEAR(summary.correlation.value[k], std::pow(kStays, k), 5 * summary.correlation.sem[k] + 1e-3);
+    EXPECT_LT(summary.correlation.sem[k], 0.02);
+  }
+  EXPECT_NEAR(summary.correlation_time.value, -kStep / std::log(kStays), 5 * summary.correlation_time.sem);
+  EXPECT_LT(summary.correlation_time.sem, 0.05);
+}
+
+TEST(DensityMaps, GoOnBitwiseAfterASave) {
+  Draw draw(75);
+  const Region region(Box(20), SideWalls{Arena::kDisc, 19});
+  const DensityMaps empty(region, Grid(4), kStep, 3);
+  DensityMaps straight = empty, stopped = empty;
+  for (int k = 0; k < 7; ++k) {
+    const std::vector<Vec3> places = random_places(draw, 30, Box(20));
+    for (DensityMaps* maps : {&straight, &stopped}) maps->accumulate(k * kStep, places);
+    stop_and_go_on(stopped, empty);
+    EXPECT_EQ(state(stopped), state(straight));
+  }
+  expect_every_truncation_found(straight);
+  DensityMaps other(region, Grid(5), kStep, 3);
+  const std::vector<std::byte> bytes = state(straight);
+  StateReader reader(bytes);
+  EXPECT_THROW(other.restore(reader), StateError);
+}
+
+}  // namespace
+}  // namespace shaken::analysis
