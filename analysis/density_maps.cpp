@@ -30,9 +30,11 @@ std::vector<double> shares_within(const Region& region, const Grid& grid) {
   for (int j = 0; j < grid.rows; ++j) {
     for (int i = 0; i < grid.columns; ++i) {
       int within = 0;
-      for (int k = 0; k < kPlacesInCell * kPlacesInCell; ++k) {
-        const Vec2 inside(k % kPlacesInCell + 0.5, k / kPlacesInCell + 0.5);
-        within += region.contains(mesh.cwiseProduct(Vec2(i, j) + inside / kPlacesInCell)) ? 1 : 0;
+      for (int b = 0; b < kPlacesInCell; ++b) {
+        for (int a = 0; a < kPlacesInCell; ++a) {
+          const Vec2 place = Vec2(i, j) + Vec2(a + 0.5, b + 0.5) / kPlacesInCell;
+          within += region.contains(mesh.cwiseProduct(place)) ? 1 : 0;
+        }
       }
       shares.push_back(static_cast<double>(within) / (kPlacesInCell * kPlacesInCell));
     }

@@ -39,6 +39,7 @@ class MeasuredDensity : public Measurement {
  private:
   static std::vector<double> centres(int n, double mesh) {
     std::vector<double> at;
+    at.reserve(static_cast<std::size_t>(n));
     for (int k = 0; k < n; ++k) at.push_back((k + 0.5) * mesh);
     return at;
   }

@@ -257,7 +257,7 @@ TEST(DefectMaps, TheDensityIsThatOfTheRoomWithinTheWalls) {
     Vec2 core;
   };
   for (const Place& place : {Place{{Arena::kDisc, 50}, {51, 33}}, Place{{Arena::kSquare, 50}, {8, 9}},
-                             Place{{Arena::kAnnulus, 50, 20}, {30, 44}}, Place{{Arena::kChannel, 50}, {59, 6}}}) {
+                             Place{{Arena::kAnnulus, 50, 8}, {30, 35}}, Place{{Arena::kChannel, 50}, {59, 6}}}) {
     const Region region(kBox, place.walls);
     const Flow flow = about_defect(draw, 60000, region, place.core, 0.5, 0.8, [](const Vec2&) { return Vec2(0, 0); });
     const DefectMap map = maps_of(flow, std::vector<Defect>{{place.core, 0.5, 1.6}}, region).plus();
@@ -271,6 +271,41 @@ TEST(DefectMaps, TheDensityIsThatOfTheRoomWithinTheWalls) {
     EXPECT_NEAR(map.core_density, 1, 0.15);
     EXPECT_LT(bins, 0.8 * kPi / 4 * kBins * kBins) << "none beyond the walls";
   }
+}
+
+// Behind the inner wall of a ring: 6.5 mm away, in the annulus, out of sight.
+TEST(DefectMaps, WhatAWallHidesIsUnknown) {
+  Draw draw(68);
+  const Region ring(kBox, SideWalls{Arena::kAnnulus, 50, 8});
+  const Vec2 core(30, 35), hidden(4.6, -4.6), seen(4.6, 4.6);
+  ASSERT_TRUE(ring.contains(core + hidden));
+  const Flow flow = about_defect(draw, 60000, ring, core, 0.5, 0, [](const Vec2&) { return Vec2(0, 0); });
+  const DefectMap map = maps_of(flow, std::vector<Defect>{{core, 0.5, 0}}, ring).plus();
+  const auto density_at = [&](const Vec2& way) {
+    const double width = 2 * kRange / kBins;
+    return map.density[static_cast<std::size_t>((way.y() + kRange) / width) * kBins +
+                       static_cast<std::size_t>((way.x() + kRange) / width)];
+  };
+  EXPECT_TRUE(std::isnan(density_at(hidden)));
+  EXPECT_GT(density_at(seen), 0.3);
+}
+
+// Of rods without any correlation too: the defects were found from those that are averaged about them.
+TEST(DefectMaps, OfANoiseAreAsLargeAsItsSmoothing) {
+  Draw draw(67);
+  constexpr double kSmoothing = 1.5;
+  DefectMaps maps({16, kRange, kSmoothing});
+  for (int k = 0; k < 60; ++k) {
+    const std::vector<Vec3> places = random_places(draw, 2500, kBox), axes = random_axes(draw, 2500);
+    const auto found = find_defects(DirectorField(places, axes, Region(kBox), Grid(kBox, 0.5), kSmoothing));
+    maps.accumulate(k * kStep, places, places, axes, lone_defects(found, 2 * kSmoothing, Region(kBox)), Region(kBox));
+  }
+  const DefectMap map = maps.sums().all().plus();
+  EXPECT_GT(map.defects, 500);
+  const auto cosine = [&](std::size_t column) { return (map.cos2[7 * 16 + column] + map.cos2[8 * 16 + column]) / 2; };
+  EXPECT_GT(cosine(9), 0.1) << "1.5 mm towards the tail";
+  EXPECT_LT(cosine(6), -0.1) << "1.5 mm before the head";
+  EXPECT_NEAR(cosine(14), 0, 0.07) << "6.5 mm away";
 }
 
 TEST(LoneDefects, AreFarFromAllOthers) {

@@ -50,7 +50,7 @@ TEST(DensityMaps, AreTheMeanNumbersInTheCells) {
   EXPECT_NEAR(all.variance_of_mean.value, of_mean, 1e-9);
   EXPECT_NEAR(all.mean[7], (expected[7] + expected[27]) / 2, 1e-9);
   EXPECT_NEAR(maps.reduce(0.25).mean[7], expected[27], 1e-9) << "the map that begins at 0.3 s";
-  EXPECT_TRUE(std::isnan(maps.reduce(5).mean[7]));
+  EXPECT_TRUE(std::isnan(maps.reduce(0.35).mean[7])) << "it has begun before";
 }
 
 // A gas within walls has the same density in every cell, and none beyond them.
@@ -80,6 +80,39 @@ TEST(DensityMaps, OfAGasAreEvenWithinTheWalls) {
     EXPECT_GE(outside, walls.arena == Arena::kChannel ? 0 : 4);
     EXPECT_LT(maps.reduce(0).variance.value, 1e-3);
   }
+}
+
+// Rods in the middle of a disc only: means over cells are weighted by what of each lies within the wall.
+TEST(DensityMaps, CellsCountByTheirArea) {
+  Draw draw(76);
+  const Region region(Box(40), SideWalls{Arena::kDisc, 38});
+  DensityMaps maps(region, Grid(10), kStep, 1);
+  std::vector<Vec3> places;
+  while (places.size() < 3000) {
+    const Vec3 place(draw.uniform(10, 30), draw.uniform(10, 30), 0);
+    if (std::hypot(place.x() - 20, place.y() - 20) < 10) places.push_back(place);
+  }
+  maps.accumulate(0, places);
+  std::vector<double> inside(100);
+  for (int k = 0; k < 2000000; ++k) {
+    const Vec2 place(draw.uniform(0, 40), draw.uniform(0, 40));
+    if ((place - Vec2(20, 20)).norm() < 19) {
+      inside[static_cast<std::size_t>(place.y() / 4) * 10 + static_cast<std::size_t>(place.x() / 4)] += 1;
+    }
+  }
+  double weighted = 0, weight = 0, plain = 0, cells = 0;
+  for (std::size_t cell = 0; cell < 100; ++cell) {
+    const double density = maps.densities()[cell];
+    EXPECT_EQ(std::isnan(density), inside[cell] < 0.1 * 2000000 / 100) << cell;
+    if (std::isnan(density)) continue;
+    weighted += inside[cell] * std::pow(density - 1, 2);
+    weight += inside[cell];
+    plain += std::pow(density - 1, 2);
+    cells += 1;
+  }
+  const double variance = maps.reduce(0).variance.value;
+  EXPECT_NEAR(variance, weighted / weight, 0.01 * variance);
+  EXPECT_GT(std::abs(variance - plain / cells), 0.05 * variance) << "or else the weights would not matter here";
 }
 
 // Independent rods: the variance is one over the number that a cell counts; nothing stays, and nothing is remembered.
