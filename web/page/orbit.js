@@ -91,8 +91,15 @@ function bodyOfRings() {
   return {corners: new Float32Array(corners.flat()), triangles: new Uint16Array(triangles)};
 }
 
-/** The edge of what rods may be in, at height `z`: of the box, or of its arena. Corners of closed lines. */
-function edges({box_mm: [width, height], walls}) {
+/** The edges of what rods may be in: of the box, or of its arena, and of the posts in it. Corners of closed lines. */
+function edges(frame) {
+  const circle = ([x, y], radius) => Array.from({length: 36}, (_, k) =>
+    [x + radius * Math.cos(k * Math.PI / 18), y + radius * Math.sin(k * Math.PI / 18)]);
+  const {diameter_mm = 0, centres_mm = []} = frame.posts ?? {};
+  return [...outerEdges(frame), ...centres_mm.map((centre) => circle(centre, diameter_mm / 2))];
+}
+
+function outerEdges({box_mm: [width, height], walls}) {
   const rectangle = (a, b) => [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([x, y]) => [(width + x * a) / 2, (height + y * b) / 2]);
   if (!walls) return [rectangle(width, height)];
   if (walls.arena === "square") return [rectangle(walls.size_mm, walls.size_mm)];
@@ -189,10 +196,10 @@ export class OrbitPainter {
     gl.depthMask(false);
     for (const [what, height, darkness] of parts) {
       gl.uniform4f(plates.at.shade, r / 255, g / 255, b / 255, darkness);
-      const [outer, inner] = edges(frame), isPost = what === gl.LINES;
-      for (const line of what === gl.TRIANGLE_FAN || !inner ? [outer] : [outer, inner]) {
-        const posts = line.filter((_, k) => k % Math.ceil(line.length / 8) === 0);
-        const places = isPost ? posts.flatMap(([x, y]) => [x, y, 0, x, y, frame.gap_mm]) : line.flatMap(([x, y]) => [x, y, height]);
+      const lines = edges(frame), isUpright = what === gl.LINES;
+      for (const line of what === gl.TRIANGLE_FAN ? lines.slice(0, 1) : lines) {
+        const feet = line.filter((_, k) => k % Math.ceil(line.length / 8) === 0);
+        const places = isUpright ? feet.flatMap(([x, y]) => [x, y, 0, x, y, frame.gap_mm]) : line.flatMap(([x, y]) => [x, y, height]);
         fill(gl, this.places, new Float32Array(places));
         gl.drawArrays(what, 0, places.length / 3);
       }
