@@ -61,4 +61,21 @@ std::optional<Cell> decode_cell(const frame_static_t& message) {
   return cell;
 }
 
+posts_t encode_posts(const StandingPosts& posts) {
+  posts_t message{};
+  message.diameter_mm = posts.diameter;
+  message.n_posts = static_cast<std::int32_t>(posts.centres.size());
+  for (const Vec2& centre : posts.centres) {
+    message.x_mm.push_back(centre.x());
+    message.y_mm.push_back(centre.y());
+  }
+  return message;
+}
+
+StandingPosts decode_posts(const posts_t& message) {
+  StandingPosts posts{message.diameter_mm, {}};
+  for (std::size_t k = 0; k < message.x_mm.size(); ++k) posts.centres.emplace_back(message.x_mm[k], message.y_mm[k]);
+  return posts;
+}
+
 }  // namespace shaken::proto

@@ -10,5 +10,6 @@ inline constexpr const char* kObservablesChannel = "SHAKEN_OBSERVABLES";   ///< 
 inline constexpr const char* kFrameStaticChannel = "SHAKEN_FRAME_STATIC";  ///< frame_static_t
 inline constexpr const char* kFrameChannel = "SHAKEN_FRAME";               ///< frame_t
 inline constexpr const char* kDefectsChannel = "SHAKEN_DEFECTS";           ///< defects_t
+inline constexpr const char* kPostsChannel = "SHAKEN_POSTS";               ///< posts_t
 
 }  // namespace shaken::proto

@@ -147,9 +147,10 @@ bool has_inset(const RodPicture& picture, const PictureStyle& style) {
     case Inset::kSweep:
       return picture.captions.sweep != nullptr;
     case Inset::kG2Map:
-      return picture.count(0) > 1 && !picture.cell.walls;
+      return picture.count(0) > 1 && !picture.cell.walls && picture.cell.posts.centres.empty();
+    case Inset::kG2:  // posts would stand in the lines of sight
+      return picture.count(0) > 1 && picture.cell.posts.centres.empty();
     case Inset::kAngles:
-    case Inset::kG2:
       break;
   }
   return picture.count(0) > 1;

@@ -119,6 +119,24 @@ void draw_walls(const Canvas& canvas, const Plane& plane, const Cell& cell, cons
   cairo_stroke(cr);
 }
 
+void draw_posts(const Canvas& canvas, const Plane& plane, const StandingPosts& posts, const PageColours& colours,
+                double unit, bool has_ground) {
+  cairo_t* cr = canvas.cairo();
+  const double radius = 0.5 * posts.diameter;
+  cairo_set_line_width(cr, 1.5 * unit);
+  for (const Vec2& centre : posts.centres) {
+    for_images(plane.view(), centre, radius, [&](const Vec2& at) {
+      const Vec2 middle = plane.pixel(at);
+      cairo_new_path(cr);
+      cairo_arc(cr, middle.x(), middle.y(), radius * plane.scale(), 0, 2 * kPi);
+      canvas.colour(colours.walls);
+      if (has_ground) cairo_fill_preserve(cr);
+      canvas.colour(colours.ink);
+      cairo_stroke(cr);
+    });
+  }
+}
+
 /// The points of all lines so far, found by place. Periodic.
 class Occupied {
  public:
@@ -257,8 +275,9 @@ void draw_ground(const Canvas& canvas, const Layout& layout, const RodPicture& p
   if (!style.transparent || style.ground) canvas.fill(plane.box());
   if (style.background == Background::kOrder && picture.found.field)
     draw_order(canvas, plane, *picture.found.field, style.theme);
-  if (picture.cell.walls)
-    draw_walls(canvas, plane, picture.cell, colours, layout.unit, !style.transparent || style.ground);
+  const bool has_ground = !style.transparent || style.ground;
+  if (picture.cell.walls) draw_walls(canvas, plane, picture.cell, colours, layout.unit, has_ground);
+  draw_posts(canvas, plane, picture.cell.posts, colours, layout.unit, has_ground);
 }
 
 void draw_flat_rods(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style) {

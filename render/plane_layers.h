@@ -10,8 +10,8 @@
 
 namespace shaken::render {
 
-/// Floor or background, and what lies beyond side walls: all that is under the rods of a picture that does not get them
-/// from the rods pass.
+/// Floor or background, what lies beyond side walls, and posts: all that is under the rods of a picture that does not
+/// get them from the rods pass.
 void draw_ground(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style);
 
 /// The outlines of all rods seen from above, as areas without light and shadow.

@@ -45,9 +45,13 @@ void RodBatch::draw(GLuint program) const {
   glUniform2f(at("ends"), static_cast<float>(ends.x()), static_cast<float>(ends.y()));
   glUniform1f(at("pitch"), static_cast<float>(pitch));
   glUniform1f(at("thick"), static_cast<float>(thick));
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(rods.size() * sizeof(RodInstance)), rods.data(),
+  draw_quads(rods);
+}
+
+void draw_quads(const std::vector<RodInstance>& instances) {
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(instances.size() * sizeof(RodInstance)), instances.data(),
                GL_STREAM_DRAW);
-  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(rods.size()));
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(instances.size()));
 }
 
 RodBuffer::RodBuffer() {

@@ -31,6 +31,9 @@ struct RodBatch {
   std::vector<RodInstance> rods;
 };
 
+/// Draws one quad for each instance from the bound RodBuffer, with the program in use.
+void draw_quads(const std::vector<RodInstance>& instances);
+
 /// Where OpenGL keeps the instances of the batch that is drawn. Goes with its context.
 class RodBuffer {
  public:

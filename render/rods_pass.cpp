@@ -85,6 +85,17 @@ RodBatch seen_rods(const RodPicture& picture, std::size_t species, const Picture
   return batch;
 }
 
+/// All posts, and their periodic images, of which a part may be seen; relative to the eye.
+std::vector<RodInstance> seen_posts(const StandingPosts& posts, const Camera& camera, const Colour& colour) {
+  std::vector<RodInstance> seen;
+  for (const Vec2& centre : posts.centres) {
+    for_images(camera.low, camera.high, camera.period, centre, 0.5 * posts.diameter, [&](const Vec2& at) {
+      seen.emplace_back(Vec3(at.x() - camera.eye.x(), at.y() - camera.eye.y(), 0), Vec3::UnitZ(), colour);
+    });
+  }
+  return seen;
+}
+
 /// Hands over what all programs may ask for; `program` is then in use.
 void set_scene(GLuint program, const Cell& cell, const Frame& frame, const PictureStyle& style, const Camera& camera,
                int height) {
@@ -145,6 +156,7 @@ void set_scene(GLuint program, const Cell& cell, const Frame& frame, const Pictu
 struct RodsPass::Programs {
   ProgramVariants plates{{shaders::kCamera, shaders::kStage}, {shaders::kFloor, shaders::kPlates}};
   ProgramVariants shadow{{shaders::kCamera, shaders::kShadowQuad}, {shaders::kFloor, shaders::kShadow}};
+  ProgramVariants post{{shaders::kCamera, shaders::kPostQuad}, {shaders::kFloor, shaders::kPost}};
   ProgramVariants body{{shaders::kCamera, shaders::kQuad}, {shaders::kFloor, shaders::kBody}};
   RodBuffer rods;
 };
@@ -176,8 +188,8 @@ Result<ImageOf<Channel>> RodsPass::draw(const RodPicture& picture, const Picture
     if (is_on) lit.append("#define ").append(name).append("\n");
   }
   const Result<GLuint> plates = programs_->plates.with(seen), shadow = programs_->shadow.with(seen),
-                       body = programs_->body.with(seen + lit);
-  for (const Result<GLuint>* program : {&plates, &shadow, &body}) {
+                       post = programs_->post.with(seen), body = programs_->body.with(seen + lit);
+  for (const Result<GLuint>* program : {&plates, &shadow, &post, &body}) {
     if (!*program) return program->error();
   }
   std::vector<RodBatch> batches;
@@ -219,6 +231,12 @@ Result<ImageOf<Channel>> RodsPass::draw(const RodPicture& picture, const Picture
     glDisable(GL_BLEND);
   }
   draw_with(*body);
+  const StandingPosts& posts = picture.cell.posts;
+  if (const auto seen_ones = seen_posts(posts, camera, ground_colours(style).walls); !seen_ones.empty()) {
+    set_scene(*post, picture.cell, picture.frame, style, camera, height);
+    glUniform1f(glGetUniformLocation(*post, "radius"), static_cast<float>(0.5 * posts.diameter));
+    draw_quads(seen_ones);
+  }
 
   const std::vector<Channel>& pixels = context_.finished_pixels<Channel>();
   if (const GLenum code = glGetError(); code != GL_NO_ERROR) {

@@ -16,7 +16,7 @@ namespace shaken::render {
 /// Model:    one quad for each rod, on which each pixel's ray is cut with the beads themselves, so the outline is that
 ///           of the simulated body; the depth is the surface's own. Rods are repeated across the periodic border as far
 ///           as one sees. Each species is drawn with its own beads. The plates are where they are at the picture's
-///           time; beyond side walls the floor is tinted.
+///           time; beyond side walls the floor is tinted, and posts, which stand on it, have the same colour.
 /// Numerics: the samples of a pixel are averaged; the same bits for any number of rasteriser threads.
 class RodsPass {
  public:

@@ -225,6 +225,92 @@ void main() {
 }
 )";
 
+/// One quad around each post as it is seen; the whole picture if a part of it lies behind the eye. (After kCamera.)
+inline constexpr const char* kPostQuad = R"(
+layout(location = 0) in vec3 centre;  // of which the height does not matter
+layout(location = 1) in vec3 axis;
+layout(location = 2) in vec3 colour;
+uniform float radius;
+uniform vec2 plates;
+flat out vec2 post;
+flat out vec3 post_colour;
+out vec3 start;
+out vec3 ray;
+
+void main() {
+  vec2 low = vec2(1e9), high = vec2(-1e9);
+  for (int i = 0; i < 8; ++i) {
+    vec2 edge = centre.xy + radius * (vec2(i & 1, (i >> 1) & 1) * 2.0 - 1.0);
+    vec3 seen = axes * vec3(edge, (i >> 2) == 0 ? plates.x : plates.y);
+    bool is_behind = !is_parallel && seen.z < 1e-3;
+    vec2 slope = is_parallel ? seen.xy : seen.xy / seen.z;
+    low = is_behind ? -half_view : min(low, slope);
+    high = is_behind ? half_view : max(high, slope);
+  }
+  vec2 slope = mix(max(low, -half_view), min(high, half_view), corner());
+  post = centre.xy;
+  post_colour = colour;
+  start = start_of(slope);
+  ray = ray_of(slope);
+  gl_Position = vec4(slope / half_view, 0.0, 1.0);
+}
+)";
+
+/// A post: what lies between the plates of a vertical cylinder, with its rim in ink. (After kFloor.)
+inline constexpr const char* kPost = R"(
+uniform float radius;
+uniform vec2 plates;
+uniform float cut;
+uniform float nearest;
+uniform float line;
+uniform vec3 forward;
+uniform vec2 depths;
+uniform vec3 light;
+uniform vec3 ink;
+flat in vec2 post;
+flat in vec3 post_colour;
+in vec3 start;
+in vec3 ray;
+out vec4 pixel;
+
+void main() {
+  // The part of the ray between the plates, and of that the part within the cylinder.
+  vec2 ends = ray.z == 0.0 ? vec2(-1e9, 1e9) : (plates - start.z) / ray.z;
+  float enter = min(ends.x, ends.y), leave = max(ends.x, ends.y);
+  vec2 o = start.xy - post;
+  float a = dot(ray.xy, ray.xy), b = dot(o, ray.xy), inside = radius * radius - dot(o, o);
+  bool is_side = false;
+  if (a > 1e-9) {
+    float root2 = b * b + a * inside;
+    if (root2 < 0.0) discard;
+    float first = (-b - sqrt(root2)) / a;
+    is_side = first > enter;
+    enter = max(enter, first);
+    leave = min(leave, (-b + sqrt(root2)) / a);
+  } else if (inside < 0.0) {
+    discard;
+  }
+  float opened = cut > 0.0 ? cut / dot(ray, forward) : nearest < 0.0 ? -1e9 : 0.0;
+  bool is_cut = enter < opened;
+  enter = max(enter, opened);
+  if (enter > leave) discard;
+
+  vec3 at = start + enter * ray;
+  vec2 from_axis = at.xy - post;
+  vec3 colour = post_colour;
+  if (is_cut) {
+    // as the cut edges of the plates
+  } else if (is_side) {
+    colour *= 0.72 + 0.28 * dot(vec3(from_axis / radius, 0.0), light);
+  } else if (radius - length(from_axis) < line) {
+    colour = ink;
+  }
+  float depth = dot(at, forward);
+  pixel = vec4(faded(colour, depth), 1.0);
+  gl_FragDepth = clamp((depth - depths.x) / (depths.y - depths.x), 0.0, 0.999);
+}
+)";
+
 /// The whole picture as one quad. (After kCamera.)
 inline constexpr const char* kStage = R"(
 out vec3 start;

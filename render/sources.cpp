@@ -9,6 +9,7 @@
 #include <optional>
 #include <shaken/frame_static_t.hpp>
 #include <shaken/frame_t.hpp>
+#include <shaken/posts_t.hpp>
 
 #include "analysis/order.h"
 #include "base/files.h"
@@ -309,15 +310,20 @@ Result<RodPicture> live_picture(const std::string& lcm_url, const std::string& j
   std::optional<frame_static_t> constants;
   std::optional<proto::FrameAssembler> assembler;
   std::optional<proto::Frame> frame;
+  StandingPosts posts;
   const auto note_constants = [&](const frame_static_t& message) {
     if (constants || !message.job_id.starts_with(job)) return;
     constants = message;
     assembler.emplace(message.job_id);
   };
+  const auto note_posts = [&](const posts_t& message) {  // sent after the unchanging part, and before frames
+    if (constants && message.job_id == constants->job_id) posts = proto::decode_posts(message);
+  };
   const auto note_chunk = [&](const frame_t& chunk) {
     if (assembler && !frame) frame = assembler->add(chunk);
   };
   if (!bus.subscribe<frame_static_t>(proto::kFrameStaticChannel, note_constants) ||
+      !bus.subscribe<posts_t>(proto::kPostsChannel, note_posts) ||
       !bus.subscribe<frame_t>(proto::kFrameChannel, note_chunk)) {
     return Error{"LCM refuses a subscription at " + lcm_url};
   }
@@ -340,6 +346,7 @@ Result<RodPicture> live_picture(const std::string& lcm_url, const std::string& j
   const std::optional<Cell> cell = proto::decode_cell(*constants);
   if (!cell) return Error{"the job's messages have numbers of beads that contradict each other"};
   picture.cell = *cell;
+  picture.cell.posts = posts;
   picture.cell.box = frame->box;
   for (const proto::RodPose& rod : frame->rods) {
     const std::array<double, 3> axis = rod.axis();

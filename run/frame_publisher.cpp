@@ -48,12 +48,15 @@ namespace {
 /// The thread's own part: numbers the messages and puts them on the bus.
 class Sender {
  public:
-  Sender(std::unique_ptr<proto::Bus> bus, std::string job_id, frame_static_t constants)
-      : bus_(std::move(bus)), job_id_(std::move(job_id)), constants_(std::move(constants)) {}
+  Sender(std::unique_ptr<proto::Bus> bus, std::string job_id, frame_static_t constants, std::optional<posts_t> posts)
+      : bus_(std::move(bus)), job_id_(std::move(job_id)), constants_(std::move(constants)), posts_(std::move(posts)) {}
 
   void send_static(double sim_time) {
     constants_.sim_time_s = sim_time;
     send(proto::kFrameStaticChannel, constants_, static_sequence_);
+    if (!posts_) return;
+    posts_->sim_time_s = sim_time;
+    send(proto::kPostsChannel, *posts_, posts_sequence_);
   }
   bool send(proto::Frame& frame) {
     frame.utime = utime_now();
@@ -81,7 +84,9 @@ class Sender {
   std::unique_ptr<proto::Bus> bus_;
   std::string job_id_;
   frame_static_t constants_;
+  std::optional<posts_t> posts_;
   std::int64_t static_sequence_ = 0;
+  std::int64_t posts_sequence_ = 0;
   std::int64_t frame_sequence_ = 0;
   std::int64_t observables_sequence_ = 0;
   std::int64_t defects_sequence_ = 0;
@@ -89,11 +94,12 @@ class Sender {
 
 }  // namespace
 
-FramePublisher::FramePublisher(const std::string& lcm_url, const std::string& job_id, const frame_static_t& constants)
+FramePublisher::FramePublisher(const std::string& lcm_url, const std::string& job_id, const frame_static_t& constants,
+                               const std::optional<posts_t>& posts)
     : shared_(std::make_shared<Shared>()) {
-  const auto work = [shared = shared_, lcm_url, job_id, constants] {
+  const auto work = [shared = shared_, lcm_url, job_id, constants, posts] {
     if (auto bus = proto::Bus::open(lcm_url)) {
-      Sender sender(std::move(bus).value(), job_id, constants);
+      Sender sender(std::move(bus).value(), job_id, constants, posts);
       Clock::time_point next_static = Clock::now();
       double sim_time = 0;
       for (bool closing = false; !closing;) {

@@ -95,8 +95,11 @@ class Loop {
     progress_.n_rods = static_cast<int>(world.rods.size());
     aim_at(scene::next_end(plan, run_.simulation.tick()));
     if (plan.stream && options.lcm_url) {
+      const Cell cell = world.cell();
+      std::optional<posts_t> posts;
+      if (!cell.posts.centres.empty()) posts = proto::encode_posts(cell.posts);
       publisher_ = std::make_unique<FramePublisher>(*options.lcm_url, options.job_id,
-                                                    proto::encode_cell(world.cell(), world.rods.size(), options.label));
+                                                    proto::encode_cell(cell, world.rods.size(), options.label), posts);
     }
   }
 

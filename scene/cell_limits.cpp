@@ -13,7 +13,7 @@ namespace shaken::scene {
 
 namespace {
 
-constexpr std::size_t kMostPosts = 200 * 200;  ///< sites of the largest lattice
+constexpr std::size_t kMostPosts = 60 * 60;  ///< sites of the largest lattice
 
 }  // namespace
 

@@ -77,7 +77,7 @@ Field straight_walls() {
 
 /// A number of sites along one axis; nothing where each place is given.
 Field lattice_sites(const std::string& path, auto access, const std::string& doc) {
-  Field field = whole(path, access, 1, 200, doc);
+  Field field = whole(path, access, 1, 60, doc);
   field.fetch = [always = field.fetch](const RunPlan& p) {
     return p.system.posts->places.empty() ? always(p) : Value();
   };

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "base/keys/units.h"
@@ -12,6 +13,7 @@
 #include "scene/fields.h"
 #include "scene/measured_species.h"
 #include "scene/observables.h"
+#include "sim/rod/species.h"
 
 namespace shaken::scene {
 
@@ -55,10 +57,27 @@ bool has_head(const RodShape& rod) {
   return rod.has_axis() && rod.profile == Profile::kPolar && rod.mid_diameter != rod.end_diameter;
 }
 
+/// That no rod gets through between the posts of a lattice that fills the box; none if some do.
+std::optional<std::string> remark_on_posts(const System& system) {
+  if (!system.posts || !system.posts->places.empty() || system.walls) return std::nullopt;
+  double thinnest = species_of(system.rod).max_radius;
+  for (const auto& added : system.added) {
+    if (added) thinnest = std::min(thinnest, species_of(added->rod).max_radius);
+  }
+  const double apart = std::max(system.box().x() / system.posts->columns, system.box().y() / system.posts->rows);
+  const double gap = apart - system.posts->diameter;
+  if (gap > 2 * thinnest) return std::nullopt;
+  return fmt::format(
+      "the posts leave gaps of at most {}, through which no rod gets: each stays between the posts where "
+      "it starts",
+      format_quantity(gap, Dimension::kLength));
+}
+
 }  // namespace
 
 std::vector<std::string> remarks(const RunPlan& plan) {
   std::vector<std::string> list;
+  if (const auto remark = remark_on_posts(plan.system)) list.push_back(*remark);
   const double total = plan.total_time();
   const auto remark_one_frame = [&](const char* path, double every) {
     if (every <= total) return;

@@ -37,6 +37,11 @@ nlohmann::ordered_json head_of(const client::RodFrame& frame) {
              {"inner_mm", frame.cell.walls->inner}};
     if (frame.cell.walls->arena == Arena::kStadium) walls["length_mm"] = frame.cell.walls->length;
   }
+  nlohmann::ordered_json posts;
+  if (!frame.cell.posts.centres.empty()) {
+    posts = {{"diameter_mm", frame.cell.posts.diameter}, {"centres_mm", nlohmann::ordered_json::array()}};
+    for (const Vec2& centre : frame.cell.posts.centres) posts["centres_mm"].push_back({centre.x(), centre.y()});
+  }
   return {{"time_s", frame.time},
           {"box_mm", {frame.cell.box.x(), frame.cell.box.y()}},
           {"order", frame.order},
@@ -45,7 +50,8 @@ nlohmann::ordered_json head_of(const client::RodFrame& frame) {
           {"outlines", outlines},
           {"gap_mm", frame.cell.gap},
           {"has_heights", !frame.heights.empty()},
-          {"walls", walls}};
+          {"walls", walls},
+          {"posts", posts}};
 }
 
 }  // namespace

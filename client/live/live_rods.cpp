@@ -47,12 +47,23 @@ void LiveRods::select(const std::string& job) {
 
 void LiveRods::note(const frame_static_t& message) {
   if (job_.empty() || message.job_id != job_) return;
-  const std::optional<Cell> cell = proto::decode_cell(message);
+  std::optional<Cell> cell = proto::decode_cell(message);
   if (!cell || message.n_rods < 0) return;
+  cell->posts = posts_;
   const auto n_rods = static_cast<std::size_t>(message.n_rods);
   if (Result<RodFrame> constants = constants_of(*cell, n_rods)) {
     constants_ = std::move(*constants);
     n_rods_ = n_rods;
+  }
+}
+
+void LiveRods::note(const posts_t& message) {
+  if (!constants_ || message.job_id != job_) return;
+  Cell cell = constants_->cell;
+  cell.posts = proto::decode_posts(message);
+  if (Result<RodFrame> constants = constants_of(cell, n_rods_)) {
+    constants_ = std::move(*constants);
+    posts_ = cell.posts;
   }
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <shaken/frame_static_t.hpp>
 #include <shaken/frame_t.hpp>
+#include <shaken/posts_t.hpp>
 #include <string>
 
 #include "base/core/result.h"
@@ -25,6 +26,7 @@ class LiveRods {
   const std::string& job() const { return job_; }
   /// Messages about other jobs than the selected one are ignored; so are frames that do not fit to the last constants.
   void note(const frame_static_t& message);
+  void note(const posts_t& message);
   void note(const frame_t& message);
 
   /// The newest whole frame; null if none has come.
@@ -36,6 +38,7 @@ class LiveRods {
   std::string job_;
   std::optional<RodFrame> constants_;
   std::size_t n_rods_ = 0;
+  StandingPosts posts_;  ///< the last that have come
   proto::FrameAssembler assembler_{""};
   std::shared_ptr<const RodFrame> newest_;
   std::int64_t received_ = 0;

@@ -143,6 +143,8 @@ class Watch : public Verb {
     if (rods == nullptr) return;
     bus.subscribe<frame_static_t>(
         proto::kFrameStaticChannel, [rods](const frame_static_t& message) { rods->note(message); }, 100);
+    bus.subscribe<posts_t>(
+        proto::kPostsChannel, [rods](const posts_t& message) { rods->note(message); }, 100);
     bus.subscribe<frame_t>(
         proto::kFrameChannel, [rods](const frame_t& message) { rods->note(message); }, 500);
   }

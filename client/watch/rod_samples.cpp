@@ -51,6 +51,7 @@ RodSamples::RodSamples(const RodFrame& frame, const RodView& view, Colouring col
   row_begin_ = std::max(0, first_row(bottom + box.y()));
   row_end_ = std::min(height_, first_row(bottom));
   if (frame.cell.walls) draw_walls(*frame.cell.walls);
+  draw_posts(frame.cell.posts);
   for (std::size_t i = 0; i < frame.rods.size(); ++i) {
     draw(frame.rods[i], frame.outlines[frame.cell.species_of(i)], tone_of(frame, i, colouring));
   }
@@ -91,6 +92,30 @@ void RodSamples::draw_walls(const SideWalls& walls) {
       const Vec3 point(x_ + x_of(column), y_ + y_of(row), 0);
       const double distance = distance_to_walls(walls, frame_.cell.box, point);
       if (std::abs(distance) < reach) tones_[index(column, row)] = kWallTone;
+    }
+  }
+}
+
+void RodSamples::draw_posts(const StandingPosts& posts) {
+  const double radius = std::max(0.5 * posts.diameter, 0.5001 / per_mm_);  // never between two samples
+  const int wide = period_.x() > 0 ? 1 : 0, high = period_.y() > 0 ? 1 : 0;
+  for (const Vec2& centre : posts.centres) {
+    const auto [dx, dy] = from_middle(centre.x(), centre.y());
+    for (int i = -wide; i <= wide; ++i) {
+      for (int j = -high; j <= high; ++j) draw_disc(dx + i * period_.x(), dy + j * period_.y(), radius, kWallTone);
+    }
+  }
+}
+
+/// About a place that is so far from the middle of the view.
+void RodSamples::draw_disc(double dx, double dy, double radius, Tone tone) {
+  const int begin_column = std::max(column_begin_, first_column(dx - radius));
+  const int end_column = std::min(column_end_, first_column(dx + radius));
+  const int begin_row = std::max(row_begin_, first_row(dy + radius));
+  const int end_row = std::min(row_end_, first_row(dy - radius));
+  for (int row = begin_row; row < end_row; ++row) {
+    for (int column = begin_column; column < end_column; ++column) {
+      if (std::hypot(x_of(column) - dx, y_of(row) - dy) <= radius) tones_[index(column, row)] = tone;
     }
   }
 }

@@ -44,6 +44,8 @@ class RodSamples {
   void draw(const proto::RodPose& rod, const RodOutline& outline, Tone tone);
   void draw_image(double dx, double dy, double ux, double uy, double half, const RodOutline& outline, Tone tone);
   void draw_walls(const SideWalls& walls);
+  void draw_posts(const StandingPosts& posts);
+  void draw_disc(double dx, double dy, double radius, Tone tone);
 
   const RodFrame& frame_;
   double x_;  ///< the middle of the view [mm]

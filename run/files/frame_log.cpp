@@ -92,6 +92,10 @@ Json json_of(const TrajectoryHeader& header) {
                      {"restitution", cell.walls->contact.restitution}};
     if (cell.walls->arena == Arena::kStadium) json["walls"]["length_mm"] = cell.walls->length;
   }
+  if (!cell.posts.centres.empty()) {
+    json["posts"] = {{"diameter_mm", cell.posts.diameter}, {"centres_mm", Json::array()}};
+    for (const Vec2& centre : cell.posts.centres) json["posts"]["centres_mm"].push_back({centre.x(), centre.y()});
+  }
   return json;
 }
 
@@ -117,6 +121,11 @@ TrajectoryHeader header_of(const Json& json) {
                                   .inner = from.at("inner_mm"),
                                   .contact = {from.at("friction"), from.at("restitution")}};
     if (header.cell.walls->arena == Arena::kStadium) header.cell.walls->length = from.at("length_mm");
+  }
+  if (json.contains("posts")) {
+    header.cell.posts.diameter = json.at("posts").at("diameter_mm");
+    for (const Json& centre : json.at("posts").at("centres_mm"))
+      header.cell.posts.centres.emplace_back(centre.at(0).get<double>(), centre.at(1).get<double>());
   }
   return header;
 }

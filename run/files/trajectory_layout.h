@@ -22,6 +22,7 @@ inline constexpr const char* kTime = "/particles/trajectory/position/time";
 /// (n_rods) species of each rod, from 0; only where there are several.
 inline constexpr const char* kSpecies = "/particles/trajectory/species";
 inline constexpr const char* kWalls = "/parameters/walls";
+inline constexpr const char* kPosts = "/parameters/posts";
 /// Where the beads of species k are: they are counted from 1, as the scene's rods, rods_2 are.
 inline std::string beads_of(std::size_t k) {
   return "/parameters" + (k == 0 ? "" : "/species_" + std::to_string(k + 1));

@@ -31,6 +31,16 @@ SideWalls read_walls(hid_t file) {
   return walls;
 }
 
+StandingPosts read_posts(hid_t file) {
+  const hdf5::Id group = hdf5::open_group(file, trajectory_layout::kPosts);
+  StandingPosts posts;
+  hdf5::read_attribute(group, "diameter_mm", H5T_NATIVE_DOUBLE, &posts.diameter);
+  const std::vector<double> x = read_doubles(group, "x_mm"), y = read_doubles(group, "y_mm");
+  if (x.size() != y.size()) throw hdf5::Failure("not as many y as x of posts");
+  for (std::size_t k = 0; k < x.size(); ++k) posts.centres.emplace_back(x[k], y[k]);
+  return posts;
+}
+
 TrajectoryHeader read_header(hid_t file) {
   const hdf5::Id parameters = hdf5::open_group(file, "/parameters");
   TrajectoryHeader header;
@@ -56,6 +66,7 @@ TrajectoryHeader read_header(hid_t file) {
         hdf5::read_vector<std::uint8_t>(hdf5::open_dataset(file, trajectory_layout::kSpecies), H5T_NATIVE_UINT8);
   }
   if (hdf5::exists(file, trajectory_layout::kWalls)) cell.walls = read_walls(file);
+  if (hdf5::exists(file, trajectory_layout::kPosts)) cell.posts = read_posts(file);
   if (auto done = check(header); !done) throw hdf5::Failure(done.error().message);
   return header;
 }

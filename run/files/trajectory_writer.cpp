@@ -50,6 +50,17 @@ void write_walls(hid_t file, const SideWalls& walls) {
   hdf5::write_attribute(group, "restitution", H5T_NATIVE_DOUBLE, {}, &walls.contact.restitution);
 }
 
+void write_posts(hid_t file, const StandingPosts& posts) {
+  const hdf5::Id group = hdf5::create_group(file, trajectory_layout::kPosts);
+  hdf5::write_attribute(group, "diameter_mm", H5T_NATIVE_DOUBLE, {}, &posts.diameter);
+  for (const auto& [name, axis] : {std::pair{"x_mm", 0}, {"y_mm", 1}}) {
+    std::vector<double> places;
+    for (const Vec2& centre : posts.centres) places.push_back(centre[axis]);
+    hdf5::write_dataset(group, name, H5T_NATIVE_DOUBLE, {places.size()}, places.data());
+    hdf5::write_unit(hdf5::open_dataset(group, name), "mm");
+  }
+}
+
 void write_parameters(hid_t file, const TrajectoryHeader& header) {
   const hdf5::Id parameters = hdf5::create_group(file, "parameters");
   hdf5::write_attribute(parameters, "n_rods", H5T_NATIVE_INT, {}, &header.n_rods);
@@ -64,6 +75,7 @@ void write_parameters(hid_t file, const TrajectoryHeader& header) {
     write_beads(hdf5::create_group(file, trajectory_layout::beads_of(k)), header.cell.species[k]);
   }
   if (header.cell.walls) write_walls(file, *header.cell.walls);
+  if (!header.cell.posts.centres.empty()) write_posts(file, header.cell.posts);
 }
 
 void hard_link(hid_t file, const std::string& existing, const std::string& name) {

@@ -37,16 +37,18 @@ TEST(Bus, CarriesEveryTypeOnItsChannel) {
   EXPECT_TRUE(bus->subscribe<frame_static_t>(kFrameStaticChannel, note));
   EXPECT_TRUE(bus->subscribe<frame_t>(kFrameChannel, note));
   EXPECT_TRUE(bus->subscribe<defects_t>(kDefectsChannel, note));
+  EXPECT_TRUE(bus->subscribe<posts_t>(kPostsChannel, note));
   EXPECT_TRUE(bus->publish(kStatusChannel, samples::make<status_t>()));
   EXPECT_TRUE(bus->publish(kJobChannel, samples::make<job_t>()));
   EXPECT_TRUE(bus->publish(kObservablesChannel, samples::make<observables_t>()));
   EXPECT_TRUE(bus->publish(kFrameStaticChannel, samples::make<frame_static_t>()));
   EXPECT_TRUE(bus->publish(kFrameChannel, samples::make<frame_t>()));
   EXPECT_TRUE(bus->publish(kDefectsChannel, samples::make<defects_t>()));
+  EXPECT_TRUE(bus->publish(kPostsChannel, samples::make<posts_t>()));
   drain(*bus);
-  EXPECT_EQ(sequences, (std::vector<std::int64_t>{41, 42, 43, 44, 45, 46}));
-  EXPECT_EQ(bus->counters().published, 6);
-  EXPECT_EQ(bus->counters().received, 6);
+  EXPECT_EQ(sequences, (std::vector<std::int64_t>{41, 42, 43, 44, 45, 46, 47}));
+  EXPECT_EQ(bus->counters().published, 7);
+  EXPECT_EQ(bus->counters().received, 7);
   EXPECT_EQ(bus->counters().refused, 0);
 }
 

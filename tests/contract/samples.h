@@ -137,4 +137,18 @@ inline defects_t make() {
   return m;
 }
 
+template <>
+inline posts_t make() {
+  posts_t m;
+  m.utime = 1700000000123456;
+  m.sequence = 47;
+  m.job_id = "0123456789abcdef";
+  m.sim_time_s = 1.5;
+  m.diameter_mm = 4;
+  m.n_posts = 2;
+  m.x_mm = {1, 2};
+  m.y_mm = {3, 4};
+  return m;
+}
+
 }  // namespace shaken::proto::samples

@@ -29,7 +29,10 @@ constexpr std::uint64_t kFingerprint<defects_t> = 0xeddba365494e32b5;
 
 template <class T>
 class WireType : public testing::Test {};
-using AllTypes = testing::Types<status_t, job_t, observables_t, frame_static_t, frame_t, defects_t>;
+template <>
+constexpr std::uint64_t kFingerprint<posts_t> = 0xee2ebc06ec3e5b90;
+
+using AllTypes = testing::Types<status_t, job_t, observables_t, frame_static_t, frame_t, defects_t, posts_t>;
 TYPED_TEST_SUITE(WireType, AllTypes);
 
 TYPED_TEST(WireType, KeepsItsFingerprint) {

@@ -556,7 +556,7 @@ def use_by_everybody(page, daemon, pictures):
 
 ORBIT = """
   const done = arguments[arguments.length - 1];
-  import("/page/orbit.js").then(({cameraOf, matrixOf}) => {
+  import("/page/orbit.js").then(({cameraOf, edgesOf, matrixOf, placesOf}) => {
     const eyes = [[0, 30], [90, 30], [0, 90]].map((orbit) => cameraOf({box_mm: [10, 10], gap_mm: 2}, {x: 0.5, y: 0.5, zoom: 1, orbit}));
     // how far the corners of the box are from the middle of the picture, in halves of it
     const outermost = (orbit) => {
@@ -566,7 +566,11 @@ ORBIT = """
       return [Math.max(...seen.map(([x, y, , w]) => Math.max(Math.abs(x), Math.abs(y)) / w)),
               Math.max(...seen.map(([, , z, w]) => Math.abs(z) / w))];
     };
-    done([eyes.map(({eye}) => eye), eyes[2].up, [[-30, 35], [77, 1], [200, 90]].map(outermost)]);
+    const frame = {n_rods: 2, box_mm: [20, 40], gap_mm: 2, x: [0, -16384], y: [16384, 0], heading: [16384, 0], walls: null};
+    const places = [null, [-32767, 0]].map((z) => Array.from(placesOf({...frame, z})));
+    const posts = edgesOf({...frame, posts: {diameter_mm: 4, centres_mm: [[3, 30], [7, 8]]}});
+    done([eyes.map(({eye}) => eye), eyes[2].up, [[-30, 35], [77, 1], [200, 90]].map(outermost), places,
+          [posts.length, posts[1].map(([x, y]) => Math.hypot(x - 3, y - 30))]]);
   });"""
 
 
@@ -581,7 +585,10 @@ def from_the_side(page, pictures):
     def drawn():
         return page.execute_script("return document.getElementById('rods').toDataURL()")
 
-    (front, right, above), up, reach = page.execute_async_script(ORBIT)
+    (front, right, above), up, reach, places, (n_edges, radii) = page.execute_async_script(ORBIT)
+    check(places[0] == [10, 30, 1, 0.5, 5, 20, 1, 0], f"rods are where they are in the box, half way up: {places[0]}")
+    check(places[1][2::4] == [-1, 1], f"or at their heights: {places[1]}")
+    check(n_edges == 3 and all(abs(radius - 2) < 1e-9 for radius in radii), f"posts are edges beside the box's: {radii}")
     check(front[1] < 0 and abs(front[0] - 5) < 1e-9 and right[0] > 10 and abs(right[1] - 5) < 1e-9,
           "azimuth 0 is from below the picture from above, 90 from its right")
     check(abs(above[0] - 5) + abs(above[1] - 5) < 1e-9 and abs(up[1] - 1) < 1e-9, "elevation 90 is from above")

@@ -218,6 +218,28 @@ void draw_long_arena(std::uint64_t seed, Json& scene) {
   if (draw.chance(0.7)) walls["length"] = draw.chance(0.1) ? 0.0 : draw.by_size(0.1, 20);
 }
 
+/// Lattices of posts, and some at places of their own, by numbers of their own. Rods that do not fit among them are
+/// drawn again.
+void draw_posts(std::uint64_t seed, Json& scene) {
+  SceneDraw draw(seed + 6'000'000'037);
+  if (!draw.chance(0.12) || scene["rods"].contains("start_angle")) return;
+  Json& posts = scene["posts"] = draw_contact(draw);
+  posts["diameter"] = draw.by_size(0.1, 3);
+  if (draw.chance(0.7)) {
+    posts["columns"] = draw.integer(1, 8);
+    posts["rows"] = draw.integer(1, 8);
+  } else {  // a row of posts that touch, or all but
+    const double pitch = posts["diameter"].get<double>() * draw.among({1.0, 1.001, 1.2}), y = draw.plain(1, 6);
+    const int n = draw.integer(1, 4);
+    for (int k = 0; k < n; ++k) posts["places"].push_back({2.0 + k * pitch, y + (k % 2) * 0.3 * pitch});
+  }
+  const double fraction = std::min(scene["rods"]["area_fraction"].get<double>(), draw.plain(0.05, 0.4));
+  scene["rods"]["area_fraction"] = fraction;
+  if (!scene.contains("walls")) return;
+  scene["rods"].erase("area_fraction");  // how large the arena is must be said
+  scene["walls"]["size"] = draw.plain(6, 24);
+}
+
 /// Restitution that falls with speed, and species with contacts of their own, by numbers of their own.
 void draw_contacts(std::uint64_t seed, Json& scene) {
   SceneDraw draw(seed + 4'000'000'007);
@@ -241,6 +263,7 @@ void draw_contacts(std::uint64_t seed, Json& scene) {
   of_kind(scene["contacts"]["rod_base"], species);
   of_kind(scene["contacts"]["rod_lid"], species);
   if (scene.contains("walls")) of_kind(scene["walls"], species);
+  if (scene.contains("posts")) of_kind(scene["posts"], species);
 }
 
 /// Plates that vibrate in the plane too, by numbers of their own.
@@ -314,6 +337,7 @@ SceneCase draw_scene_case(std::uint64_t seed) {
   draw_box(seed, scene);
   draw_start_pattern(seed, scene);
   draw_long_arena(seed, scene);
+  draw_posts(seed, scene);
   draw_contacts(seed, scene);
   draw_horizontal_vibration(seed, scene);
   return one;

@@ -91,8 +91,15 @@ function bodyOfRings() {
   return {corners: new Float32Array(corners.flat()), triangles: new Uint16Array(triangles)};
 }
 
-/** The edge of what rods may be in, at height `z`: of the box, or of its arena. Corners of closed lines. */
-function edges({box_mm: [width, height], walls}) {
+/** The edges of what rods may be in: of the box, or of its arena, and of the posts in it. Corners of closed lines. */
+export function edgesOf(frame) {
+  const circle = ([x, y], radius) => Array.from({length: 36}, (_, k) =>
+    [x + radius * Math.cos(k * Math.PI / 18), y + radius * Math.sin(k * Math.PI / 18)]);
+  const {diameter_mm = 0, centres_mm = []} = frame.posts ?? {};
+  return [...outerEdgesOf(frame), ...centres_mm.map((centre) => circle(centre, diameter_mm / 2))];
+}
+
+function outerEdgesOf({box_mm: [width, height], walls}) {
   const rectangle = (a, b) => [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([x, y]) => [(width + x * a) / 2, (height + y * b) / 2]);
   if (!walls) return [rectangle(width, height)];
   if (walls.arena === "square") return [rectangle(walls.size_mm, walls.size_mm)];
@@ -101,6 +108,16 @@ function edges({box_mm: [width, height], walls}) {
   const round = (size, length) => Array.from({length: 72}, (_, k) =>
     [(width + size * Math.cos(turned(k)) + length * Math.sign(Math.cos(turned(k)))) / 2, (height + size * Math.sin(turned(k))) / 2]);
   return [round(size_mm, length_mm), ...(arena === "annulus" ? [round(inner_mm, 0)] : [])];
+}
+
+/** Where the rods are: 4 numbers for each, its centre [mm] and its heading / pi; half way up where heights are not known. */
+export function placesOf({n_rods, box_mm: [width, height], gap_mm, x, y, z, heading}) {
+  const places = new Float32Array(4 * n_rods);
+  for (let i = 0; i < n_rods; ++i) {
+    const above = z ? (z[i] / 32767 + 0.5) * gap_mm : gap_mm / 2;
+    places.set([(x[i] / 65536 + 0.5) * width, (y[i] / 65536 + 0.5) * height, above, heading[i] / 32768], 4 * i);
+  }
+  return places;
 }
 
 export class OrbitPainter {
@@ -162,18 +179,13 @@ export class OrbitPainter {
   }
 
   paintRods(frame, look, toEye, colouring) {
-    const {gl, bodies} = this, {n_rods: n, box_mm: [width, height], gap_mm: gap, z} = frame;
-    const rods = new Float32Array(4 * n), kinds = new Float32Array(2 * n);
-    for (let i = 0; i < n; ++i) {
-      const height = z ? (z[i] / 32767 + 0.5) * gap : gap / 2;
-      rods.set([(frame.x[i] / 65536 + 0.5) * width, (frame.y[i] / 65536 + 0.5) * height, height, frame.heading[i] / 32768], 4 * i);
-      kinds.set([frame.n_z[i] / 32767, frame.species[i]], 2 * i);
-    }
+    const {gl, bodies} = this, n = frame.n_rods, kinds = new Float32Array(2 * n);
+    for (let i = 0; i < n; ++i) kinds.set([frame.n_z[i] / 32767, frame.species[i]], 2 * i);
     useForRods(gl, bodies, this.palettes, frame, colouring);
     gl.uniformMatrix4fv(bodies.at.look, false, look);
     gl.uniform3fv(bodies.at.toEye, toEye);
     gl.bindVertexArray(this.vertices);
-    fill(gl, this.rods, rods);
+    fill(gl, this.rods, placesOf(frame));
     fill(gl, this.kinds, kinds);
     gl.enable(gl.CULL_FACE);  // what looks away is hidden anyway
     gl.drawElementsInstanced(gl.TRIANGLES, this.nIndices, gl.UNSIGNED_SHORT, 0, n);
@@ -189,10 +201,10 @@ export class OrbitPainter {
     gl.depthMask(false);
     for (const [what, height, darkness] of parts) {
       gl.uniform4f(plates.at.shade, r / 255, g / 255, b / 255, darkness);
-      const [outer, inner] = edges(frame), isPost = what === gl.LINES;
-      for (const line of what === gl.TRIANGLE_FAN || !inner ? [outer] : [outer, inner]) {
-        const posts = line.filter((_, k) => k % Math.ceil(line.length / 8) === 0);
-        const places = isPost ? posts.flatMap(([x, y]) => [x, y, 0, x, y, frame.gap_mm]) : line.flatMap(([x, y]) => [x, y, height]);
+      const lines = edgesOf(frame), isUpright = what === gl.LINES;
+      for (const line of what === gl.TRIANGLE_FAN ? lines.slice(0, 1) : lines) {
+        const feet = line.filter((_, k) => k % Math.ceil(line.length / 8) === 0);
+        const places = isUpright ? feet.flatMap(([x, y]) => [x, y, 0, x, y, frame.gap_mm]) : line.flatMap(([x, y]) => [x, y, height]);
         fill(gl, this.places, new Float32Array(places));
         gl.drawArrays(what, 0, places.length / 3);
       }

@@ -113,7 +113,7 @@ export class RodCanvas {
     ++this.framesDrawn;
   }
 
-  /** Walls, defects and a scale bar, over the rods. */
+  /** Walls, posts, defects and a scale bar, over the rods. */
   drawMarks(size) {
     const {frame, view} = this, context = this.marks.getContext("2d");
     context.clearRect(0, 0, size, size);
@@ -129,6 +129,7 @@ export class RodCanvas {
       return [size / 2 + dx * perMm, size / 2 - dy * perMm];
     };
     if (frame.walls) this.drawWalls(context, frame.walls, toPixel(width / 2, height / 2), perMm, size);
+    if (frame.posts) this.drawPosts(context, frame.posts, toPixel, perMm);
     if (this.path) this.drawPath(context, toPixel, perMm);
     if (this.showsDefects) for (const one of this.defects) this.drawDefect(context, one, toPixel, size);
     const bar = [1, 2, 5, 10, 20, 50, 100, 200].filter((mm) => mm * perMm < size / 3).at(-1) ?? 1;
@@ -156,6 +157,22 @@ export class RodCanvas {
     context.beginPath();
     context.arc(x, y, inner_mm * perMm / 2, 0, 2 * Math.PI);
     context.stroke();
+  }
+
+  /** Each once, at the image that is nearest to the middle of the view, and the images beside it. */
+  drawPosts(context, {diameter_mm, centres_mm}, toPixel, perMm) {
+    const [periodX, periodY] = periodOf(this.frame), around = (period) => (period > 0 ? [-1, 0, 1] : [0]);
+    context.fillStyle = cssColour("edge");
+    for (const centre of centres_mm) {
+      const [x, y] = toPixel(...centre);
+      for (const i of around(periodX)) {
+        for (const j of around(periodY)) {
+          context.beginPath();
+          context.arc(x + i * periodX * perMm, y + j * periodY * perMm, diameter_mm * perMm / 2, 0, 2 * Math.PI);
+          context.fill();
+        }
+      }
+    }
   }
 
   /** Words in the lower left corner. */

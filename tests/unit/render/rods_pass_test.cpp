@@ -422,6 +422,43 @@ TEST(RodsPass, BeyondTheWallsTheFloorIsTinted) {
   }
 }
 
+// Posts of 2 mm, one of which stands across the border.
+TEST(RodsPass, PostsAreAsWhatLiesBeyondWalls) {
+  for (const Theme theme : {Theme::kLight, Theme::kDark}) {
+    PictureStyle style;
+    style.theme = theme;
+    const PageColours colours = page_colours(theme);
+    RodPicture picture = empty_picture(kBox);
+    picture.cell.posts = {.diameter = 2, .centres = {Vec2(4, 5), Vec2(9.5, 8)}};
+    const Image image = draw(picture, style);
+    EXPECT_TRUE(is(colour_at(image, 4, 5), colours.walls));
+    EXPECT_TRUE(is(colour_at(image, 4.9, 5), colours.walls));
+    EXPECT_TRUE(is(colour_at(image, 4.995, 5), colours.ink)) << "a line along the rim";
+    EXPECT_TRUE(is(colour_at(image, 5.02, 5), colours.floor));
+    EXPECT_TRUE(is(colour_at(image, 4.8, 5.8), colours.floor));
+    EXPECT_TRUE(is(colour_at(image, 9, 8), colours.walls));
+    EXPECT_TRUE(is(colour_at(image, 0.3, 8), colours.walls)) << "its image";
+    EXPECT_TRUE(is(colour_at(image, 0.6, 8), colours.floor));
+    picture.cell.walls = SideWalls{Arena::kSquare, 10};
+    EXPECT_TRUE(is(colour_at(draw(picture, style), 0.3, 8), colours.floor)) << "walls leave it no image";
+  }
+}
+
+// A rod within a post, where no simulation brings it, is not seen: neither from aside nor where the post is cut open.
+TEST(RodsPass, APostHidesWhatIsBehindItsSurface) {
+  for (const ViewPoint view : {ViewPoint::kGap, ViewPoint::kOrbit}) {
+    PictureStyle style = layers();
+    style.view = view;
+    RodPicture picture = red_picture();
+    add_rod(picture, 5, 6.2, 0);
+    EXPECT_GT(count(draw(picture, style), is_rod), 100);
+    picture.cell.posts = {.diameter = 6, .centres = {Vec2(5, 5)}};
+    EXPECT_EQ(count(draw(picture, style), is_rod), 0);
+    picture.cell.posts = {.diameter = 1, .centres = {Vec2(1, 9)}};
+    EXPECT_GT(count(draw(picture, style), is_rod), 100);
+  }
+}
+
 // Of radius 2 about (3.5, 5) and (6.5, 5); and between 3 and 7 mm upwards.
 TEST(RodsPass, AStadiumAndAChannelEndAtTheirWalls) {
   const PageColours colours = page_colours(Theme::kLight);

@@ -7,6 +7,7 @@
 
 #include "proto/cell_codec.h"
 #include "proto/codec.h"
+#include "scene/fields.h"
 #include "sim/balance.h"
 #include "sim/initial.h"
 
@@ -133,6 +134,16 @@ TEST(Messages, AnArenaComesBackWithItsLengths) {
     EXPECT_EQ(sent->arena, name_of(walls.arena));
     EXPECT_EQ(proto::decode_cell(*sent), cell);
   }
+}
+
+TEST(Messages, PostsComeBackAndFitIntoOneDatagram) {
+  StandingPosts posts{.diameter = 2.5, .centres = {{1, 2}, {0.125, 40}}};
+  const auto sent = proto::decode<posts_t>(proto::encode(proto::encode_posts(posts)));
+  ASSERT_TRUE(sent);
+  EXPECT_EQ(proto::decode_posts(*sent), posts);
+  const double most = scene::field_at("posts.columns").high * scene::field_at("posts.rows").high;
+  posts.centres.resize(static_cast<std::size_t>(most), Vec2(1, 1));
+  EXPECT_LT(proto::encode(proto::encode_posts(posts)).size(), 60000U);
 }
 
 TEST(Messages, StaticPartOfManyRodsFitsIntoOneDatagram) {

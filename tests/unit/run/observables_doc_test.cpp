@@ -26,12 +26,13 @@ std::string in_backticks(std::string_view names) {
 
 TEST(ObservablesPage, ListsEveryBlock) {
   std::ostringstream table;
-  table << "| block | observable | with side walls | code in `analysis/` |\n|---|---|---|---|\n";
+  table << "| block | observable | with side walls | among posts | code in `analysis/` |\n|---|---|---|---|---|\n";
+  const auto yes_or_no = [](bool is_so) { return is_so ? "yes" : "no"; };
   for (const scene::Observable& observable : scene::observables()) {
     for (const MeasurementKind& kind : measurement_kinds()) {
       if (kind.name != observable.name) continue;
-      table << "| `" << kind.name << "` | " << observable.doc << " | " << (observable.within_walls() ? "yes" : "no")
-            << " | " << in_backticks(kind.sources) << " |\n";
+      table << "| `" << kind.name << "` | " << observable.doc << " | " << yes_or_no(observable.within_walls()) << " | "
+            << yes_or_no(observable.among_posts()) << " | " << in_backticks(kind.sources) << " |\n";
     }
   }
   expect_generated(kPages + "observables.md", "blocks", table.str());

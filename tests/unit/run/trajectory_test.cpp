@@ -129,6 +129,17 @@ TEST(Trajectory, SpeciesAndSideWallsComeBack) {
   }
 }
 
+TEST(Trajectory, PostsComeBack) {
+  const ScratchFolder folder;
+  TrajectoryHeader among = header();
+  among.cell.posts = {.diameter = 1.0 / 3, .centres = {{0.1, 0.2}, {1.0 / 7, kSide / 3}, {3, 1}}};
+  expect_frames(folder, 2, among);
+  among.cell.posts.centres.emplace_back(kSide + 1, 2);
+  const auto log = FrameLog::create(folder / "t.part", among);
+  ASSERT_FALSE(log);
+  EXPECT_NE(log.error().message.find("a post outside of the box"), std::string::npos) << log.error().message;
+}
+
 TEST(Trajectory, ASpeciesWithoutBeadsIsRefused) {
   const ScratchFolder folder;
   TrajectoryHeader several = header();
@@ -496,6 +507,7 @@ TEST_F(H5mdStructure, OneKindOfRodNeedsNoSpecies) {
   EXPECT_EQ(address("/particles/trajectory/species"), HADDR_UNDEF);
   EXPECT_EQ(address("/parameters/species_2"), HADDR_UNDEF);
   EXPECT_EQ(address("/parameters/walls"), HADDR_UNDEF);
+  EXPECT_EQ(address("/parameters/posts"), HADDR_UNDEF);
 }
 
 TEST_F(H5mdStructure, NamesItsFormatAndBox) {

@@ -34,6 +34,17 @@ TEST(Remarks, AreOfWhatIsHardlyMeant) {
               IsEmpty());
 }
 
+// Of 40 mm four posts of 9.3 mm leave 0.7 mm between each two, and rods are 0.8 mm thick.
+TEST(Remarks, NamePostsThatNoRodGetsBetween) {
+  EXPECT_THAT(remarks(plan_of(R"({"box": {"side": 40}, "posts": {"diameter": 9.3}, "rods": {"count": 4}})")),
+              ElementsAre("the posts leave gaps of at most 0.7 mm, through which no rod gets: each stays between the "
+                          "posts where it starts"));
+  for (const char* more : {R"("diameter": 9.1)", R"("diameter": 9.3, "rows": 3)"}) {
+    const std::string posts = R"("posts": {)" + std::string(more) + "}";
+    EXPECT_THAT(remarks(plan_of(R"({"box": {"side": 40}, "rods": {"count": 4}, )" + posts + "}")), IsEmpty());
+  }
+}
+
 // What points to the head says little of rods without one.
 TEST(Remarks, NamePolarOrderOfRodsWithoutHeads) {
   const std::string none = "measure.polar: no rod that is measured has a head, so which end counts as one is arbitrary";

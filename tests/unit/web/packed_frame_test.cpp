@@ -92,5 +92,16 @@ TEST(PackedFrame, SpeciesAndWallsAreThereWhereTheyAreInTheRun) {
   EXPECT_EQ(bytes.substr(4 + size + 16), std::string("\x01\x00", 2));
 }
 
+TEST(PackedFrame, PostsAreThereWhereTheyAreInTheRun) {
+  client::RodFrame frame = some_frame(1);
+  const auto head = [&] {
+    const std::string bytes = packed(frame);
+    return nlohmann::json::parse(bytes.substr(4, u16(bytes, 0)));
+  };
+  EXPECT_TRUE(head()["posts"].is_null());
+  frame.cell.posts = {.diameter = 3, .centres = {{1, 2}, {5, 6}}};
+  EXPECT_EQ(head()["posts"], nlohmann::json({{"diameter_mm", 3.0}, {"centres_mm", {{1.0, 2.0}, {5.0, 6.0}}}}));
+}
+
 }  // namespace
 }  // namespace shaken::web

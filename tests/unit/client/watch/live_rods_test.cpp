@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "proto/cell_codec.h"
+
 namespace shaken::client {
 namespace {
 
@@ -58,6 +60,33 @@ TEST(LiveRods, PutsConstantsAndFramesTogether) {
   EXPECT_DOUBLE_EQ(shown.outlines[0].half_length, 2);
   EXPECT_DOUBLE_EQ(shown.outlines[0].middle, 0.4);
   EXPECT_DOUBLE_EQ(shown.outlines[0].end, 0.2);
+}
+
+TEST(LiveRods, PostsComeByThemselvesAndStay) {
+  LiveRods rods;
+  rods.select(kJob);
+  posts_t posts = proto::encode_posts({.diameter = 2, .centres = {Vec2(1, 2), Vec2(3, 4)}});
+  posts.job_id = kJob;
+  rods.note(posts);  // of what cell is not known yet
+  rods.note(constants());
+  send(rods, frame(0));
+  EXPECT_TRUE(rods.newest()->cell.posts.centres.empty());
+  rods.note(posts);
+  rods.note(constants());
+  send(rods, frame(1));
+  EXPECT_EQ(rods.newest()->cell.posts, (StandingPosts{2, {Vec2(1, 2), Vec2(3, 4)}}));
+  for (const double wrong : {std::numeric_limits<double>::quiet_NaN(), -1.0, 21.0}) {  // what no scene has
+    posts.x_mm[1] = wrong;
+    rods.note(posts);
+  }
+  posts = proto::encode_posts({.diameter = 1e9, .centres = {Vec2(1, 2)}});
+  posts.job_id = kJob;
+  rods.note(posts);
+  posts = proto::encode_posts({.diameter = 1, .centres = {Vec2(1, 2)}});
+  posts.job_id = "another";
+  rods.note(posts);
+  send(rods, frame(2));
+  EXPECT_EQ(rods.newest()->cell.posts.centres.size(), 2U);
 }
 
 TEST(LiveRods, SpheresHaveNoOrder) {

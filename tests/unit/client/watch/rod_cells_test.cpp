@@ -119,6 +119,21 @@ TEST(RodCells, RodsTaperAndSteepOnesAreShort) {
   EXPECT_NEAR(n_dots(drawn(frame, kDots, {}, 200, 100)), kPi * 0.0625 * 1600, 0.05 * kPi * 0.0625 * 1600);
 }
 
+// A post at the left border is seen at the right one too, but not where walls end the box.
+TEST(RodCells, PostsAreDrawnWithTheirImages) {
+  RodFrame frame = frame_of({});
+  frame.cell.posts = {.diameter = 6, .centres = {Vec2(0, 5)}};
+  const CellGrid periodic = drawn(frame, kBlocks);
+  const Ink post = ink_of(kWallTone), floor = ink_of(kFloorTone);
+  const auto colour = [](const ScreenCell& cell) { return cell.glyph == U' ' ? cell.back : cell.fore; };
+  EXPECT_EQ(colour(periodic.at(0, 2)), post);
+  EXPECT_EQ(colour(periodic.at(9, 2)), post);
+  EXPECT_EQ(colour(periodic.at(5, 2)), floor);
+  EXPECT_EQ(colour(periodic.at(0, 0)), floor);
+  frame.cell.walls = SideWalls{.arena = Arena::kSquare, .size = 40};  // out of sight
+  EXPECT_EQ(colour(drawn(frame, kBlocks).at(9, 2)), floor);
+}
+
 TEST(RodCells, ThinRodsDoNotVanish) {
   RodFrame frame = frame_of({{5, 5, 0, 0}});
   frame.outlines = {{.half_length = 2, .middle = 1e-3, .end = 1e-3}};
