@@ -56,6 +56,9 @@ TEST(GoldenHash, TrajectoriesAreWhatTheyWere) {
       {"species with contacts of their own in a disc", mixed(Arena::kDisc), 30000, 0x89768fba3fa03079},
       {"several species in a stadium", mixed(Arena::kStadium), 30000, 0x6a114fe4fbb24be6},
       {"several species in a channel, impacts at their instant", mixed(Arena::kChannel), 30000, 0xe302673a31a09784},
+      {"among posts, compressed", scene_of(2.5, 18, 60), 20000, 0xda28e612c63c018b},
+      {"several species among posts in a disc, impacts at their instant", mixed(Arena::kDisc), 30000,
+       0x48307e86766668d0},
   };
   cases[1].system.start = Start::kRandom;
   cases[2].system.rod = {.length = 0.8, .mid_diameter = 0.8, .end_diameter = 0.8, .n_beads = 1};
@@ -84,6 +87,11 @@ TEST(GoldenHash, TrajectoriesAreWhatTheyWere) {
   cases[16].system.walls->size = 8;
   cases[16].system.walls->length = 5;
   cases[17].system.impacts = ImpactTime::kAtInstant;
+  cases[18].system.start = Start::kCompressed;
+  cases[18].system.posts = Posts{.diameter = 2, .columns = 3, .rows = 3, .contact = {0.1, 0.5}};
+  cases[19].system.impacts = ImpactTime::kAtInstant;
+  cases[19].system.posts = Posts{.diameter = 1.3, .places = {{5, 6}, {6.3, 6}, {7, 10}, {10, 7}}};
+  cases[19].system.n_rods = 10;
   for (const Golden& golden : cases) {
     auto simulation = Simulation::start(golden.system);
     ASSERT_TRUE(static_cast<bool>(simulation)) << simulation.error().message;
@@ -93,6 +101,9 @@ TEST(GoldenHash, TrajectoriesAreWhatTheyWere) {
     EXPECT_GT(did.impulses_rod_rod, 20) << golden.name;
     if (golden.system.walls) {
       EXPECT_GT(did.impulses_rod_wall, 10) << golden.name;
+    }
+    if (golden.system.posts) {
+      EXPECT_GT(did.impulses_rod_post, 10) << golden.name;
     }
     EXPECT_EQ(simulation->state_hash(), golden.hash) << golden.name << std::hex << ": 0x" << simulation->state_hash();
   }
