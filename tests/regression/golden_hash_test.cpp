@@ -57,6 +57,9 @@ TEST(GoldenHash, TrajectoriesAreWhatTheyWere) {
       {"several species in a stadium", mixed(Arena::kStadium), 30000, 0x6a114fe4fbb24be6},
       {"several species in a channel, impacts at their instant", mixed(Arena::kChannel), 30000, 0xe302673a31a09784},
       {"plates that vibrate in the plane too", scene_of(3.5, 15, 70), 5000, 0xcaaff5f1cc8cf3b2},
+      {"among posts, compressed", scene_of(2.5, 18, 60), 20000, 0xda28e612c63c018b},
+      {"several species among posts in a disc, impacts at their instant", mixed(Arena::kDisc), 30000,
+       0x48307e86766668d0},
   };
   cases[1].system.start = Start::kRandom;
   cases[2].system.rod = {.length = 0.8, .mid_diameter = 0.8, .end_diameter = 0.8, .n_beads = 1};
@@ -88,6 +91,11 @@ TEST(GoldenHash, TrajectoriesAreWhatTheyWere) {
   cases[18].system.horizontal_amplitude = 0.06;
   cases[18].system.horizontal_phase = 70;
   cases[18].system.horizontal_angle = 30;
+  cases[19].system.start = Start::kCompressed;
+  cases[19].system.posts = Posts{.diameter = 2, .columns = 3, .rows = 3, .contact = {0.1, 0.5}};
+  cases[20].system.impacts = ImpactTime::kAtInstant;
+  cases[20].system.posts = Posts{.diameter = 1.3, .places = {{5, 6}, {6.3, 6}, {7, 10}, {10, 7}}};
+  cases[20].system.n_rods = 10;
   for (const Golden& golden : cases) {
     auto simulation = Simulation::start(golden.system);
     ASSERT_TRUE(static_cast<bool>(simulation)) << simulation.error().message;
@@ -97,6 +105,9 @@ TEST(GoldenHash, TrajectoriesAreWhatTheyWere) {
     EXPECT_GT(did.impulses_rod_rod, 20) << golden.name;
     if (golden.system.walls) {
       EXPECT_GT(did.impulses_rod_wall, 10) << golden.name;
+    }
+    if (golden.system.posts) {
+      EXPECT_GT(did.impulses_rod_post, 10) << golden.name;
     }
     EXPECT_EQ(simulation->state_hash(), golden.hash) << golden.name << std::hex << ": 0x" << simulation->state_hash();
   }
