@@ -80,9 +80,9 @@ Reduction reduced_spheres() {
        {"order", "angles", "tilt", "defects", "frank", "rotation", "pairs", "layers", "polar", "defect_maps"}) {
     EXPECT_FALSE(counts.contains(name)) << name;
   }
-  for (const char* name : {"g2", "msd", "velocity", "rods", "fluctuations", "lattice", "structure", "temperatures",
-                           "scattering", "van_hove", "flow", "clusters", "collisions", "stress", "mixing", "density",
-                           "drift"}) {
+  for (const char* name :
+       {"g2", "msd", "velocity", "rods", "fluctuations", "lattice", "structure", "temperatures", "scattering",
+        "van_hove", "flow", "clusters", "collisions", "stress", "mixing", "density", "drift"}) {
     EXPECT_TRUE(counts.contains(name)) << name;
   }
   for (Tick t = measurements.next_due(0); t <= 20000; t = measurements.next_due(t + 1)) {
