@@ -13,7 +13,7 @@ namespace shaken::scene {
 
 namespace {
 
-constexpr std::size_t kMostPosts = 60 * 60;  ///< sites of the largest lattice
+constexpr std::size_t kMostPosts = 3600;  ///< sites of the largest lattice, 60 by 60
 
 }  // namespace
 
