@@ -9,8 +9,6 @@ import os
 from pathlib import Path
 from typing import Any, Iterable, Mapping, Sequence
 
-import numpy as np
-
 from ..errors import ShakenError
 from . import names
 
@@ -108,7 +106,8 @@ def _picture(figure: Any, form: str, origin: dict[str, str]) -> bytes:
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         canvas = FigureCanvasAgg(figure)
         canvas.draw()
-        return _png(canvas.buffer_rgba(), figure.dpi, {"Software": software, **origin})
+        keeps_all = len(_colour_bars(figure)) > 1  # or both would lose some
+        return _png(canvas.buffer_rgba(), figure.dpi, {"Software": software, **origin}, keeps_all)
     elif form == "pdf":
         from matplotlib.backends.backend_pdf import FigureCanvasPdf
         FigureCanvasPdf(figure).print_pdf(out, metadata={"Creator": software, "Producer": software, "Subject": lines,
@@ -119,13 +118,14 @@ def _picture(figure: Any, form: str, origin: dict[str, str]) -> bytes:
     return out.getvalue()
 
 
-#: A picture of which more than this share would be off by more than so many of 255 levels keeps all of its colours.
-_MOST_OFF, _LEVELS = 1e-3, 8
+def _colour_bars(figure: Any) -> set[str]:
+    """Names of the colour maps that have bars."""
+    mapped = [drawn for axes in figure.axes for drawn in (*axes.collections, *axes.images)]
+    return {drawn.get_cmap().name for drawn in mapped if drawn.colorbar is not None}
 
 
-def _png(pixels: Any, dpi: float, texts: dict[str, str]) -> bytes:
-    """A PNG of at most 256 colours: a third of the bytes, and no eye sees it in a plot. Maps keep all that they have:
-    the bars of two would lose colours."""
+def _png(pixels: Any, dpi: float, texts: dict[str, str], keeps_all: bool) -> bytes:
+    """A PNG of at most 256 colours, unless it keeps all: a third of the bytes, and no eye sees it in a plot."""
     from PIL import Image, PngImagePlugin
     shape = pixels.shape
     picture = Image.frombuffer("RGBA", (shape[1], shape[0]), pixels, "raw", "RGBA", 0, 1).convert("RGB")
@@ -133,8 +133,7 @@ def _png(pixels: Any, dpi: float, texts: dict[str, str]) -> bytes:
     for keyword, text in texts.items():
         info.add_text(keyword, text)
     out = io.BytesIO()
-    few = picture.quantize(256, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
-    off = np.abs(np.asarray(few.convert("RGB"), dtype=int) - np.asarray(picture, dtype=int)).max(axis=-1)
-    kept = picture if np.mean(off > _LEVELS) > _MOST_OFF else few
-    kept.save(out, "PNG", pnginfo=info, dpi=(dpi, dpi), optimize=True)
+    if not keeps_all:
+        picture = picture.quantize(256, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
+    picture.save(out, "PNG", pnginfo=info, dpi=(dpi, dpi), optimize=True)
     return out.getvalue()
