@@ -15,7 +15,7 @@ pytest.importorskip("matplotlib")
 from figures_whole import assert_whole  # noqa: E402
 
 from shaken.errors import ShakenError  # noqa: E402
-from shaken.plots import names, style  # noqa: E402
+from shaken.plots import names, save, style  # noqa: E402
 
 NAN = float("nan")
 ORIGIN = {"Software": "shaken plot 0.1.0", "Sweep": "ℓ and φ", "Runs": "1f0c59d16ab8b7d7"}
@@ -213,3 +213,16 @@ def test_titles_break_between_quantities() -> None:
     for line in lines:
         assert line.count("=") == len(line.rstrip(",").split(",")), lines
         assert not line.rstrip(",").endswith("="), lines
+
+
+@pytest.mark.parametrize("maps, keeps_all", [(("viridis",), False), (("viridis", "viridis"), False),
+                                             (("viridis", "RdBu"), True)])
+def test_pictures_keep_all_colours_only_where_two_colour_bars_need_them(maps: tuple[str, ...], keeps_all: bool) -> None:
+    from matplotlib.figure import Figure
+    figure = Figure(figsize=(4, 2), dpi=100)
+    for place, name in enumerate(maps):
+        axes = figure.add_subplot(1, len(maps), place + 1)
+        figure.colorbar(axes.pcolormesh(np.random.default_rng(1).normal(size=(40, 40)), cmap=name))
+    from PIL import Image
+    picture = Image.open(io.BytesIO(save._picture(figure, "png", {})))
+    assert (picture.mode != "P") == keeps_all
