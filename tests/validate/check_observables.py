@@ -1232,7 +1232,7 @@ def decay_time(lags, value, sem):
     if not below.size:
         return np.nan, np.nan
     k = below[0]
-    error = max(([0, *sem])[k - 1], sem[k - 1])
+    error = np.maximum(([0, *sem])[k - 1], sem[k - 1])  # unknown if either is
     step = t[k] - t[k - 1]
     if c[k] > 0:
         return (np.interp(1, -np.log(c[k - 1:k + 1]), t[k - 1:k + 1]),
