@@ -111,7 +111,8 @@ Estimate decay_time(std::span<const double> lags, const EstimateCurve& correlati
     if (c1 <= kTarget) {
       const double share = c1 > 0 ? (std::log(c0) + 1.0) / std::log(c0 / c1) : (c0 - kTarget) / (c0 - c1);
       const double slope = c1 > 0 ? kTarget * std::log(c0 / c1) / (t1 - t0) : (c0 - c1) / (t1 - t0);
-      return {t0 + share * (t1 - t0), std::max(sem0, sem1) / slope};
+      const double sem = std::isnan(sem1) ? sem1 : std::max(sem0, sem1);  // unknown if either is
+      return {t0 + share * (t1 - t0), sem / slope};
     }
     t0 = t1;
     c0 = c1;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "analysis/msd.h"
@@ -189,6 +190,15 @@ TEST(DecayTime, OfACurveThatGoesNegativeIsLinearInBetween) {
   const Estimate found = decay_time(std::vector<double>{0, 1, 2}, {{1, 0.9, -0.1}, {0, 0.02, 0.01}});
   EXPECT_NEAR(found.value, 1 + 0.9 - std::exp(-1.0), 1e-12);
   EXPECT_NEAR(found.sem, 0.02, 1e-12);
+}
+
+TEST(DecayTime, HasNoErrorWhereOneOfBothValuesHasNone) {
+  constexpr double kUnknown = NAN;
+  for (const auto& [before, after] : {std::pair{0.01, kUnknown}, std::pair{kUnknown, 0.01}}) {
+    const Estimate found = decay_time(std::vector<double>{1, 2}, {{0.9, 0.1}, {before, after}});
+    EXPECT_GT(found.value, 1);
+    EXPECT_TRUE(std::isnan(found.sem));
+  }
 }
 
 TEST(DecayTime, IsUnknownWhereItDoesNotFall) {
