@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Plates that vibrate in the plane carry bodies by friction alone.
+// Plates that vibrate in the plane carry bodies by friction alone, and plates at rest stop them by it.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -82,7 +82,7 @@ TEST(HorizontalVibration, APlateThatSlipsPushesBySlidingFriction) {
 }
 
 // A base at rest stops a sphere that slides by mu g, whatever the restitution, until it rolls at 5/7 of its speed.
-TEST(HorizontalVibration, ASphereThatSlidesOnAPlateAtRestIsStoppedByMuG) {
+TEST(RodsAtRest, ASphereThatSlidesOnAPlateAtRestIsStoppedByMuG) {
   for (const double restitution : {0.0, 0.3, 0.8}) {
     for (const ImpulseLaw law : {ImpulseLaw::kNewton, ImpulseLaw::kPoisson, ImpulseLaw::kEnergetic}) {
       System system;
