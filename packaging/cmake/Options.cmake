@@ -41,7 +41,7 @@ endif()
 # Builds with sanitizers: what waits for files and sockets is not optimised, which halves the time to compile it; what
 # computes (a library says target_compile_options(NAME PRIVATE ${SHAKEN_COMPUTES})) is, or its tests would take too long.
 set(CMAKE_CXX_FLAGS_SANITIZE "-O0 -g1")
-set(SHAKEN_COMPUTES $<$<CONFIG:Sanitize>:-O1>)
+set(SHAKEN_COMPUTES $<$<CONFIG:Sanitize>:-O2>)
 # Link-time optimisation makes the worker 3 % faster. The simulator's objects hold both kinds of code, so that only the
 # programs that step for long (shaken_links_the_simulator(NAME)) wait for it when they are linked, not every test.
 set(SHAKEN_ENGINE "$<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>:-flto=auto;-ffat-lto-objects>")
