@@ -93,10 +93,14 @@ class Mesh {
 }  // namespace
 
 std::vector<std::size_t> cluster_sizes(std::span<const Vec3> positions, std::span<const Vec3> directors,
-                                       const Region& region, const ClusterRule& rule) {
+                                       std::span<const RodAxis> axes, const Region& region, const ClusterRule& rule) {
   SHAKEN_CHECK(positions.size() == directors.size(), "one position for each director");
+  SHAKEN_CHECK(axes.size() == 1 || axes.size() == directors.size(), "one axis, or that of each rod");
   SHAKEN_CHECK(rule.distance > 0, "neighbours are nearer than some distance");
-  const double reach = 2 * std::max(rule.tail, rule.head) + rule.distance, length = rule.tail + rule.head;
+  double farthest = 0;
+  for (const RodAxis& axis : axes) farthest = std::max({farthest, axis.tail, axis.head});
+  const double reach = 2 * farthest + rule.distance;
+  const auto axis_of = [&](std::size_t i) { return axes[axes.size() == 1 ? 0 : i]; };
   const double least_cosine = rule.angle < kPi / 2 ? std::cos(rule.angle) : 0.0;
   DisjointSets sets(positions.size());
   const Mesh mesh(positions, region.box(), reach);
@@ -108,7 +112,9 @@ std::vector<std::size_t> cluster_sizes(std::span<const Vec3> positions, std::spa
     const Vec2 in_plane = region.shortest({way.x(), way.y()});
     const Vec3 apart(in_plane.x(), in_plane.y(), way.z());
     if (apart.squaredNorm() >= reach * reach) return;
-    if (segment_distance(-rule.tail * n, length * n, apart - rule.tail * m, length * m) < rule.distance) {
+    const RodAxis one = axis_of(i), other = axis_of(j);
+    if (segment_distance(-one.tail * n, (one.tail + one.head) * n, apart - other.tail * m,
+                         (other.tail + other.head) * m) < rule.distance) {
       sets.join(i, j);
     }
   });

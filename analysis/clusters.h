@@ -17,19 +17,24 @@
 
 namespace shaken::analysis {
 
+/// How far a rod's axis reaches from its centre, to the centres of the end beads [mm].
+struct RodAxis {
+  double tail = 0, head = 0;
+};
+
 /// When two rods are neighbours in a cluster.
 struct ClusterRule {
-  double tail = 0, head = 0;  ///< how far the axis reaches from the centre, to the centres of the end beads [mm]
-  double distance = 0;        ///< the axes are nearer than this at one point [mm]
-  double angle = kPi / 2;     ///< and the angle between them, regardless of heads, is no larger than this [rad]
+  double distance = 0;     ///< the axes are nearer than this at one point [mm]
+  double angle = kPi / 2;  ///< and the angle between them, regardless of heads, is no larger than this [rad]
 };
 
 /// Number of rods in each cluster, the largest first. Rods are of one cluster if a chain of neighbours leads from one
 /// to the other. In a periodic box neighbours are sought at the nearest image of the centre.
 /// @param positions   (n_rods) centres, x and y in the box [mm]
 /// @param directors   (n_rods) unit vectors
+/// @param axes        (n_rods), or the one that all rods have
 std::vector<std::size_t> cluster_sizes(std::span<const Vec3> positions, std::span<const Vec3> directors,
-                                       const Region& region, const ClusterRule& rule);
+                                       std::span<const RodAxis> axes, const Region& region, const ClusterRule& rule);
 
 /// Sizes are counted by octaves: octave k holds the sizes from 2^k on, below 2^(k + 1).
 inline constexpr std::size_t kClusterOctaves = 21;

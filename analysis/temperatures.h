@@ -16,7 +16,7 @@
 
 namespace shaken::analysis {
 
-/// What turns velocities of one species into energies.
+/// What turns velocities of a rod into energies.
 struct RodInertia {
   double mass = 0;    ///< [mg]
   double across = 0;  ///< about an axis through the centre, across the rod [mg mm^2]
@@ -43,12 +43,14 @@ using Temperatures = std::array<double, kFreedoms>;
 /// Granular temperatures of rods of one species at one instant,
 ///   T = m <(v - <v>)^2> N / (N - 1)   of a component v of the velocity,   T = I <w^2>   of one of the angular velocity
 /// (Goldhirsch, Annu. Rev. Fluid Mech. 35, 267 (2003), per degree of freedom and with the mass). <v> is the mean of all
-/// rods; the last factor makes up for what it takes of their fluctuations. In thermal equilibrium all are k_B T. A rod
+/// rods; the last factor makes up for what it takes of their fluctuations. Of rods that differ, <v> is the velocity of
+/// their centre of mass, and m and I stand inside of the means. In thermal equilibrium all are k_B T. A rod
 /// exactly upright has neither u nor e: it is left out of what needs them. Translation of a single rod, and what no rod
 /// has, is NaN.
 /// @param directors, velocities [mm/s], angular_velocities [rad/s]  (n_rods) each
+/// @param inertias  (n_rods), or the one that all rods have
 Temperatures granular_temperatures(std::span<const Vec3> directors, std::span<const Vec3> velocities,
-                                   std::span<const Vec3> angular_velocities, const RodInertia& inertia);
+                                   std::span<const Vec3> angular_velocities, std::span<const RodInertia> inertias);
 
 /// Temperatures against time, in bounded memory (see BoundedSeries).
 class TemperatureSeries {

@@ -22,14 +22,14 @@ frame_static_t encode_cell(const Cell& cell, std::size_t n_rods, const std::stri
   message.box_x_mm = cell.box.x();
   message.box_y_mm = cell.box.y();
   message.gap_mm = cell.gap;
-  for (const auto& [offset, radius] : cell.species) {
+  for (const auto& [offset, radius] : cell.shapes) {
     message.species_beads.push_back(static_cast<std::int32_t>(offset.size()));
     message.bead_offset_mm.insert(message.bead_offset_mm.end(), offset.begin(), offset.end());
     message.bead_radius_mm.insert(message.bead_radius_mm.end(), radius.begin(), radius.end());
   }
   message.n_species = static_cast<std::int32_t>(message.species_beads.size());
   message.n_beads = static_cast<std::int32_t>(message.bead_offset_mm.size());
-  message.rod_species = cell.species_of_rod;
+  message.rod_species = cell.shape_of_rod;
   message.n_rod_species = static_cast<std::int32_t>(message.rod_species.size());
   if (cell.walls) {
     message.arena = name_of(cell.walls->arena);
@@ -44,12 +44,12 @@ std::optional<Cell> decode_cell(const frame_static_t& message) {
   Cell cell;
   cell.box = {message.box_x_mm, message.box_y_mm};
   cell.gap = message.gap_mm;
-  cell.species_of_rod = message.rod_species;
+  cell.shape_of_rod = message.rod_species;
   std::span<const double> offsets(message.bead_offset_mm), radii(message.bead_radius_mm);
   for (const std::int32_t n_beads : message.species_beads) {
     if (n_beads < 1 || static_cast<std::size_t>(n_beads) > std::min(offsets.size(), radii.size())) return std::nullopt;
     const auto n = static_cast<std::size_t>(n_beads);
-    cell.species.push_back({{offsets.begin(), offsets.begin() + n_beads}, {radii.begin(), radii.begin() + n_beads}});
+    cell.shapes.push_back({{offsets.begin(), offsets.begin() + n_beads}, {radii.begin(), radii.begin() + n_beads}});
     offsets = offsets.subspan(n);
     radii = radii.subspan(n);
   }
@@ -69,6 +69,13 @@ posts_t encode_posts(const StandingPosts& posts) {
     message.x_mm.push_back(centre.x());
     message.y_mm.push_back(centre.y());
   }
+  return message;
+}
+
+sizes_t encode_sizes(const std::vector<std::uint8_t>& species_of_shape) {
+  sizes_t message{};
+  message.species = species_of_shape;
+  message.n_sizes = static_cast<std::int32_t>(message.species.size());
   return message;
 }
 

@@ -11,5 +11,6 @@ inline constexpr const char* kFrameStaticChannel = "SHAKEN_FRAME_STATIC";  ///< 
 inline constexpr const char* kFrameChannel = "SHAKEN_FRAME";               ///< frame_t
 inline constexpr const char* kDefectsChannel = "SHAKEN_DEFECTS";           ///< defects_t
 inline constexpr const char* kPostsChannel = "SHAKEN_POSTS";               ///< posts_t
+inline constexpr const char* kSizesChannel = "SHAKEN_SIZES";               ///< sizes_t
 
 }  // namespace shaken::proto

@@ -28,6 +28,7 @@ std::optional<std::string> job_of(std::string_view channel, std::span<const std:
   if (channel == kFrameChannel) return job_in<frame_t>(payload);
   if (channel == kDefectsChannel) return job_in<defects_t>(payload);
   if (channel == kPostsChannel) return job_in<posts_t>(payload);
+  if (channel == kSizesChannel) return job_in<sizes_t>(payload);
   return std::nullopt;
 }
 

@@ -10,6 +10,7 @@
 #include <shaken/job_t.hpp>
 #include <shaken/observables_t.hpp>
 #include <shaken/posts_t.hpp>
+#include <shaken/sizes_t.hpp>
 #include <shaken/status_t.hpp>
 #include <span>
 #include <string_view>
@@ -36,6 +37,8 @@ template <>
 inline constexpr std::string_view kLayout<defects_t> = "88s8 8 nDDDD";
 template <>
 inline constexpr std::string_view kLayout<posts_t> = "88s8 8 nDD";
+template <>
+inline constexpr std::string_view kLayout<sizes_t> = "88s8 nB";
 
 /// The length that a payload beginning like this one must have [bytes], fingerprint included; none if a length inside
 /// it is negative, a string does not end in its first NUL, or the payload ends before its arrays do.

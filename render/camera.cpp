@@ -12,7 +12,7 @@ namespace {
 /// A rod may stand up by as much as the lid lets it; a little more than that is spanned on either side.
 Vec2 heights_of(const Cell& cell) {
   double thick = 0;
-  for (const BeadRow& beads : cell.species) {
+  for (const BeadRow& beads : cell.shapes) {
     for (const double radius : beads.radius) thick = std::max(thick, radius);
   }
   return {-thick, std::max(cell.gap, 2 * thick) + thick};

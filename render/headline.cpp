@@ -79,10 +79,10 @@ std::string headline(const std::string& label) {
 Notes settings_of(const RodPicture& picture) {
   const Cell& cell = picture.cell;
   Notes settings;
-  const std::size_t n_species = cell.species.size();
+  const std::size_t n_species = cell.n_species();
   if (n_species > 1) settings.emplace_back("", fmt::format("{} species", n_species));
   if (n_species == 1) {
-    settings.emplace_back(cell.has_axes() ? "\u2113" : "d", fmt::format("{:.4g} mm", picture.rod_length()));
+    settings.emplace_back(cell.has_axes() ? "\u2113" : "d", picture.length_text());
   }
   settings.emplace_back("\u03c6", fmt::format("{:.2f}", picture.area_fraction()));
   settings.emplace_back("N", fmt::format("{}", picture.n_rods()));

@@ -22,7 +22,7 @@ const std::vector<Tick> kHalves{{0, "0"}, {0.5, "0.5"}, {1, "1"}};
 
 Curve order_curve(const RodPicture& picture) {
   const OrderHistory& history = picture.captions.history;
-  return {.title = picture.cell.species.size() > 1 ? "Nematic order S of the first species" : "Nematic order S",
+  return {.title = picture.cell.n_species() > 1 ? "Nematic order S of the first species" : "Nematic order S",
           .x = history.time,
           .y = history.order,
           .x_ticks = {{history.start, fmt::format("{:.4g} s", history.start)},

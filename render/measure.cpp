@@ -31,7 +31,7 @@ std::vector<double> densities(const Cell& box, const Frame& frame, double width)
   std::vector<std::vector<std::size_t>> in_cell(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
   std::vector<Vec2> place(n);
   std::vector<double> area;
-  for (const BeadRow& beads : box.species) area.push_back(beads.area());
+  for (const BeadRow& beads : box.shapes) area.push_back(beads.area());
   const auto column_of = [&](const Vec2& at) {
     return std::min(static_cast<int>(at.x() / sides.x() * columns), columns - 1);
   };
@@ -56,7 +56,7 @@ std::vector<double> densities(const Cell& box, const Frame& frame, double width)
         if (period[axis] > 0) d[axis] = analysis::nearest_image(d[axis], period[axis]);
       }
       const double square = d.squaredNorm();
-      if (square < reach * reach) sum += area[box.species_of(j)] * std::exp(-square / (2 * width * width));
+      if (square < reach * reach) sum += area[box.shape_of(j)] * std::exp(-square / (2 * width * width));
     };
     for (int dj = -high; dj <= high; ++dj) {
       for (int di = -wide; di <= wide; ++di) {

@@ -145,18 +145,20 @@ void draw_species(const Canvas& canvas, const Layout& layout, const RodPicture& 
   const Colouring& colouring = colouring_of(picture, style);
   const bool by_name = std::string_view(colouring.name) == "species";
   double longest = 0, widest = 0;  // [mm]
-  for (const BeadRow& beads : picture.cell.species) {
+  const Cell& cell = picture.cell;
+  for (std::size_t species = 0; species < cell.n_species(); ++species) {
+    const BeadRow& beads = cell.mean_of_species(species);
     longest = std::max(longest, beads.length());
     widest = std::max(widest, 2 * *std::max_element(beads.radius.begin(), beads.radius.end()));
   }
-  const double row = layout.species.height / static_cast<double>(picture.cell.species.size());
+  const double row = layout.species.height / static_cast<double>(cell.n_species());
   const double room = std::min(0.4 * layout.species.width, 110 * u);
   const double scale = std::min(room / longest, 0.75 * row / widest);  // pixels per mm
   cairo_t* cr = canvas.cairo();
-  for (std::size_t species = 0; species < picture.cell.species.size(); ++species) {
-    const BeadRow& beads = picture.cell.species[species];
+  for (std::size_t species = 0; species < cell.n_species(); ++species) {
+    const BeadRow& beads = cell.mean_of_species(species);
     std::size_t example = 0;
-    while (example + 1 < picture.n_rods() && picture.cell.species_of(example) != species) ++example;
+    while (example + 1 < picture.n_rods() && cell.species_of(example) != species) ++example;
     const bool has_scale = !std::isnan(colouring.value(picture, example));
     const double y = layout.species.y + (static_cast<double>(species) + 0.5) * row;
     const double centre = layout.species.x + scale * (beads.radius.front() - beads.offset.front());
@@ -174,7 +176,7 @@ void draw_species(const Canvas& canvas, const Layout& layout, const RodPicture& 
     }
     canvas.colour(colours.ink);
     const double x = layout.species.x + scale * longest + 10 * u, size = 13 * u;
-    const std::string text = species_text(picture.cell, picture.frame, species);
+    const std::string text = species_text(cell, picture.frame, species);
     canvas.text(x, y + 5 * u, text, size * std::min(1.0, (layout.species.right() - x) / canvas.text_width(text, size)));
   }
 }
@@ -218,7 +220,7 @@ std::vector<Number> numbers_of(const RodPicture& picture, const PictureStyle& st
   // In slow motion the last digit should be seen to move.
   const int digits = picture.captions.playback > 0 && picture.captions.playback < 0.05 ? 4 : 2;
   const Cell& cell = picture.cell;
-  const bool has_axes = cell.has_axes(), is_mixture = cell.species.size() > 1;
+  const bool has_axes = cell.has_axes(), is_mixture = cell.n_species() > 1;
   std::vector<Number> numbers{{"time", fmt::format("{:.{}f} s", picture.frame.time, digits)}};
   // Of a mixture S and lengths belong to its species, beside which they stand (species_text).
   if (has_axes && !is_mixture) numbers.push_back({"order S", fmt::format("{:.3f}", picture.found.order)});
@@ -230,7 +232,7 @@ std::vector<Number> numbers_of(const RodPicture& picture, const PictureStyle& st
                   : "spheres",
        seen == picture.n_rods() ? fmt::format("{}", seen) : fmt::format("{}/{}", seen, picture.n_rods())});
   if (!is_mixture) {
-    numbers.push_back({has_axes ? "length \u2113" : "diameter d", fmt::format("{:.4g} mm", picture.rod_length())});
+    numbers.push_back({has_axes ? "length \u2113" : "diameter d", picture.length_text()});
   }
   numbers.push_back({"packing \u03c6", fmt::format("{:.2f}", picture.area_fraction())});
   numbers.push_back({"gap w", fmt::format("{:.4g} mm", cell.gap)});
@@ -251,7 +253,7 @@ std::string defects_text(const RodPicture& picture, const PictureStyle& style, d
 std::string species_text(const Cell& cell, const Frame& frame, std::size_t species) {
   const std::vector<Vec3> of_it = cell.of_species(species, frame.director);
   const std::size_t n = of_it.size();
-  if (!cell.species[species].has_axis()) return fmt::format("{} {}", n, n == 1 ? "sphere" : "spheres");
+  if (!cell.mean_of_species(species).has_axis()) return fmt::format("{} {}", n, n == 1 ? "sphere" : "spheres");
   const double order = analysis::nematic_order(std::span<const Vec3>(of_it)).order;
   return fmt::format("{} {}, S = {:.3f}", n, n == 1 ? "rod" : "rods", order);
 }

@@ -20,11 +20,10 @@ namespace shaken::render {
 namespace {
 
 Layout layout_for(const RodPicture& picture, const PictureStyle& style) {
-  const Contents contents{
-      .history = !picture.captions.history.time.empty() && style.inset != Inset::kOrder,
-      .label = !picture.captions.label.empty(),
-      .species = picture.cell.species.size() > 1 ? static_cast<int>(picture.cell.species.size()) : 0,
-      .scale = has_scale(picture, style)};
+  const Contents contents{.history = !picture.captions.history.time.empty() && style.inset != Inset::kOrder,
+                          .label = !picture.captions.label.empty(),
+                          .species = picture.cell.n_species() > 1 ? static_cast<int>(picture.cell.n_species()) : 0,
+                          .scale = has_scale(picture, style)};
   return style.view != ViewPoint::kTop ? stage_layout_of(style, contents) : layout_of(style, contents);
 }
 

@@ -105,8 +105,12 @@ struct RodPicture {
   std::size_t n_rods() const { return frame.position.size(); }
   /// Rods of one species.
   std::size_t count(std::size_t species) const { return cell.of_species(species, frame.position).size(); }
-  /// Tip to tip, of the first species [mm].
-  double rod_length() const { return cell.species.front().length(); }
+  /// Rods of one shape.
+  std::size_t count_of_shape(std::size_t shape) const;
+  /// Tip to tip, of the first species' mean rod [mm].
+  double rod_length() const { return cell.shapes.front().length(); }
+  /// "4.5 mm"; with the standard deviation where rods of the first species differ, "4.5±0.2 mm".
+  std::string length_text() const;
   /// Share of the arena, or of the box, covered by the projections of all rods, lying flat and side by side.
   double area_fraction() const;
 };

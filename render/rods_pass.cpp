@@ -34,18 +34,18 @@ Result<void> check_drawable(const RodPicture& picture, const PictureStyle& style
   if (style.view != ViewPoint::kTop && !(picture.cell.gap > 0)) return Error{"there is no gap to look into"};
   if (picture.frame.director.size() != picture.frame.position.size())
     return Error{"as many directors as positions are needed"};
-  for (const BeadRow& beads : picture.cell.species) {
+  for (const BeadRow& beads : picture.cell.shapes) {
     if (beads.offset.empty() || beads.offset.size() != beads.radius.size() ||
         beads.offset.size() > RodsPass::kMaxBeads) {
       return Error{"a rod of " + std::to_string(beads.offset.size()) + " beads cannot be drawn; possible are 1 to " +
                    std::to_string(RodsPass::kMaxBeads)};
     }
   }
-  if (picture.cell.species.size() > 1 && picture.cell.species_of_rod.size() != picture.n_rods())
-    return Error{"each rod's species is needed"};
-  if (std::any_of(picture.cell.species_of_rod.begin(), picture.cell.species_of_rod.end(),
-                  [&](std::uint8_t species) { return species >= picture.cell.species.size(); })) {
-    return Error{"a rod is of a species whose beads are not given"};
+  if (picture.cell.shapes.size() > 1 && picture.cell.shape_of_rod.size() != picture.n_rods())
+    return Error{"each rod's shape is needed"};
+  if (std::any_of(picture.cell.shape_of_rod.begin(), picture.cell.shape_of_rod.end(),
+                  [&](std::uint8_t shape) { return shape >= picture.cell.shapes.size(); })) {
+    return Error{"a rod is of a shape whose beads are not given"};
   }
   return {};
 }
@@ -55,17 +55,17 @@ bool has_end(const Cell& cell, const Camera& camera) {
   return cell.walls || (camera.period.isZero() && !camera.is_parallel);
 }
 
-/// All rods of one species, and their periodic images, of which a part may be seen; relative to the eye.
-RodBatch seen_rods(const RodPicture& picture, std::size_t species, const PictureStyle& style, const Camera& camera) {
-  const BeadRow& beads = picture.cell.species[species];
+/// All rods of one shape, and their periodic images, of which a part may be seen; relative to the eye.
+RodBatch seen_rods(const RodPicture& picture, std::size_t shape, const PictureStyle& style, const Camera& camera) {
+  const BeadRow& beads = picture.cell.shapes[shape];
   RodBatch batch(beads);
   const double around = camera.is_parallel ? batch.half + 2 * kMargin * batch.thick : batch.half;
-  const std::size_t n = picture.count(species);
+  const std::size_t n = picture.count_of_shape(shape);
   batch.rods.reserve(n + n / 4);
   const Colouring& colouring = colouring_of(picture, style);
   const Vec2 range = range_of(colouring, style);
   for (std::size_t i = 0; i < picture.n_rods(); ++i) {
-    if (picture.cell.species_of(i) != species) continue;
+    if (picture.cell.shape_of(i) != shape) continue;
     const Vec3 &x = picture.frame.position[i], &n_rod = picture.frame.director[i];
     double towards = 0;  // how far the rod reaches towards the eye
     for (std::size_t k = 0; k < beads.offset.size(); ++k) {
@@ -193,8 +193,8 @@ Result<ImageOf<Channel>> RodsPass::draw(const RodPicture& picture, const Picture
     if (!*program) return program->error();
   }
   std::vector<RodBatch> batches;
-  for (std::size_t species = 0; species < picture.cell.species.size(); ++species) {
-    batches.push_back(seen_rods(picture, species, style, camera));
+  for (std::size_t shape = 0; shape < picture.cell.shapes.size(); ++shape) {
+    batches.push_back(seen_rods(picture, shape, style, camera));
   }
   programs_->rods.bind();
   const auto draw_with = [&](GLuint program) {

@@ -10,6 +10,7 @@
 #include <shaken/frame_static_t.hpp>
 #include <shaken/frame_t.hpp>
 #include <shaken/posts_t.hpp>
+#include <shaken/sizes_t.hpp>
 
 #include "analysis/order.h"
 #include "base/files.h"
@@ -190,7 +191,7 @@ Result<const std::vector<analysis::Defect>*> TrajectorySource::defects_of(std::s
 Result<void> TrajectorySource::link(std::size_t first, std::size_t last) {
   if (!links_ || first < links_begin_ || first > links_end_) {
     const Cell& cell = reader_.header().cell;
-    links_.emplace(analysis::Region(cell.box, cell.walls), cell.species.front().length());
+    links_.emplace(analysis::Region(cell.box, cell.walls), cell.shapes.front().length());
     links_begin_ = links_end_ = first;
   }
   for (; links_end_ <= last; ++links_end_) {
@@ -311,6 +312,7 @@ Result<RodPicture> live_picture(const std::string& lcm_url, const std::string& j
   std::optional<proto::FrameAssembler> assembler;
   std::optional<proto::Frame> frame;
   StandingPosts posts;
+  std::vector<std::uint8_t> species_of_shape;
   const auto note_constants = [&](const frame_static_t& message) {
     if (constants || !message.job_id.starts_with(job)) return;
     constants = message;
@@ -319,11 +321,15 @@ Result<RodPicture> live_picture(const std::string& lcm_url, const std::string& j
   const auto note_posts = [&](const posts_t& message) {  // sent after the unchanging part, and before frames
     if (constants && message.job_id == constants->job_id) posts = proto::decode_posts(message);
   };
+  const auto note_sizes = [&](const sizes_t& message) {  // likewise
+    if (constants && message.job_id == constants->job_id) species_of_shape = message.species;
+  };
   const auto note_chunk = [&](const frame_t& chunk) {
     if (assembler && !frame) frame = assembler->add(chunk);
   };
   if (!bus.subscribe<frame_static_t>(proto::kFrameStaticChannel, note_constants) ||
       !bus.subscribe<posts_t>(proto::kPostsChannel, note_posts) ||
+      !bus.subscribe<sizes_t>(proto::kSizesChannel, note_sizes) ||
       !bus.subscribe<frame_t>(proto::kFrameChannel, note_chunk)) {
     return Error{"LCM refuses a subscription at " + lcm_url};
   }
@@ -347,6 +353,7 @@ Result<RodPicture> live_picture(const std::string& lcm_url, const std::string& j
   if (!cell) return Error{"the job's messages have numbers of beads that contradict each other"};
   picture.cell = *cell;
   picture.cell.posts = posts;
+  picture.cell.species_of_shape = species_of_shape;
   picture.cell.box = frame->box;
   for (const proto::RodPose& rod : frame->rods) {
     const std::array<double, 3> axis = rod.axis();

@@ -23,7 +23,7 @@ View view_of(const RodPicture& picture, const PictureStyle& style) {
   if (is_whole(picture.cell, style)) {
     // A rod whose centre lies in the box reaches at most half a length beyond it, whichever its species.
     double margin = 0;
-    for (const BeadRow& beads : picture.cell.species) margin = std::max(margin, beads.reach());
+    for (const BeadRow& beads : picture.cell.shapes) margin = std::max(margin, beads.reach());
     view.side = box.longer() + 2 * margin;
     view.corner = Vec2(-margin, -margin) - (Vec2(box.longer(), box.longer()) - box.sides()) / 2;
     return view;

@@ -48,15 +48,18 @@ namespace {
 /// The thread's own part: numbers the messages and puts them on the bus.
 class Sender {
  public:
-  Sender(std::unique_ptr<proto::Bus> bus, std::string job_id, frame_static_t constants, std::optional<posts_t> posts)
-      : bus_(std::move(bus)), job_id_(std::move(job_id)), constants_(std::move(constants)), posts_(std::move(posts)) {}
+  Sender(std::unique_ptr<proto::Bus> bus, std::string job_id, FramePublisher::Constants constants)
+      : bus_(std::move(bus)), job_id_(std::move(job_id)), constants_(std::move(constants)) {}
 
   void send_static(double sim_time) {
-    constants_.sim_time_s = sim_time;
-    send(proto::kFrameStaticChannel, constants_, static_sequence_);
-    if (!posts_) return;
-    posts_->sim_time_s = sim_time;
-    send(proto::kPostsChannel, *posts_, posts_sequence_);
+    const auto send_at = [&](const char* channel, auto& message) {
+      message.sim_time_s = sim_time;
+      send(channel, message, static_sequence_);
+    };
+    send_at(proto::kFrameStaticChannel, constants_.cell);
+    if (constants_.sizes) send_at(proto::kSizesChannel, *constants_.sizes);
+    if (constants_.posts) send_at(proto::kPostsChannel, *constants_.posts);
+    ++static_sequence_;
   }
   bool send(proto::Frame& frame) {
     frame.utime = utime_now();
@@ -69,24 +72,22 @@ class Sender {
     }
     return true;
   }
-  void send(observables_t& message) { send(proto::kObservablesChannel, message, observables_sequence_); }
-  void send(defects_t& message) { send(proto::kDefectsChannel, message, defects_sequence_); }
+  void send(observables_t& message) { send(proto::kObservablesChannel, message, observables_sequence_++); }
+  void send(defects_t& message) { send(proto::kDefectsChannel, message, defects_sequence_++); }
 
  private:
   template <class Message>
-  void send(const char* channel, Message& message, std::int64_t& sequence) {
+  void send(const char* channel, Message& message, std::int64_t sequence) {
     message.utime = utime_now();
     message.job_id = job_id_;
-    message.sequence = sequence++;
+    message.sequence = sequence;
     bus_->publish(channel, message);  // may be lost, as everything on this way
   }
 
   std::unique_ptr<proto::Bus> bus_;
   std::string job_id_;
-  frame_static_t constants_;
-  std::optional<posts_t> posts_;
+  FramePublisher::Constants constants_;
   std::int64_t static_sequence_ = 0;
-  std::int64_t posts_sequence_ = 0;
   std::int64_t frame_sequence_ = 0;
   std::int64_t observables_sequence_ = 0;
   std::int64_t defects_sequence_ = 0;
@@ -94,12 +95,11 @@ class Sender {
 
 }  // namespace
 
-FramePublisher::FramePublisher(const std::string& lcm_url, const std::string& job_id, const frame_static_t& constants,
-                               const std::optional<posts_t>& posts)
+FramePublisher::FramePublisher(const std::string& lcm_url, const std::string& job_id, const Constants& constants)
     : shared_(std::make_shared<Shared>()) {
-  const auto work = [shared = shared_, lcm_url, job_id, constants, posts] {
+  const auto work = [shared = shared_, lcm_url, job_id, constants] {
     if (auto bus = proto::Bus::open(lcm_url)) {
-      Sender sender(std::move(bus).value(), job_id, constants, posts);
+      Sender sender(std::move(bus).value(), job_id, constants);
       Clock::time_point next_static = Clock::now();
       double sim_time = 0;
       for (bool closing = false; !closing;) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <shaken/frame_static_t.hpp>
 #include <shaken/posts_t.hpp>
+#include <shaken/sizes_t.hpp>
 #include <string>
 
 #include "run/messages.h"
@@ -13,12 +14,16 @@ namespace shaken::run {
 
 /// Sends the live state of one run over LCM from a thread of its own, so that neither a slow network nor a missing one
 /// costs the run anything: of each kind only the newest message waits, older ones are dropped before they get a number.
-/// If LCM cannot start, that is one warning in the log. The static part, and posts if there are such, are sent at the
-/// start and every 2 s.
+/// If LCM cannot start, that is one warning in the log. What does not change is sent at the start and every 2 s.
 class FramePublisher {
  public:
-  FramePublisher(const std::string& lcm_url, const std::string& job_id, const frame_static_t& constants,
-                 const std::optional<posts_t>& posts);
+  /// What does not change during a run.
+  struct Constants {
+    frame_static_t cell;
+    std::optional<posts_t> posts{};
+    std::optional<sizes_t> sizes{};
+  };
+  FramePublisher(const std::string& lcm_url, const std::string& job_id, const Constants& constants);
   /// Sends what waits; gives up after a second.
   ~FramePublisher();
   FramePublisher(const FramePublisher&) = delete;

@@ -96,10 +96,10 @@ class Loop {
     aim_at(scene::next_end(plan, run_.simulation.tick()));
     if (plan.stream && options.lcm_url) {
       const Cell cell = world.cell();
-      std::optional<posts_t> posts;
-      if (!cell.posts.centres.empty()) posts = proto::encode_posts(cell.posts);
-      publisher_ = std::make_unique<FramePublisher>(*options.lcm_url, options.job_id,
-                                                    proto::encode_cell(cell, world.rods.size(), options.label), posts);
+      FramePublisher::Constants constants{proto::encode_cell(cell, world.rods.size(), options.label)};
+      if (!cell.posts.centres.empty()) constants.posts = proto::encode_posts(cell.posts);
+      if (!cell.species_of_shape.empty()) constants.sizes = proto::encode_sizes(cell.species_of_shape);
+      publisher_ = std::make_unique<FramePublisher>(*options.lcm_url, options.job_id, constants);
     }
   }
 

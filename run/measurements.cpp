@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "scene/derived.h"
 #include "scene/measured_species.h"
 
 namespace shaken::run {
@@ -44,13 +45,13 @@ Scalar mean_order(const analysis::SteadySummary& order) {
 Measurements::Measurements(const scene::RunPlan& plan, Cell cell) : cell_(std::move(cell)), steady_(plan.steady) {
   for (const scene::MeasuredRods& rods : scene::measured_species(plan)) {
     OfSpecies measured{rods.species, rods.prefix, rods.plan.system.rod.has_axis()};
-    const Species species = make_species(rods.plan.system.rod);
+    const std::vector<Species> sizes = scene::sizes_of_species(rods.plan.system.rod);
     for (const MeasurementKind& kind : measurement_kinds()) {
       const std::optional<Cadence> cadence = kind.cadence(rods.plan);
       if (!cadence) continue;
       const double interval = static_cast<double>(cadence->period()) * plan.system.dt;
-      measured.timed.push_back(
-          {std::string(kind.name), *cadence, kind.make({rods.plan, plan, species, cell_, interval}), 0});
+      measured.timed.push_back({std::string(kind.name), *cadence,
+                                kind.make({rods.plan, plan, sizes.front(), cell_, interval, rods.species, sizes}), 0});
       const Measurement* made = measured.timed.back().measurement.get();
       if (const auto* order = dynamic_cast<const MeasuredOrder*>(made)) measured.order = order;
       if (const auto* defects = dynamic_cast<const MeasuredDefects*>(made)) measured.defects = defects;
@@ -73,7 +74,7 @@ void Measurements::sample(const Snapshot& snapshot, const RunTotals& totals) {
     if (std::ranges::none_of(rods.timed, is_due)) continue;
     const auto theirs = [&](const auto& values) { return cell_.of_species(rods.species, values); };
     std::optional<Snapshot> measured;
-    if (!cell_.species_of_rod.empty()) {
+    if (!cell_.has_one_species()) {
       measured = {snapshot.tick,
                   snapshot.time,
                   snapshot.box,

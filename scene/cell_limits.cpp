@@ -28,7 +28,7 @@ Result<void> check_cell(const Cell& cell, std::size_t n_rods) {
   };
   for (const double side : {cell.box.x(), cell.box.y()}) hold("box side", side, "box.side");
   hold("gap", cell.gap, "box.gap");
-  for (const BeadRow& beads : cell.species) {
+  for (const BeadRow& beads : cell.shapes) {
     for (const double radius : beads.radius) hold("bead radius", radius, "rods.bead_diameters", 0.5);
     // Beads may lie anywhere along a rod, so the shortest rod does not matter; nor where its centre of mass is.
     for (const double offset : beads.offset) {
@@ -48,12 +48,18 @@ Result<void> check_cell(const Cell& cell, std::size_t n_rods) {
     if (!is_inside) return Error{"a post outside of the box"};
   }
   if (!wrong.empty()) return Error{wrong};
-  if (cell.species.empty()) return Error{"no species"};
-  if (cell.species_of_rod.size() != (cell.species.size() > 1 ? n_rods : 0)) {
+  if (cell.shapes.empty()) return Error{"no species"};
+  if (cell.shape_of_rod.size() != (cell.shapes.size() > 1 ? n_rods : 0)) {
     return Error{"a number of rods that contradicts that of their species"};
   }
-  const auto is_known = [&](std::uint8_t species) { return species < cell.species.size(); };
-  if (std::all_of(cell.species_of_rod.begin(), cell.species_of_rod.end(), is_known)) return {};
+  if (const auto& species = cell.species_of_shape; !species.empty()) {
+    const bool has_gap =
+        std::ranges::adjacent_find(species, [](int a, int b) { return b < a || b > a + 1; }) != species.end();
+    if (species.size() != cell.shapes.size() || species.front() != 0 || has_gap)
+      return Error{"sizes that contradict the species that they are of"};
+  }
+  const auto is_known = [&](std::uint8_t species) { return species < cell.shapes.size(); };
+  if (std::all_of(cell.shape_of_rod.begin(), cell.shape_of_rod.end(), is_known)) return {};
   return Error{"a rod of a species whose beads are not there"};
 }
 

@@ -30,6 +30,12 @@ double peak_speed_of(const System& scene);
 /// make_species(rod), kept from the last few calls: the points of a sweep ask for the same shapes over and over, and
 /// integrating one takes as long as much else that a point needs.
 Species species_of(const RodShape& rod);
+/// The same of every size that rods of that species have.
+std::vector<Species> sizes_of_species(const RodShape& rod);
+/// Diameter of the thickest bead [mm].
+double thickest_bead(const RodShape& rod);
+/// What a rod covers, lying flat, on average over the sizes [mm^2].
+double mean_area_of(const RodShape& rod);
 
 /// Of the rods of the first species: N A / L^2, with A the area of one rod lying flat.
 double area_fraction_of(const System& scene);

@@ -209,6 +209,7 @@ Field bead_diameters(const std::string& path, Access access) {
           [access](RunPlan& p, const Value& value) { access(p) = std::get<std::vector<double>>(value); }};
 }
 
+constexpr double kMostSpread = 0.3;  // the shortest rods then have half of the mean length
 constexpr double kMostFriction = 1000;
 constexpr double kMostRestitutionSpeed = 1e6;  // [mm/s]
 
@@ -233,6 +234,11 @@ std::vector<Field> shape(const std::string& name, const std::string& of_density)
                           {{"symmetric", Profile::kSymmetric}, {"polar", Profile::kPolar}},
                           "Whether the thickness falls from the centre to both ends, or from tail to head.")),
     bead_diameters(name + ".bead_diameters", at<rod..., &RodShape::bead_diameters>),
+    later(quantity(name + ".length_spread", at<rod..., &RodShape::spread, &SizeSpread::length>, kPlain, 0, kMostSpread,
+                   "Standard deviation of the rods' lengths over their mean; of spheres, of their diameters.")),
+    later(quantity(name + ".end_diameter_spread", at<rod..., &RodShape::spread, &SizeSpread::end_diameter>, kPlain, 0,
+                   kMostSpread, "Standard deviation of the diameters of the rods' ends over their mean, independent of "
+                                "their lengths.")),
     instead(name + ".bead_pitch", nullptr, kLength, 0.01, 10, kDefaultBeadPitch,
             "Largest distance between neighbouring beads; a rod gets the smallest odd number of beads that keeps to "
             "it."),

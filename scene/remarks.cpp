@@ -13,6 +13,7 @@
 #include "scene/fields.h"
 #include "scene/measured_species.h"
 #include "scene/observables.h"
+#include "sim/rod/sizes.h"
 #include "sim/rod/species.h"
 
 namespace shaken::scene {
@@ -60,9 +61,9 @@ bool has_head(const RodShape& rod) {
 /// That no rod gets through between the posts of a lattice that fills the box; none if some do.
 std::optional<std::string> remark_on_posts(const System& system) {
   if (!system.posts || !system.posts->places.empty() || system.walls) return std::nullopt;
-  double thinnest = species_of(system.rod).max_radius;
-  for (const auto& added : system.added) {
-    if (added) thinnest = std::min(thinnest, species_of(added->rod).max_radius);
+  double thinnest = INFINITY;
+  for (const Component& rods : components_of(system)) {
+    if (rods.count > 0) thinnest = std::min(thinnest, species_of(rods.shape).max_radius);
   }
   const double apart = std::max(system.box().x() / system.posts->columns, system.box().y() / system.posts->rows);
   const double gap = apart - system.posts->diameter;

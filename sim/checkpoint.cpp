@@ -57,6 +57,7 @@ template <class Archive>
 void each_scene_key(Archive&& visit, const System& system) {
   visit(static_cast<std::int64_t>(system.n_rods));
   visit(static_cast<std::int64_t>(system.n_all_rods()));
+  bool mixed = false;  // of several shapes
   const auto shape = [&](const RodShape& rod) {
     visit(static_cast<std::int64_t>(rod.n_beads));
     visit(rod.length);
@@ -65,16 +66,19 @@ void each_scene_key(Archive&& visit, const System& system) {
     visit(rod.density);
     visit(static_cast<std::int64_t>(rod.profile));
     for (const double diameter : rod.bead_diameters) visit(diameter);
+    if (!rod.spread.is_any()) return;
+    visit(rod.spread.length);
+    visit(rod.spread.end_diameter);
+    mixed = true;
   };
   shape(system.rod);
-  bool mixed = false;
   for (const auto& more : system.added) {
     if (!more) continue;
     visit(static_cast<std::int64_t>(more->count));
     shape(more->rod);
     mixed = true;
   }
-  if (mixed) visit(static_cast<std::int64_t>(system.seed));  // it tells which rod is of which species
+  if (mixed) visit(static_cast<std::int64_t>(system.seed));  // it says which rod is of which shape
   visit(static_cast<std::int64_t>(system.base));
   visit(static_cast<std::int64_t>(system.lid));
   if (system.walls) {

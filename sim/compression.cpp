@@ -46,8 +46,10 @@ constexpr double kTurnTime = 0.0025;  ///< in which they turn by sin 2 delta, de
 constexpr double kTipSpeed = 6.0;     ///< of the tip of a rod that turns, in speeds of a start
 constexpr double kSmoothing = 1.0;    ///< of the field that turns them, in lengths of the longest rod
 
-/// Thicker and longer by `more` all around the beads, whose centres stay where they are [mm].
+/// Thicker and longer by `more` all around the beads, whose centres stay where they are [mm]. So are all its sizes.
 RodShape thicker(RodShape rod, double more) {
+  rod.spread.length *= rod.length / (rod.length + more);
+  rod.spread.end_diameter *= rod.end_diameter / (rod.end_diameter + more);
   rod.length += more;
   rod.mid_diameter += more;
   rod.end_diameter += more;
@@ -57,7 +59,7 @@ RodShape thicker(RodShape rod, double more) {
 
 double area_of(const World& world) {
   double area = 0;
-  for (std::size_t i = 0; i < world.species_of_rod.size(); ++i) area += world.species_of(i).area;
+  for (std::size_t i = 0; i < world.shape_of_rod.size(); ++i) area += world.species_of(i).area;
   return area;
 }
 
@@ -228,7 +230,7 @@ class Compression {
       D.x() *= wide;
       D.y() *= wide;
       D.z() *= high;
-      find_bead_contacts(species[world_.species_of_rod[i]], poses_[i].director, species[world_.species_of_rod[j]],
+      find_bead_contacts(species[world_.shape_of_rod[i]], poses_[i].director, species[world_.shape_of_rod[j]],
                          poses_[j].director, D, contacts);
       for (const BeadContact& contact : contacts) overlap = std::max(overlap, contact.overlap);
     }
@@ -260,13 +262,13 @@ class Compression {
     for (std::size_t i = 0; i < poses_.size(); ++i) {
       Pose pose = poses_[i];
       pose.position *= side / world_.system.box_side;
-      overlap = std::max(overlap, overlap_with_posts(posts, species[world_.species_of_rod[i]], pose));
+      overlap = std::max(overlap, overlap_with_posts(posts, species[world_.shape_of_rod[i]], pose));
     }
     return overlap;
   }
 
   NeighborList neighbors() const {
-    NeighborList list(world_.species, world_.species_of_rod, world_.system.box(), NeighborList::kSkin);
+    NeighborList list(world_.species, world_.shape_of_rod, world_.system.box(), NeighborList::kSkin);
     list.build(poses_);
     return list;
   }

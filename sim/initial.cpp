@@ -54,7 +54,7 @@ double shortened_by_tilt(const System& system, std::span<const Species> species)
 class Placement {
  public:
   Placement(const System& for_scene, std::span<const Species> of_species, std::span<const std::uint8_t> of_kinds)
-      : system(for_scene), species(of_species), species_of_rod(of_kinds) {
+      : system(for_scene), species(of_species), shape_of_rod(of_kinds) {
     if (system.posts) {
       StandingPosts standing = standing_posts(system);
       standing.diameter += 2.0 * (kClearance + shortened_by_tilt(system, species));
@@ -99,12 +99,12 @@ class Placement {
     return radius;
   }
 
-  int n_rods() const { return static_cast<int>(species_of_rod.size()); }
-  const Species& species_of(int i) const { return species[species_of_rod[static_cast<std::size_t>(i)]]; }
+  int n_rods() const { return static_cast<int>(shape_of_rod.size()); }
+  const Species& species_of(int i) const { return species[shape_of_rod[static_cast<std::size_t>(i)]]; }
 
   const System& system;
   std::span<const Species> species;
-  std::span<const std::uint8_t> species_of_rod;
+  std::span<const std::uint8_t> shape_of_rod;
   std::optional<PostGrid> posts;  ///< thicker, by as much as a bead comes nearer when its rod is tilted
 
   /// Whether something stands in the box, so that not every place of it is free.
@@ -448,10 +448,10 @@ void push_at_start(Flight& flight, const System& system, Rng& rng) {
 }
 
 Result<std::vector<Flight>> initial_flights(const System& system, std::span<const Species> species,
-                                            std::span<const std::uint8_t> species_of_rod, const DirectorAt& directors) {
+                                            std::span<const std::uint8_t> shape_of_rod, const DirectorAt& directors) {
   SHAKEN_CHECK(!is_compressed(system.start), "sim/compression.h makes that");
   SHAKEN_CHECK(!directors || system.start == Start::kRandom, "only rods at random places follow a pattern");
-  const Placement rods(system, species, species_of_rod);
+  const Placement rods(system, species, shape_of_rod);
   if (system.gap < 2.0 * rods.max_radius()) return Error{"the gap is smaller than the thickest bead"};
   if (const double least = least_box_side(species); system.box().shorter() < least * (1.0 - 1e-9)) {
     return Error{"the box is too small: rods might meet two images of another below " + std::to_string(least) + " mm"};
@@ -462,7 +462,7 @@ Result<std::vector<Flight>> initial_flights(const System& system, std::span<cons
   // what was promised is checked, not believed
   std::vector<Pose> poses;
   for (const Flight& flight : *flights) poses.push_back({flight.position, flight.director});
-  NeighborList neighbors(species, species_of_rod, system.box(), 0.01);
+  NeighborList neighbors(species, shape_of_rod, system.box(), 0.01);
   neighbors.build(poses);
   std::vector<BeadContact> contacts;
   for (const auto& [i, j] : neighbors.pairs()) {
@@ -477,7 +477,7 @@ Result<World> make_world(const System& system) { return make_world_along(system,
 
 Result<World> make_world_along(const System& system, const DirectorAt& directors) {
   World world = empty_world(system);
-  auto flights = initial_flights(system, world.species, world.species_of_rod, directors);
+  auto flights = initial_flights(system, world.species, world.shape_of_rod, directors);
   if (!flights) return flights.error();
   world.rods = std::move(flights).value();
   world.start = content(world);
@@ -532,9 +532,9 @@ RodsLeft rods_left(const World& world, const World& left) {
   rods.poses.reserve(left.rods.size());
   rods.motions.reserve(left.rods.size());
   std::vector<std::size_t> next(world.species.size(), 0);  // of each species, where to look for its next rod
-  for (const std::uint8_t kind : world.species_of_rod) {
+  for (const std::uint8_t kind : world.shape_of_rod) {
     std::size_t& from = next[kind];
-    while (left.species_of_rod[from] != kind) ++from;
+    while (left.shape_of_rod[from] != kind) ++from;
     const Flight& flight = left.rods[from++];
     const double ratio = world.species[kind].inertia_par / world.species[kind].inertia_perp;
     const double tau = static_cast<double>(left.tick - flight.since) * left.system.dt;

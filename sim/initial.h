@@ -33,7 +33,7 @@ inline constexpr double kStartSpeed = 20.0;
 /// Several species share one lattice, roomy enough for any two of them side by side. Of an arena, the sites within it
 /// are used. In a planar scene (System::is_planar) velocities are planar too.
 Result<std::vector<Flight>> initial_flights(const System& system, std::span<const Species> species,
-                                            std::span<const std::uint8_t> species_of_rod,
+                                            std::span<const std::uint8_t> shape_of_rod,
                                             const DirectorAt& directors = {});
 
 /// Gives a rod whose place and direction are set the random motion of a start, and prepares its flight.

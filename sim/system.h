@@ -20,6 +20,15 @@ enum class Profile {
   kPolar,      ///< from the tail down to the head, the end that the director points to
 };
 
+/// How the rods of one species differ in size (polydispersity): each quantity is distributed normally about that of the
+/// mean rod (sim/rod/sizes.h), independently of the other.
+struct SizeSpread {
+  double length = 0;        ///< standard deviation of the length over its mean; of a sphere, of its diameter
+  double end_diameter = 0;  ///< that of the diameter of the ends over its mean
+  bool is_any() const { return length > 0 || end_diameter > 0; }
+  friend bool operator==(const SizeSpread&, const SizeSpread&) = default;
+};
+
 /// The shape of one species: equally spaced beads on a line, whose radius falls linearly from the centre bead to
 /// the two ends (Sharma & Soni 2024, section 2), from tail to head, or goes as one likes.
 struct RodShape {
@@ -30,6 +39,7 @@ struct RodShape {
   double density = 8.5;       ///< [mg/mm^3]; brass. Sets the unit of energy only where all rods have the same
   Profile profile = Profile::kSymmetric;
   std::vector<double> bead_diameters{};  ///< (n_beads) from tail to head, in place of a profile; or empty [mm]
+  SizeSpread spread{};                   ///< about all that, which then is the mean rod
   /// A sphere has none: it has no director, no order and no defects.
   bool has_axis() const { return n_beads > 1; }
   friend bool operator==(const RodShape&, const RodShape&) = default;

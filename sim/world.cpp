@@ -4,22 +4,23 @@
 #include <utility>
 
 #include "base/core/rng.h"
+#include "sim/rod/sizes.h"
 
 namespace shaken {
 namespace {
 
-/// Kinds in random order (Fisher & Yates), by the seed.
-std::vector<std::uint8_t> draw_kinds(const System& system) {
-  std::vector<std::uint8_t> species_of_rod(static_cast<std::size_t>(system.n_rods), 0);
-  std::uint8_t kind = 0;
-  for (const auto& more : system.added) {
-    if (more) species_of_rod.insert(species_of_rod.end(), static_cast<std::size_t>(more->count), ++kind);
+/// Shapes in random order (Fisher & Yates), by the seed.
+std::vector<std::uint8_t> draw_shapes(const std::vector<Component>& components, std::uint64_t seed) {
+  std::vector<std::uint8_t> shape_of_rod;
+  for (std::size_t k = 0; k < components.size(); ++k) {
+    shape_of_rod.insert(shape_of_rod.end(), static_cast<std::size_t>(components[k].count),
+                        static_cast<std::uint8_t>(k));
   }
-  if (kind == 0) return species_of_rod;
-  Rng shuffle(system.seed, RngStream::kKinds, 0, 0);
-  for (std::size_t k = species_of_rod.size() - 1; k > 0; --k)
-    std::swap(species_of_rod[k], species_of_rod[shuffle.below(k + 1)]);
-  return species_of_rod;
+  if (components.size() == 1) return shape_of_rod;
+  Rng shuffle(seed, RngStream::kKinds, 0, 0);
+  for (std::size_t k = shape_of_rod.size() - 1; k > 0; --k)
+    std::swap(shape_of_rod[k], shape_of_rod[shuffle.below(k + 1)]);
+  return shape_of_rod;
 }
 
 }  // namespace
@@ -27,11 +28,12 @@ std::vector<std::uint8_t> draw_kinds(const System& system) {
 World empty_world(const System& system) {
   World world;
   world.system = system;
-  world.species.push_back(make_species(system.rod));
-  for (const auto& more : system.added) {
-    if (more) world.species.push_back(make_species(more->rod));
+  const std::vector<Component> components = components_of(system);
+  for (const Component& one : components) {
+    world.species.push_back(make_species(one.shape));
+    world.species_of_shape.push_back(one.species);
   }
-  world.species_of_rod = draw_kinds(system);
+  world.shape_of_rod = draw_shapes(components, system.seed);
   world.plates = PlateMotion(
       system.amplitude, system.frequency, system.gap, system.dt,
       {system.horizontal_amplitude, system.horizontal_phase * (kPi / 180.0), system.horizontal_angle * (kPi / 180.0)});
@@ -40,8 +42,9 @@ World empty_world(const System& system) {
 
 Cell World::cell() const {
   Cell cell{.box = system.box(), .gap = system.gap, .walls = system.walls, .posts = standing_posts(system)};
-  for (const Species& kind : species) cell.species.push_back(kind.beads());
-  if (species.size() > 1) cell.species_of_rod = species_of_rod;
+  for (const Species& one : species) cell.shapes.push_back(one.beads());
+  if (species.size() > 1) cell.shape_of_rod = shape_of_rod;
+  if (species_of_shape.back() + 1U != species.size()) cell.species_of_shape = species_of_shape;
   return cell;
 }
 

@@ -55,19 +55,20 @@ struct NumericalTrouble {
 /// All mutable data of a simulation. What can be derived from it (neighbour lists, schedules) belongs to the stepper.
 struct World {
   System system;
-  std::vector<Species> species;              ///< (n_species) the species
-  std::vector<std::uint8_t> species_of_rod;  ///< (n_rods) index of each rod's species
+  std::vector<Species> species;                ///< (n_shapes) each size of each species, ready for use
+  std::vector<std::uint8_t> species_of_shape;  ///< (n_shapes) 0 for the scene's rods, 1 and 2 for others that it has
+  std::vector<std::uint8_t> shape_of_rod;      ///< (n_rods) index into both
   PlateMotion plates;
   Tick tick = 0;
   std::vector<Flight> rods;  ///< (n_rods)
   Counters counters;
   Content start;  ///< energy and momentum at tick 0
 
-  const Species& species_of(std::size_t i) const { return species[species_of_rod[i]]; }
+  const Species& species_of(std::size_t i) const { return species[shape_of_rod[i]]; }
   Cell cell() const;
 };
 
-/// The scene's species and plates at tick 0, without rods. Which rods are of which kind is drawn from the seed.
+/// The scene's species and plates at tick 0, without rods. Which rods are of which shape is drawn from the seed.
 World empty_world(const System& system);
 
 /// Every rod evaluated at the world's tick.

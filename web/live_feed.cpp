@@ -25,6 +25,7 @@ LiveFeed::LiveFeed(std::unique_ptr<proto::Bus> bus) : bus_(std::move(bus)) {
   bus_->subscribe<defects_t>(proto::kDefectsChannel, noting, 100);
   bus_->subscribe<frame_static_t>(proto::kFrameStaticChannel, noting, 100);
   bus_->subscribe<posts_t>(proto::kPostsChannel, noting, 100);
+  bus_->subscribe<sizes_t>(proto::kSizesChannel, noting, 100);
   bus_->subscribe<frame_t>(proto::kFrameChannel, noting, 500);
   thread_ = std::jthread([this](const std::stop_token& stop) { listen(stop); });
 }
@@ -54,6 +55,7 @@ void LiveFeed::take(Run& run, const defects_t& message) {
 
 void LiveFeed::take(Run& run, const frame_static_t& message) { run.rods.note(message); }
 void LiveFeed::take(Run& run, const posts_t& message) { run.rods.note(message); }
+void LiveFeed::take(Run& run, const sizes_t& message) { run.rods.note(message); }
 
 void LiveFeed::take(Run& run, const frame_t& message) {
   if (Clock::now() > run.looked_at + kInterest) return;

@@ -74,6 +74,7 @@ class LiveFeed {
   static void take(Run& run, const defects_t& message);
   static void take(Run& run, const frame_static_t& message);
   static void take(Run& run, const posts_t& message);
+  static void take(Run& run, const sizes_t& message);
   static void take(Run& run, const frame_t& message);
 
   std::unique_ptr<proto::Bus> bus_;

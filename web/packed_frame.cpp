@@ -48,6 +48,7 @@ nlohmann::ordered_json head_of(const client::RodFrame& frame) {
           {"director_rad", frame.director},
           {"n_rods", frame.rods.size()},
           {"outlines", outlines},
+          {"species_of_outline", frame.cell.species_of_shape},
           {"gap_mm", frame.cell.gap},
           {"has_heights", !frame.heights.empty()},
           {"walls", walls},
@@ -73,7 +74,7 @@ std::string packed(const client::RodFrame& frame) {
     for (const frame_t& chunk : chunks) append(bytes, chunk.*array);
   }
   for (const double height : frame.heights) append(bytes, packed_height(height, frame.cell.gap));
-  bytes.append(frame.cell.species_of_rod.begin(), frame.cell.species_of_rod.end());
+  bytes.append(frame.cell.shape_of_rod.begin(), frame.cell.shape_of_rod.end());
   return bytes;
 }
 

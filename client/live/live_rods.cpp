@@ -29,7 +29,7 @@ Result<RodFrame> constants_of(const Cell& cell, std::size_t n_rods) {
   if (auto done = scene::check_cell(cell, n_rods); !done) return done.error();
   RodFrame frame{.cell = cell};
   double largest = 0;
-  for (const BeadRow& beads : cell.species) {
+  for (const BeadRow& beads : cell.shapes) {
     const RodOutline& outline = frame.outlines.emplace_back(outline_of(beads));
     largest = std::max(largest, 4 * (outline.half_length + outline.end) * outline.middle);
   }
@@ -50,21 +50,30 @@ void LiveRods::note(const frame_static_t& message) {
   std::optional<Cell> cell = proto::decode_cell(message);
   if (!cell || message.n_rods < 0) return;
   cell->posts = posts_;
-  const auto n_rods = static_cast<std::size_t>(message.n_rods);
-  if (Result<RodFrame> constants = constants_of(*cell, n_rods)) {
-    constants_ = std::move(*constants);
-    n_rods_ = n_rods;
-  }
+  if (species_of_shape_.size() == cell->shapes.size()) cell->species_of_shape = species_of_shape_;
+  change(*cell, static_cast<std::size_t>(message.n_rods));
 }
 
 void LiveRods::note(const posts_t& message) {
   if (!constants_ || message.job_id != job_) return;
   Cell cell = constants_->cell;
   cell.posts = proto::decode_posts(message);
-  if (Result<RodFrame> constants = constants_of(cell, n_rods_)) {
-    constants_ = std::move(*constants);
-    posts_ = cell.posts;
-  }
+  if (change(cell, n_rods_)) posts_ = cell.posts;
+}
+
+void LiveRods::note(const sizes_t& message) {
+  if (!constants_ || message.job_id != job_) return;
+  Cell cell = constants_->cell;
+  cell.species_of_shape = message.species;
+  if (change(cell, n_rods_)) species_of_shape_ = cell.species_of_shape;
+}
+
+bool LiveRods::change(const Cell& cell, std::size_t n_rods) {
+  Result<RodFrame> constants = constants_of(cell, n_rods);
+  if (!constants) return false;
+  constants_ = std::move(*constants);
+  n_rods_ = n_rods;
+  return true;
 }
 
 namespace {

@@ -6,7 +6,9 @@
 #include <shaken/frame_static_t.hpp>
 #include <shaken/frame_t.hpp>
 #include <shaken/posts_t.hpp>
+#include <shaken/sizes_t.hpp>
 #include <string>
+#include <vector>
 
 #include "base/core/result.h"
 #include "client/live/rod_frame.h"
@@ -27,6 +29,7 @@ class LiveRods {
   /// Messages about other jobs than the selected one are ignored; so are frames that do not fit to the last constants.
   void note(const frame_static_t& message);
   void note(const posts_t& message);
+  void note(const sizes_t& message);
   void note(const frame_t& message);
 
   /// The newest whole frame; null if none has come.
@@ -35,10 +38,14 @@ class LiveRods {
   std::int64_t lost() const { return assembler_.lost(); }
 
  private:
+  /// False, and nothing changes, where no scene has such a cell.
+  bool change(const Cell& cell, std::size_t n_rods);
+
   std::string job_;
   std::optional<RodFrame> constants_;
   std::size_t n_rods_ = 0;
-  StandingPosts posts_;  ///< the last that have come
+  StandingPosts posts_;                         ///< the last that have come
+  std::vector<std::uint8_t> species_of_shape_;  ///< likewise
   proto::FrameAssembler assembler_{""};
   std::shared_ptr<const RodFrame> newest_;
   std::int64_t received_ = 0;

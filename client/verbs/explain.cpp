@@ -122,18 +122,22 @@ class Explain : public Verb {
     }
     const auto gamma = scene::gamma_of(s);
     const double total = point.plan.total_time();
+    const auto differ = [](double spread) {
+      return spread > 0 ? fmt::format(" (+- {:.4g} %)", 100 * spread) : std::string();
+    };
     const auto rods = [&](const RodShape& rod, int count) {
-      std::string shape = fmt::format("{} of {}, ", count, length(rod.length));
+      const std::string longer = differ(rod.spread.length), wider = differ(rod.spread.end_diameter);
+      std::string shape = fmt::format("{} of {}{}, ", count, length(rod.length), longer);
       if (rod.n_beads == 1) {
-        shape = fmt::format("{} spheres of {}", count, length(rod.mid_diameter));
+        shape = fmt::format("{} spheres of {}{}", count, length(rod.mid_diameter), longer);
       } else if (!rod.bead_diameters.empty()) {
         shape += fmt::format("{} beads of given diameters", rod.n_beads);
       } else if (rod.profile == Profile::kPolar) {
-        shape += fmt::format("{} thick at the tail, {} at the head ({} beads)", length(rod.mid_diameter),
-                             length(rod.end_diameter), rod.n_beads);
+        shape += fmt::format("{} thick at the tail, {}{} at the head ({} beads)", length(rod.mid_diameter),
+                             length(rod.end_diameter), wider, rod.n_beads);
       } else {
-        shape += fmt::format("{} thick, {} at the ends ({} beads)", length(rod.mid_diameter), length(rod.end_diameter),
-                             rod.n_beads);
+        shape += fmt::format("{} thick, {}{} at the ends ({} beads)", length(rod.mid_diameter),
+                             length(rod.end_diameter), wider, rod.n_beads);
       }
       return fmt::format("{}; area fraction {}\n", shape, number_text(scene::area_fraction_of(s, rod, count)));
     };

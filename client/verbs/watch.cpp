@@ -145,6 +145,8 @@ class Watch : public Verb {
         proto::kFrameStaticChannel, [rods](const frame_static_t& message) { rods->note(message); }, 100);
     bus.subscribe<posts_t>(
         proto::kPostsChannel, [rods](const posts_t& message) { rods->note(message); }, 100);
+    bus.subscribe<sizes_t>(
+        proto::kSizesChannel, [rods](const sizes_t& message) { rods->note(message); }, 100);
     bus.subscribe<frame_t>(
         proto::kFrameChannel, [rods](const frame_t& message) { rods->note(message); }, 500);
   }

@@ -53,7 +53,7 @@ RodSamples::RodSamples(const RodFrame& frame, const RodView& view, Colouring col
   if (frame.cell.walls) draw_walls(*frame.cell.walls);
   draw_posts(frame.cell.posts);
   for (std::size_t i = 0; i < frame.rods.size(); ++i) {
-    draw(frame.rods[i], frame.outlines[frame.cell.species_of(i)], tone_of(frame, i, colouring));
+    draw(frame.rods[i], frame.outlines[frame.cell.shape_of(i)], tone_of(frame, i, colouring));
   }
 }
 

@@ -83,7 +83,8 @@ def directors_of(quaternions: np.ndarray) -> np.ndarray:
 class Trajectory:
     """The frames of a trajectory.h5, each read from the file when it is asked for.
 
-    times: (frames,) [s]
+    times:   (frames,) [s]
+    species: (n,) see Frame
     """
 
     def __init__(self, path: str | Path) -> None:
@@ -96,6 +97,18 @@ class Trajectory:
             raise ShakenError(f"{self.path}: {error}") from None
         n = self._rods["position/value"].shape[1]
         self.species = np.asarray(self._rods["species"][()]) if "species" in self._rods else np.zeros(n, np.uint8)
+
+    @property
+    def lengths(self) -> np.ndarray:
+        """(n,) of the rods, tip to tip [mm]."""
+        # rods of one species that differ in size have shapes (docs/files.md)
+        name = "shape" if "shape" in self._rods else "species"
+        groups, parameters = [self._file["parameters"]], self._file["parameters"]
+        while f"{name}_{len(groups) + 1}" in parameters:
+            groups.append(parameters[f"{name}_{len(groups) + 1}"])
+        beads = [(group["bead_offset_mm"][()], group["bead_radius_mm"][()]) for group in groups]
+        lengths = np.array([(offset + radius).max() - (offset - radius).min() for offset, radius in beads])
+        return lengths[self._rods["shape"][()] if name == "shape" else self.species]
 
     def __len__(self) -> int:
         return len(self.times)

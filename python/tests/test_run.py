@@ -132,6 +132,20 @@ def test_mdanalysis_reads_the_frames_of_a_real_run(programs):
         assert theirs.time * 1e-12 == pytest.approx(ours.time)
 
 
+def test_rods_of_one_species_have_lengths_of_their_own(programs):
+    scene = {"rods": {"length": "3 mm", "length_spread": 0.1, "count": 90, "start": "random"}, "box": {"side": "40 mm"},
+             "rods_2": {"beads": 1, "mid_diameter": "0.9 mm", "count": 20}, "accuracy": "draft",
+             "time": {"steady": 0, "measure": "10 ms"}, "trajectory": {"every": "10 ms"}}
+    for spread, run in ((0.1, "run"), (0, "alike")):
+        scene["rods"]["length_spread"] = spread
+        (programs.root / "scene.json").write_text(json.dumps(scene))
+        programs.shaken("run", programs.root / "scene.json", "--out", programs.root / run)
+        trajectory = shaken.open(programs.root / run).trajectory
+        rods = trajectory.lengths[trajectory.species == 0]
+        assert len(rods) == 90 and rods.mean() == pytest.approx(3) and rods.std() == pytest.approx(3 * spread)
+        assert np.allclose(trajectory.lengths[trajectory.species == 1], 0.9)
+
+
 def test_what_is_no_run_is_said_to_be_none(tmp_path, run_at):
     with pytest.raises(shaken.ShakenError, match="neither a directory"):
         shaken.open("nothing-here", root=tmp_path)

@@ -14,7 +14,7 @@ class BeadsXyz final : public FrameFormat {
  public:
   explicit BeadsXyz(const TrajectoryHeader& header) : header_(header), comment_(header, kBeadColumns) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(header_.n_rods); ++i) {
-      n_beads_ += header_.cell.species[header_.cell.species_of(i)].radius.size();
+      n_beads_ += header_.cell.beads_of(i).radius.size();
     }
   }
 
@@ -26,7 +26,7 @@ class BeadsXyz final : public FrameFormat {
     fmt::format_to(out, "{}\n{}\n", n_beads_, comment_.of(frame));
     for (std::size_t i = 0; i < static_cast<std::size_t>(header_.n_rods); ++i) {
       const std::size_t species = header_.cell.species_of(i);
-      const BeadRow& beads = header_.cell.species[species];
+      const BeadRow& beads = header_.cell.beads_of(i);
       const float* q = &frame.orientation[4 * i];
       const Vec3 n = director_of_quaternion({q[0], q[1], q[2], q[3]});
       const Vec3 centre(frame.position[3 * i], frame.position[3 * i + 1], frame.position[3 * i + 2]);

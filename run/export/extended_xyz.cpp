@@ -30,7 +30,7 @@ SemiAxes semi_axes(const BeadRow& beads) {
 class ExtendedXyz final : public FrameFormat {
  public:
   explicit ExtendedXyz(const TrajectoryHeader& header) : header_(header), comment_(header, kRodColumns) {
-    for (const BeadRow& beads : header_.cell.species) axes_.push_back(semi_axes(beads));
+    for (const BeadRow& beads : header_.cell.shapes) axes_.push_back(semi_axes(beads));
   }
 
   Result<void> begin(const Sink&) override { return {}; }
@@ -45,11 +45,12 @@ class ExtendedXyz final : public FrameFormat {
       const float* q = &frame.orientation[4 * i];
       const float* v = &frame.velocity[3 * i];
       const std::int32_t* crossed = &frame.image[3 * i];
-      const std::size_t species = header_.cell.species_of(i);
+      const SemiAxes& axes = axes_[header_.cell.shape_of(i)];
       const Eigen::Vector3f n = director_of_quaternion({q[0], q[1], q[2], q[3]}).cast<float>();
-      fmt::format_to(out, "{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}\n", species + 1, x[0], x[1],
-                     x[2], i, q[1], q[2], q[3], q[0], axes_[species].across, axes_[species].across,
-                     axes_[species].along, crossed[0], crossed[1], crossed[2], v[0], v[1], v[2], n.x(), n.y(), n.z());
+      fmt::format_to(out, "{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}\n",
+                     header_.cell.species_of(i) + 1, x[0], x[1], x[2], i, q[1], q[2], q[3], q[0], axes.across,
+                     axes.across, axes.along, crossed[0], crossed[1], crossed[2], v[0], v[1], v[2], n.x(), n.y(),
+                     n.z());
     }
     return sink({text_.data(), text_.size()});
   }
@@ -57,7 +58,7 @@ class ExtendedXyz final : public FrameFormat {
  private:
   TrajectoryHeader header_;
   XyzComment comment_;
-  std::vector<SemiAxes> axes_;  ///< of each species
+  std::vector<SemiAxes> axes_;  ///< of each shape
   fmt::memory_buffer text_;     ///< of one frame
 };
 

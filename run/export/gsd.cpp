@@ -107,25 +107,23 @@ class Gsd final : public FrameFormat {
  public:
   Gsd(const TrajectoryHeader& header, std::size_t n_frames)
       : header_(header), height_(swept_height(header)), n_frames_(n_frames) {
-    const std::vector<BeadRow>& species = header.cell.species;
+    const std::size_t n_types = header.cell.shapes.size();  // each size of a species is one
     std::vector<std::string> names;
     std::vector<std::string> shapes;
-    for (std::size_t k = 0; k < species.size(); ++k) {
+    for (std::size_t k = 0; k < n_types; ++k) {
       names.push_back(letter_of(k));
-      shapes.push_back(shape_of(species[k]));
+      shapes.push_back(shape_of(header.cell.shapes[k]));
     }
     types_ = text_rows(names);
     shapes_ = text_rows(shapes);
     const auto n_rods = static_cast<std::uint64_t>(header.n_rods);
-    const auto width = [&](const std::string& rows) {
-      return static_cast<std::uint32_t>(rows.size() / species.size());
-    };
+    const auto width = [&](const std::string& rows) { return static_cast<std::uint32_t>(rows.size() / n_types); };
     chunks_ = {{"configuration/step", Number::kUint64, 1, 1, false},
                {"configuration/box", Number::kFloat, 6, 1, true},
                {"particles/N", Number::kUint32, 1, 1, true},
-               {"particles/types", Number::kInt8, species.size(), width(types_), true},
+               {"particles/types", Number::kInt8, n_types, width(types_), true},
                {"particles/typeid", Number::kUint32, n_rods, 1, true},
-               {"particles/type_shapes", Number::kInt8, species.size(), width(shapes_), true},
+               {"particles/type_shapes", Number::kInt8, n_types, width(shapes_), true},
                {"particles/position", Number::kFloat, n_rods, 3, false},
                {"particles/orientation", Number::kFloat, n_rods, 4, false},
                {"particles/velocity", Number::kFloat, n_rods, 3, false},
@@ -205,7 +203,7 @@ class Gsd final : public FrameFormat {
     bytes.put(static_cast<std::uint32_t>(header_.n_rods));
     append_text(bytes, types_);
     for (std::size_t i = 0; i < static_cast<std::size_t>(header_.n_rods); ++i) {
-      bytes.put(static_cast<std::uint32_t>(header_.cell.species_of(i)));
+      bytes.put(static_cast<std::uint32_t>(header_.cell.shape_of(i)));
     }
     append_text(bytes, shapes_);
   }

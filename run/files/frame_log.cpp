@@ -77,12 +77,13 @@ Json json_of(const TrajectoryHeader& header) {
             {"box_side_mm", cell.box.x()},
             {"gap_mm", cell.gap},
             {"dt_s", header.dt},
-            {"species_of_rod", cell.species_of_rod},
+            {"species_of_rod", cell.shape_of_rod},
             {"scene", header.scene_json},
             {"run_id", header.provenance.run_id},
             {"seed", header.provenance.seed}};
   if (cell.box.y() != cell.box.x()) json["box_side_y_mm"] = cell.box.y();
-  for (const BeadRow& row : cell.species)
+  if (!cell.species_of_shape.empty()) json["species_of_shape"] = cell.species_of_shape;
+  for (const BeadRow& row : cell.shapes)
     json["beads"].push_back({{"offset_mm", row.offset}, {"radius_mm", row.radius}});
   if (cell.walls) {
     json["walls"] = {{"arena", name_of(cell.walls->arena)},
@@ -109,11 +110,13 @@ TrajectoryHeader header_of(const Json& json) {
   TrajectoryHeader header{.n_rods = json.at("n_rods"),
                           .cell = {.box = box_of(json),
                                    .gap = json.at("gap_mm"),
-                                   .species_of_rod = json.at("species_of_rod").get<std::vector<std::uint8_t>>()},
+                                   .shape_of_rod = json.at("species_of_rod").get<std::vector<std::uint8_t>>()},
                           .dt = json.at("dt_s"),
                           .scene_json = json.at("scene"),
                           .provenance = {json.at("run_id"), json.at("seed")}};
-  for (const Json& row : json.at("beads")) header.cell.species.push_back({row.at("offset_mm"), row.at("radius_mm")});
+  for (const Json& row : json.at("beads")) header.cell.shapes.push_back({row.at("offset_mm"), row.at("radius_mm")});
+  if (json.contains("species_of_shape"))
+    header.cell.species_of_shape = json.at("species_of_shape").get<std::vector<std::uint8_t>>();
   if (json.contains("walls")) {
     const Json& from = json.at("walls");
     header.cell.walls = SideWalls{.arena = arena_of(from.at("arena").get<std::string>()).value(),

@@ -16,9 +16,10 @@ namespace shaken::run {
 /// Writes trajectory.h5 in H5MD (de Buyl, Colberg, Hoefling 2014): /particles/trajectory/{position, image, velocity,
 /// orientation, box}, where orientation is the unit quaternion (w, x, y, z) that turns z into the director; with
 /// several species also H5MD's fixed element `species`, the species of each rod from 0, whose beads stand in
-/// /parameters and /parameters/species_2, species_3. Side walls are the attributes of /parameters/walls; where posts
-/// stand is in /parameters/posts. Units are those of H5MD's module "units", in the attribute `unit` of each data set
-/// (docs/files.md). Chunks carry checksums. The file is written as a whole: a crash leaves the former one, or none.
+/// /parameters and /parameters/species_2, species_3; where rods of a species differ in size, the beads of shape k stand
+/// in /parameters/shape_k, and `shape` is that of each rod. Side walls are the attributes of /parameters/walls; where
+/// posts stand is in /parameters/posts. Units are those of H5MD's module "units", in the attribute `unit` of each data
+/// set (docs/files.md). Chunks carry checksums. The file is written as a whole: a crash leaves the former one, or none.
 Result<void> write_trajectory(const std::filesystem::path& file, const RecordedFrames& frames);
 /// The same with another header of the same rods, where the run has come to know better than the frames' own.
 Result<void> write_trajectory(const std::filesystem::path& file, const TrajectoryHeader& header,

@@ -21,12 +21,18 @@ inline constexpr const char* kTime = "/particles/trajectory/position/time";
 
 /// (n_rods) species of each rod, from 0; only where there are several.
 inline constexpr const char* kSpecies = "/particles/trajectory/species";
+/// (n_rods) shape of each rod, and (n_shapes) the species of each shape; only where rods of a species differ in size.
+inline constexpr const char* kShape = "/particles/trajectory/shape";
+inline constexpr const char* kSpeciesOfShape = "/parameters/species_of_shape";
 inline constexpr const char* kWalls = "/parameters/walls";
 inline constexpr const char* kPosts = "/parameters/posts";
 /// Where the beads of species k are: they are counted from 1, as the scene's rods, rods_2 are.
 inline std::string beads_of(std::size_t k) {
   return "/parameters" + (k == 0 ? "" : "/species_" + std::to_string(k + 1));
 }
+
+/// Where, in place of that, the beads of shape k are.
+inline std::string shape(std::size_t k) { return "/parameters" + (k == 0 ? "" : "/shape_" + std::to_string(k + 1)); }
 
 inline std::string values_of(const char* element) { return std::string(kGroup).append("/").append(element) + "/value"; }
 

@@ -57,14 +57,20 @@ TrajectoryHeader read_header(hid_t file) {
   hdf5::read_attribute(parameters, "dt_s", H5T_NATIVE_DOUBLE, &header.dt);
   header.scene_json = hdf5::read_string(parameters, "scene_json");
   header.provenance = hdf5::read_provenance(file);
-  for (std::size_t k = 0; k == 0 || hdf5::exists(file, trajectory_layout::beads_of(k)); ++k) {
-    const hdf5::Id group = hdf5::open_group(file, trajectory_layout::beads_of(k).c_str());
-    cell.species.push_back({read_doubles(group, "bead_offset_mm"), read_doubles(group, "bead_radius_mm")});
+  const auto bytes = [file](const char* name) {
+    return hdf5::read_vector<std::uint8_t>(hdf5::open_dataset(file, name), H5T_NATIVE_UINT8);
+  };
+  const bool has_sizes = hdf5::exists(file, trajectory_layout::kSpeciesOfShape);
+  if (has_sizes) cell.species_of_shape = bytes(trajectory_layout::kSpeciesOfShape);
+  const auto group_of = [&](std::size_t k) {
+    return has_sizes ? trajectory_layout::shape(k) : trajectory_layout::beads_of(k);
+  };
+  for (std::size_t k = 0; k == 0 || hdf5::exists(file, group_of(k)); ++k) {
+    const hdf5::Id group = hdf5::open_group(file, group_of(k).c_str());
+    cell.shapes.push_back({read_doubles(group, "bead_offset_mm"), read_doubles(group, "bead_radius_mm")});
   }
-  if (cell.species.size() > 1) {
-    cell.species_of_rod =
-        hdf5::read_vector<std::uint8_t>(hdf5::open_dataset(file, trajectory_layout::kSpecies), H5T_NATIVE_UINT8);
-  }
+  if (cell.shapes.size() > 1)
+    cell.shape_of_rod = bytes(has_sizes ? trajectory_layout::kShape : trajectory_layout::kSpecies);
   if (hdf5::exists(file, trajectory_layout::kWalls)) cell.walls = read_walls(file);
   if (hdf5::exists(file, trajectory_layout::kPosts)) cell.posts = read_posts(file);
   if (auto done = check(header); !done) throw hdf5::Failure(done.error().message);

@@ -69,10 +69,16 @@ void write_parameters(hid_t file, const TrajectoryHeader& header) {
   if (y != x) hdf5::write_attribute(parameters, "box_side_y_mm", H5T_NATIVE_DOUBLE, {}, &y);
   hdf5::write_attribute(parameters, "gap_mm", H5T_NATIVE_DOUBLE, {}, &header.cell.gap);
   hdf5::write_attribute(parameters, "dt_s", H5T_NATIVE_DOUBLE, {}, &header.dt);
-  write_beads(parameters, header.cell.species.at(0));
+  write_beads(parameters, header.cell.shapes.at(0));
   hdf5::write_string(parameters, "scene_json", header.scene_json);
-  for (std::size_t k = 1; k < header.cell.species.size(); ++k) {
-    write_beads(hdf5::create_group(file, trajectory_layout::beads_of(k)), header.cell.species[k]);
+  const auto& species_of_shape = header.cell.species_of_shape;
+  for (std::size_t k = 1; k < header.cell.shapes.size(); ++k) {
+    const std::string group = species_of_shape.empty() ? trajectory_layout::beads_of(k) : trajectory_layout::shape(k);
+    write_beads(hdf5::create_group(file, group), header.cell.shapes[k]);
+  }
+  if (!species_of_shape.empty()) {
+    hdf5::write_dataset(file, trajectory_layout::kSpeciesOfShape, H5T_NATIVE_UINT8, {species_of_shape.size()},
+                        species_of_shape.data());
   }
   if (header.cell.walls) write_walls(file, *header.cell.walls);
   if (!header.cell.posts.centres.empty()) write_posts(file, header.cell.posts);
@@ -91,9 +97,11 @@ void write_particles(hid_t file, const TrajectoryHeader& header) {
   hdf5::write_attribute(box, "boundary", {"periodic", "periodic", "none"});
 
   const auto n_rods = static_cast<hsize_t>(header.n_rods);
-  if (const auto& species = header.cell.species_of_rod; header.cell.species.size() > 1) {
-    hdf5::write_dataset(file, trajectory_layout::kSpecies, H5T_NATIVE_UINT8, {species.size()}, species.data());
-  }
+  const auto write_of_rods = [&](const char* name, const std::vector<std::uint8_t>& values) {
+    hdf5::write_dataset(file, name, H5T_NATIVE_UINT8, {values.size()}, values.data());
+  };
+  if (header.cell.n_species() > 1) write_of_rods(trajectory_layout::kSpecies, header.cell.species_of_rods());
+  if (!header.cell.species_of_shape.empty()) write_of_rods(trajectory_layout::kShape, header.cell.shape_of_rod);
   for (const char* element : trajectory_layout::kElements) hdf5::create_group(trajectory, element);
   const hdf5::Id position = hdf5::open_group(trajectory, "position");
   hdf5::create_growing(position, "step", H5T_NATIVE_INT64, {}, kSmallRows, false);

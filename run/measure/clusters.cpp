@@ -13,11 +13,15 @@ namespace {
 
 class MeasuredClusters : public Measurement {
  public:
-  MeasuredClusters(const analysis::ClusterRule& rule, const analysis::Region& region, int n_rods)
-      : rule_(rule), region_(region), n_octaves_(std::bit_width(static_cast<unsigned>(n_rods))) {}
+  MeasuredClusters(std::vector<analysis::RodAxis> axes, const analysis::ClusterRule& rule,
+                   const analysis::Region& region, int n_rods)
+      : axes_(std::move(axes)),
+        rule_(rule),
+        region_(region),
+        n_octaves_(std::bit_width(static_cast<unsigned>(n_rods))) {}
 
   void sample(const Sample& sample) override {
-    const auto sizes = analysis::cluster_sizes(sample->position, sample->director, region_, rule_);
+    const auto sizes = analysis::cluster_sizes(sample->position, sample->director, axes_, region_, rule_);
     series_.accumulate(sample->time, sizes);
     statistics_.accumulate(sample->time, sizes);
   }
@@ -61,6 +65,7 @@ class MeasuredClusters : public Measurement {
     put(result, path, "", std::vector<analysis::Estimate>(points.begin(), points.end()));
   }
 
+  std::vector<analysis::RodAxis> axes_;
   analysis::ClusterRule rule_;
   analysis::Region region_;
   int n_octaves_;  // that sizes can be in
@@ -78,12 +83,14 @@ MeasurementKind clusters_kind() {
         const scene::MeasureClusters& settings = *context.plan.clusters;
         const System& system = context.plan.system;
         const analysis::ClusterRule rule{
-            .tail = context.species.tail.length,
-            .head = context.species.head.length,
             .distance = settings.distance_for(system.rod.mid_diameter),
             .angle = system.rod.has_axis() ? settings.angle * kPi / 180 : kPi / 2,
         };
-        return std::make_unique<MeasuredClusters>(rule, analysis::Region(system.box(), system.walls), system.n_rods);
+        const auto axes = context.of_rods([](const Species& rod) {
+          return analysis::RodAxis{rod.tail.length, rod.head.length};
+        });
+        return std::make_unique<MeasuredClusters>(axes, rule, analysis::Region(system.box(), system.walls),
+                                                  system.n_rods);
       },
       .arrays =
           {

@@ -27,10 +27,10 @@ std::vector<int> numbers_of(const System& system) {
 
 class MeasuredMixing : public Measurement {
  public:
-  MeasuredMixing(const System& system, std::vector<std::uint8_t> species_of_rod, int bins, double near)
+  MeasuredMixing(const System& system, const Cell& cell, int bins, double near)
       : numbers_(numbers_of(system)),
         region_(system.box(), system.walls),
-        species_of_rod_(std::move(species_of_rod)),
+        species_of_rod_(cell.species_of_rods()),
         mixing_(PairMixing(numbers_.size(), bins, system.box().shorter() / 2, near)) {}
 
   void sample(const Sample& sample) override {
@@ -70,7 +70,7 @@ MeasurementKind mixing_kind() {
       .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
         const System& system = context.run.system;
         const scene::MeasureMixing& settings = *context.plan.mixing;
-        return std::make_unique<MeasuredMixing>(system, context.cell.species_of_rod, settings.bins,
+        return std::make_unique<MeasuredMixing>(system, context.cell, settings.bins,
                                                 settings.distance_for(system.rod.length, system.box().shorter()));
       },
       .arrays =

@@ -27,11 +27,11 @@ constexpr std::array<std::pair<Freedom, const char*>, analysis::kFreedoms> kFree
 
 class MeasuredTemperatures : public Measurement {
  public:
-  explicit MeasuredTemperatures(const analysis::RodInertia& inertia) : inertia_(inertia) {}
+  explicit MeasuredTemperatures(std::vector<analysis::RodInertia> inertias) : inertias_(std::move(inertias)) {}
 
   void sample(const Sample& sample) override {
     const analysis::Temperatures found =
-        analysis::granular_temperatures(sample->director, sample->velocity, sample->angular_velocity, inertia_);
+        analysis::granular_temperatures(sample->director, sample->velocity, sample->angular_velocity, inertias_);
     series_.accumulate(sample->time, found);
     statistics_.accumulate(sample->time, found);
   }
@@ -56,7 +56,7 @@ class MeasuredTemperatures : public Measurement {
   }
 
  private:
-  analysis::RodInertia inertia_;
+  std::vector<analysis::RodInertia> inertias_;
   analysis::TemperatureSeries series_;
   analysis::Blocked<analysis::TemperatureStatistics> statistics_{analysis::TemperatureStatistics()};
 };
@@ -68,9 +68,9 @@ MeasurementKind temperatures_kind() {
       .name = "temperatures",
       .sources = "temperatures",
       .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
-        const Species& rods = context.species;
-        return std::make_unique<MeasuredTemperatures>(
-            analysis::RodInertia{rods.mass, rods.inertia_perp, rods.inertia_par});
+        return std::make_unique<MeasuredTemperatures>(context.of_rods([](const Species& rod) {
+          return analysis::RodInertia{rod.mass, rod.inertia_perp, rod.inertia_par};
+        }));
       },
       .arrays =
           {

@@ -64,7 +64,9 @@ MeasurementKind tilt_kind() {
       .sources = "tilt, tilt_summary, tilt_switches",
       .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
         // Soft overlaps let rods tilt a little further; a gap that lets them stand gives the whole range.
-        const double n_z_max = std::max(largest_tilt(context.species, context.plan.system.gap), 1e-6);
+        double n_z_max = 1e-6;
+        for (const Species& size : context.sizes)
+          n_z_max = std::max(n_z_max, largest_tilt(size, context.plan.system.gap));
         return std::make_unique<MeasuredTilt>(context.plan.tilt->bins, n_z_max);
       },
       .arrays =

@@ -8,6 +8,7 @@
 
 #include "scene/derived.h"
 #include "scene/resolve/steps.h"
+#include "sim/rod/sizes.h"
 #include "sim/rod/species.h"
 
 namespace shaken::scene {
@@ -38,7 +39,7 @@ void check_kind(Resolution& scene) {
 std::optional<double> area_wanted(const Resolution& scene) {
   if (!scene.given("rods.count") || !scene.given("rods.area_fraction") || scene.plan.system.posts) return std::nullopt;
   const System& system = scene.plan.system;
-  return system.n_rods * species_of(system.rod).area / scene.number("rods.area_fraction");
+  return system.n_rods * mean_area_of(system.rod) / scene.number("rods.area_fraction");
 }
 
 /// The size at which the arena has so much area; of a stadium without a given length, one that is as long as wide.
@@ -156,8 +157,8 @@ bool resolve_arena(Resolution& scene) {
   double thickest = 0;
   double longest = 0;
   for (const RodGroup& group : rod_groups(system)) {
-    thickest = std::max(thickest, 2.0 * species_of(group.rod).max_radius);
-    longest = std::max(longest, group.rod.length);
+    for (const Species& size : sizes_of_species(group.rod)) thickest = std::max(thickest, 2.0 * size.max_radius);
+    for (const RodShape& size : sizes_of(group.rod)) longest = std::max(longest, size.length);
   }
   const double room = thickest + kRoomRoundArena;  // so that rods do not meet through the periodic border
   const std::size_t n_before = scene.problems.size();

@@ -10,6 +10,7 @@
 #include "scene/derived.h"
 #include "scene/resolve/steps.h"
 #include "sim/posts.h"
+#include "sim/rod/sizes.h"
 #include "sim/rod/species.h"
 
 namespace shaken::scene {
@@ -37,7 +38,7 @@ bool resolve_number_of(Resolution& scene, const RodGroup& group) {
   System& system = scene.plan.system;
   const std::string fraction_path = group.path("area_fraction"), count_path = group.path("count");
   const bool is_first = group.name == "rods";
-  const double area = species_of(group.rod).area;
+  const double area = mean_area_of(group.rod);
   if (!is_first && !scene.given(count_path) && !scene.given(fraction_path)) {
     return scene.refuse({group.name, fraction_path},
                         fmt::format("how many rods? Give {} or {}", count_path, fraction_path));
@@ -84,15 +85,16 @@ void resolve_numbers(Resolution& scene) {
   const bool in_rows = system.start == Start::kAligned, random = system.start == Start::kRandom;
   const double most = in_rows ? kMaxAreaFractionAligned : random ? kMaxAreaFractionRandom : kMaxAreaFractionCompressed;
   if (scene.draft.is_ok("rods.start") && fraction > most) {
-    scene.report(causes,
-                 fmt::format("{} rods in {} of {}{} are an area fraction of {:.4g}; {} at most {} can be placed{}",
-                             system.n_all_rods(), system.walls ? "an arena" : "a box",
-                             system.walls ? length_text(system.walls->size) : sides_text(system),
-                             system.posts ? " with posts" : "", fraction,
-                             in_rows  ? "in rows"
-                             : random ? "at random"
-                                      : "by compression",
-                             most, in_rows || groups.size() > 1 ? "" : "; start \"aligned\" packs more"));
+    scene.report(
+        causes,
+        fmt::format(
+            "{} rods in {} of {}{} are an area fraction of {:.4g}; {} at most {} can be placed{}", system.n_all_rods(),
+            system.walls ? "an arena" : "a box", system.walls ? length_text(system.walls->size) : sides_text(system),
+            system.posts ? " with posts" : "", fraction,
+            in_rows  ? "in rows"
+            : random ? "at random"
+                     : "by compression",
+            most, in_rows || groups.size() > 1 || system.rod.spread.is_any() ? "" : "; start \"aligned\" packs more"));
   } else {
     for (const RodGroup& group : groups) {
       scene.check_derived(group.path("area_fraction"),
@@ -110,8 +112,7 @@ void check_box(Resolution& scene) {
                                                          length_text(side.low), length_text(side.high)));
   }
   for (const RodGroup& group : rod_groups(system)) {
-    const Species species = species_of(group.rod);
-    const double least = least_box_side(std::span(&species, 1));
+    const double least = least_box_side(sizes_of_species(group.rod));
     if (scene.ok({"box.side", "box.aspect", group.path("count"), group.path("area_fraction")}) &&
         system.box().shorter() < least * (1.0 - 1e-9)) {
       scene.report({"box.side", "box.aspect", "walls.size", group.path("count"), group.path("length")},
@@ -125,9 +126,8 @@ void check_gap(Resolution& scene) {
   System& system = scene.plan.system;
   for (const RodGroup& group : rod_groups(system)) {
     const Paths diameters{group.path("mid_diameter"), group.path("end_diameter"), group.path("bead_diameters")};
-    const double thickest = group.rod.bead_diameters.empty()
-                                ? std::max(group.rod.mid_diameter, group.rod.end_diameter)
-                                : *std::max_element(group.rod.bead_diameters.begin(), group.rod.bead_diameters.end());
+    double thickest = 0;
+    for (const RodShape& size : sizes_of(group.rod)) thickest = std::max(thickest, thickest_bead(size));
     if (!scene.ok({"box.gap"}) || !scene.ok(diameters) || system.gap > thickest) continue;
     scene.report(
         {"box.gap", diameters[0], diameters[1], diameters[2]},

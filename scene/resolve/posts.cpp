@@ -86,8 +86,9 @@ void check_lattice(Resolution& scene, const StandingPosts& posts, const Vec2& pe
 /// No bead may touch a post and an image of it at a time.
 void check_images(Resolution& scene, double diameter, const Vec2& period) {
   double thickest = 0;
-  for (const RodGroup& group : rod_groups(scene.plan.system))
-    thickest = std::max(thickest, 2.0 * species_of(group.rod).max_radius);
+  for (const RodGroup& group : rod_groups(scene.plan.system)) {
+    for (const Species& size : sizes_of_species(group.rod)) thickest = std::max(thickest, 2.0 * size.max_radius);
+  }
   for (const int axis : {0, 1}) {
     if (period[axis] == 0 || period[axis] - diameter > thickest) continue;
     return scene.report(

@@ -7,19 +7,43 @@
 
 #include "scene/derived.h"
 #include "scene/resolve/steps.h"
+#include "sim/rod/sizes.h"
 #include "sim/rod/species.h"
 
 namespace shaken::scene {
 
 namespace {
 
-/// Neighbouring beads leave no hole between them.
+/// Neighbouring beads leave no hole between them, in any size.
 bool touching(const RodShape& candidate) {
-  const Species species = species_of(candidate);
-  for (int b = 0; b + 1 < species.n_beads(); ++b) {
-    if (species.bead_radius[b] + species.bead_radius[b + 1] < species.pitch()) return false;
+  return std::ranges::all_of(sizes_of_species(candidate), [](const Species& size) {
+    for (int b = 0; b + 1 < size.n_beads(); ++b) {
+      if (size.bead_radius[b] + size.bead_radius[b + 1] < size.pitch()) return false;
+    }
+    return true;
+  });
+}
+
+/// Every size is longer than thick.
+bool check_lengths(Resolution& scene, const RodGroup& group) {
+  for (const RodShape& size : sizes_of(group.rod)) {
+    if (size.length > thickest_bead(size)) continue;
+    return scene.refuse({group.path("length"), group.path("length_spread"), group.path("mid_diameter"),
+                         group.path("end_diameter"), group.path("bead_diameters")},
+                        fmt::format("a rod of length {} is not longer than its thickest bead ({})",
+                                    length_text(size.length), length_text(thickest_bead(size))));
   }
   return true;
+}
+
+/// Ends differ where their diameter is given, as that of a profile.
+bool check_spread(Resolution& scene, const RodGroup& group) {
+  const std::string path = group.path("end_diameter_spread");
+  if (!scene.ok({path, group.path("length_spread")})) return false;
+  const RodShape& rod = group.rod;
+  if (rod.spread.end_diameter == 0 || (rod.has_axis() && rod.bead_diameters.empty())) return true;
+  return scene.refuse({path}, fmt::format("{} is of rods whose ends have a diameter of their own, not {}; remove it",
+                                          path, rod.has_axis() ? "of beads one by one" : "of spheres"));
 }
 
 /// Beads one by one: what the other keys say of them follows.
@@ -51,11 +75,7 @@ bool resolve_listed_beads(Resolution& scene, const RodGroup& group) {
   }
   if (n == 1) rod.length = follows("length", thickest);
   if (!fine) return false;
-  if (n > 1 && rod.length <= thickest) {
-    return scene.refuse({group.path("length"), list},
-                        fmt::format("a rod of length {} is not longer than its thickest bead ({})",
-                                    length_text(rod.length), length_text(thickest)));
-  }
+  if (n > 1 && !check_lengths(scene, group)) return false;
   const double pitch = n > 1 ? (rod.length - 0.5 * (diameters.front() + diameters.back())) / (n - 1) : 0.0;
   for (int b = 0; b < n; ++b) {
     const double center = 0.5 * diameters.front() + b * pitch;
@@ -93,20 +113,19 @@ bool resolve_shape(Resolution& scene, const RodGroup& group) {
     return scene.refuse({length_path, beads}, fmt::format("one bead is a sphere: {} ({}) must be {} ({})", length_path,
                                                           length_text(rod.length), mid, length_text(rod.mid_diameter)));
   }
-  const double thickest = std::max(rod.mid_diameter, rod.end_diameter);
-  if (rod.length <= thickest) {
-    return scene.refuse({length_path, mid, end},
-                        fmt::format("a rod of length {} is not longer than its thickest bead ({})",
-                                    length_text(rod.length), length_text(thickest)));
-  }
+  if (!check_lengths(scene, group)) return false;
   if (!scene.given(beads)) {
     const double pitch = scene.number(pitch_path);
-    if ((rod.length - rod.end_diameter) / pitch > kMaxBeads - 1) {
-      return scene.refuse({pitch_path, length_path},
-                          fmt::format("beads every {} make more than {} on a rod of {}", length_text(pitch), kMaxBeads,
-                                      length_text(rod.length)));
+    int n_beads = 1;
+    for (const RodShape& size : sizes_of(rod)) {
+      if ((size.length - size.end_diameter) / pitch > kMaxBeads - 1) {
+        return scene.refuse({pitch_path, length_path},
+                            fmt::format("beads every {} make more than {} on a rod of {}", length_text(pitch),
+                                        kMaxBeads, length_text(size.length)));
+      }
+      n_beads = std::max(n_beads, beads_for_pitch(size.length, size.end_diameter, pitch));
     }
-    rod.n_beads = beads_for_pitch(rod.length, rod.end_diameter, pitch);
+    rod.n_beads = n_beads;
   }
   if (rod.n_beads > 1 && !touching(rod)) {
     RodShape enough = rod;
@@ -122,7 +141,8 @@ bool resolve_shape(Resolution& scene, const RodGroup& group) {
 
 bool resolve_rod_shapes(Resolution& scene) {
   bool all_ok = true;
-  for (const RodGroup& group : rod_groups(scene.plan.system)) all_ok = resolve_shape(scene, group) && all_ok;
+  for (const RodGroup& group : rod_groups(scene.plan.system))
+    all_ok = resolve_shape(scene, group) && check_spread(scene, group) && all_ok;
   return all_ok;
 }
 

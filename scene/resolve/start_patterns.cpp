@@ -14,7 +14,8 @@ namespace {
 double longest_axis(System& system) {
   double longest = 0;
   for (const RodGroup& group : rod_groups(system)) {
-    if (group.rod.has_axis()) longest = std::max(longest, group.rod.length);
+    if (!group.rod.has_axis()) continue;
+    for (const RodShape& size : sizes_of(group.rod)) longest = std::max(longest, size.length);
   }
   return longest;
 }

@@ -64,8 +64,8 @@ void check_plates_in_a_tick(Resolution& scene) {
   const double speed = peak_speed_of(system);
   double thinnest = INFINITY;
   for (const RodGroup& group : rod_groups(system)) {
-    const Species species = species_of(group.rod);
-    thinnest = std::min(thinnest, *std::min_element(species.bead_radius.begin(), species.bead_radius.end()));
+    for (const Species& size : sizes_of_species(group.rod))
+      thinnest = std::min(thinnest, *std::min_element(size.bead_radius.begin(), size.bead_radius.end()));
   }
   const double deepest = kDeepestOverlap * thinnest;
   if (speed * system.dt <= deepest) return;

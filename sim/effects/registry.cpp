@@ -78,6 +78,35 @@ struct SeveralSpecies {
   static void switch_off(System& system) { system.added = {}; }
 };
 
+struct Polydispersity {
+  static bool is_on(const System& system) { return !why_on(system).empty(); }
+  static std::string why(const System& system) {
+    const std::string key = why_on(system);
+    return key.empty() ? setting("rods.length_spread", system.rod.spread.length) : key;
+  }
+  static std::int64_t work(const World& world) { return n_rods(world); }
+  static void switch_off(System& system) {
+    system.rod.spread = {};
+    for (auto& added : system.added) {
+      if (added) added->rod.spread = {};
+    }
+  }
+
+ private:
+  /// The first key that asks for it, with its value, or nothing.
+  static std::string why_on(const System& system) {
+    std::string key = of(system.rod, "rods");
+    for (std::size_t k = 0; k < system.added.size() && key.empty(); ++k) {
+      if (system.added[k]) key = of(system.added[k]->rod, "rods_" + std::to_string(k + 2));
+    }
+    return key;
+  }
+  static std::string of(const RodShape& rod, const std::string& name) {
+    if (rod.spread.length > 0) return setting(name + ".length_spread", rod.spread.length);
+    return rod.spread.end_diameter > 0 ? setting(name + ".end_diameter_spread", rod.spread.end_diameter) : "";
+  }
+};
+
 struct Taper {
   static bool is_on(const RodShape& rod) {
     if (rod.bead_diameters.empty()) return rod.n_beads > 1 && rod.end_diameter != rod.mid_diameter;
@@ -395,6 +424,7 @@ constexpr std::array kEffects{
     line<HorizontalVibration>("horizontal_vibration", "periods", "Both plates vibrate in the plane too."),
     line<Tilt>("tilt", "rod_ticks", "Rods leave the plane and tilt out of it."),
     line<SeveralSpecies>("species", "rods", "Rods of other species beside the first."),
+    line<Polydispersity>("polydispersity", "rods", "Rods of one species differ in size."),
     line<Taper>("taper", "rods", "Rods are thinner at their ends than in the middle, or thicker."),
     line<Spin>("spin", "impulses", "Rods spin about their own axes."),
     line<RodCollisions>("rod_rod_collisions", "impulses", "Rods collide with each other."),

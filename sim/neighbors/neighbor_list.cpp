@@ -19,9 +19,9 @@ Vec2 flat_direction(const Pose& pose) {
 
 }  // namespace
 
-NeighborList::NeighborList(std::span<const Species> species, std::span<const std::uint8_t> species_of_rod,
-                           const Box& box, double skin)
-    : species_of_rod_(species_of_rod.begin(), species_of_rod.end()), skin_(skin), box_(box) {
+NeighborList::NeighborList(std::span<const Species> species, std::span<const std::uint8_t> shape_of_rod, const Box& box,
+                           double skin)
+    : species_of_rod_(shape_of_rod.begin(), shape_of_rod.end()), skin_(skin), box_(box) {
   double farthest = 0;  // that two centres of a pair can be apart
   for (const Species& kind : species) {
     shadows_.push_back({kind.half_length, kind.max_radius});

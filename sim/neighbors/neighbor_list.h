@@ -45,8 +45,8 @@ class NeighborList {
     int j = -1;  ///< > i
   };
 
-  /// `species_of_rod` (n_rods): the index of each rod's species.
-  NeighborList(std::span<const Species> species, std::span<const std::uint8_t> species_of_rod, const Box& box,
+  /// `shape_of_rod` (n_rods): of each rod, an index into `species`.
+  NeighborList(std::span<const Species> species, std::span<const std::uint8_t> shape_of_rod, const Box& box,
                double skin);
 
   /// True if the list may be incomplete for these poses (or was never built).

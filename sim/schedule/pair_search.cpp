@@ -31,8 +31,8 @@ PairSearch::PairSearch(const TickRules& rules) : rules_(rules) {
 bool PairSearch::find(const PairRods& pair, const Pose& pose_i, const Pose& pose_j, const Direction& direction,
                       std::vector<BeadContact>& beads, std::vector<PairContact>& contacts) const {
   const auto& [i, j] = pair;
-  const std::uint8_t species_i = rules_.species_of_rod[i];
-  const std::uint8_t species_j = rules_.species_of_rod[j];
+  const std::uint8_t species_i = rules_.shape_of_rod[i];
+  const std::uint8_t species_j = rules_.shape_of_rod[j];
   const Vec3 D = nearest_image(pose_i.position, pose_j.position, rules_.box);
   const Vec3 d(direction[0], direction[1], direction[2]);
   if (hull_gap(hulls_[species_i], std::abs(pose_i.director.dot(d)), hulls_[species_j], std::abs(pose_j.director.dot(d)),
@@ -50,8 +50,8 @@ bool PairSearch::find(const PairRods& pair, const Pose& pose_i, const Pose& pose
 
 void PairSearch::bound(std::span<const PairRods> pairs, const std::vector<RodAtTick>& rods,
                        const std::vector<FlightBound>& motion, PairLanes& lanes, PairBounds& bounds) const {
-  const std::uint8_t species_i = rules_.species_of_rod[pairs.front()[0]];
-  const std::uint8_t species_j = rules_.species_of_rod[pairs.front()[1]];
+  const std::uint8_t species_i = rules_.shape_of_rod[pairs.front()[0]];
+  const std::uint8_t species_j = rules_.shape_of_rod[pairs.front()[1]];
   HullSafeTimes hull;
   Vec3 D[kLanes];
   for (std::size_t lane = 0; lane < pairs.size(); ++lane) {

@@ -15,7 +15,7 @@ constexpr double kReferenceSkin = 0.3;
 
 ReferenceStepper::ReferenceStepper(const World& world)
     : rules_(world),
-      neighbors_(world.species, world.species_of_rod, world.system.box(), kReferenceSkin),
+      neighbors_(world.species, world.shape_of_rod, world.system.box(), kReferenceSkin),
       rods_(world.rods.size()),
       poses_(world.rods.size()) {}
 

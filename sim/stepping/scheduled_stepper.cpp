@@ -17,7 +17,7 @@ ScheduledStepper::ScheduledStepper(const World& world, int n_threads, int grain)
     : rules_(world),
       search_(rules_),
       meets_in_lanes_(lanes_know(world.system)),
-      neighbors_(world.species, world.species_of_rod, world.system.box(), NeighborList::kSkin),
+      neighbors_(world.species, world.shape_of_rod, world.system.box(), NeighborList::kSkin),
       loops_(n_threads),
       grain_(static_cast<std::size_t>(grain)),
       rods_(world.rods.size()),

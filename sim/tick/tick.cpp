@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <compare>
+#include <span>
 #include <string>
 
 #include "sim/initial.h"
@@ -23,26 +24,28 @@ double max_speed(const World& world) {
 
 namespace {
 
-/// Species that a scene leaves out are not counted among `species`.
-void set_contacts(const System& system, std::vector<SpeciesMechanics>& species) {
+/// `species_of_shape` (n_shapes) does not count species that a scene leaves out.
+void set_contacts(const System& system, std::span<const std::uint8_t> species_of_shape,
+                  std::vector<SpeciesMechanics>& species) {
   std::vector<std::size_t> numbers;
   for (std::size_t number = 0; number < kMostSpecies; ++number) {
     if (system.has_species(number)) numbers.push_back(number);
   }
   for (std::size_t k = 0; k < species.size(); ++k) {
-    species[k].base = system.rod_base.of(numbers[k]);
-    species[k].lid = system.rod_lid.of(numbers[k]);
-    if (system.walls) species[k].wall = system.walls->contact.of(numbers[k]);
-    if (system.posts) species[k].post = system.posts->contact.of(numbers[k]);
-    for (std::size_t other = 0; other < species.size(); ++other)
-      species[k].rods[other] = system.rod_rod.of(numbers[k], numbers[other]);
+    const std::size_t number = numbers[species_of_shape[k]];
+    species[k].number = number;
+    species[k].base = system.rod_base.of(number);
+    species[k].lid = system.rod_lid.of(number);
+    if (system.walls) species[k].wall = system.walls->contact.of(number);
+    if (system.posts) species[k].post = system.posts->contact.of(number);
+    for (const std::size_t other : numbers) species[k].rods[other] = system.rod_rod.of(number, other);
   }
 }
 
 }  // namespace
 
 TickRules::TickRules(const World& world)
-    : species_of_rod(world.species_of_rod),
+    : shape_of_rod(world.shape_of_rod),
       gravity(world.system.gravity),
       dt(world.system.dt),
       box(world.system.box()),
@@ -58,7 +61,7 @@ TickRules::TickRules(const World& world)
       plates(world.plates) {
   for (const Species& one : world.species) species.emplace_back(one);
   if (world.system.posts) posts.emplace(standing_posts(world.system), box, period_of(box, walls));
-  set_contacts(world.system, species);
+  set_contacts(world.system, world.species_of_shape, species);
   max_speed2 = max_speed(world) * max_speed(world);
   if (world.system.lets_rods_rest()) rest = {0.5 * gravity * dt, kRiseRate};
 }

@@ -40,7 +40,8 @@ struct SpeciesMechanics : Species {
   InverseInertia inverse;
   double inertia_ratio;  ///< I_par / I_perp
   ContactParameters base{}, lid{}, wall{}, post{};
-  std::array<ContactParameters, kMostSpecies> rods{};  ///< with each species, as TickRules counts them
+  std::array<ContactParameters, kMostSpecies> rods{};  ///< with each species
+  std::size_t number = 0;                              ///< of the species, among those
 };
 
 /// Rate at which rods at rest on the base come out of it again [1/s].
@@ -57,14 +58,12 @@ double max_speed(const World& world);
 struct TickRules {
   explicit TickRules(const World& world);
 
-  const SpeciesMechanics& species_of(int i) const { return species[species_of_rod[static_cast<std::size_t>(i)]]; }
+  const SpeciesMechanics& species_of(int i) const { return species[shape_of_rod[static_cast<std::size_t>(i)]]; }
   /// Of two rods.
-  const ContactParameters& rod_rod(int i, int j) const {
-    return species_of(i).rods[species_of_rod[static_cast<std::size_t>(j)]];
-  }
+  const ContactParameters& rod_rod(int i, int j) const { return species_of(i).rods[species_of(j).number]; }
 
-  std::vector<SpeciesMechanics> species;
-  std::vector<std::uint8_t> species_of_rod;  ///< (n_rods)
+  std::vector<SpeciesMechanics> species;   ///< (n_shapes) each size of each species
+  std::vector<std::uint8_t> shape_of_rod;  ///< (n_rods)
   double gravity;
   double dt;
   Box box;                  ///< sides along x and y [mm]

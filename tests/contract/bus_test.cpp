@@ -38,6 +38,7 @@ TEST(Bus, CarriesEveryTypeOnItsChannel) {
   EXPECT_TRUE(bus->subscribe<frame_t>(kFrameChannel, note));
   EXPECT_TRUE(bus->subscribe<defects_t>(kDefectsChannel, note));
   EXPECT_TRUE(bus->subscribe<posts_t>(kPostsChannel, note));
+  EXPECT_TRUE(bus->subscribe<sizes_t>(kSizesChannel, note));
   EXPECT_TRUE(bus->publish(kStatusChannel, samples::make<status_t>()));
   EXPECT_TRUE(bus->publish(kJobChannel, samples::make<job_t>()));
   EXPECT_TRUE(bus->publish(kObservablesChannel, samples::make<observables_t>()));
@@ -45,10 +46,11 @@ TEST(Bus, CarriesEveryTypeOnItsChannel) {
   EXPECT_TRUE(bus->publish(kFrameChannel, samples::make<frame_t>()));
   EXPECT_TRUE(bus->publish(kDefectsChannel, samples::make<defects_t>()));
   EXPECT_TRUE(bus->publish(kPostsChannel, samples::make<posts_t>()));
+  EXPECT_TRUE(bus->publish(kSizesChannel, samples::make<sizes_t>()));
   drain(*bus);
-  EXPECT_EQ(sequences, (std::vector<std::int64_t>{41, 42, 43, 44, 45, 46, 47}));
-  EXPECT_EQ(bus->counters().published, 7);
-  EXPECT_EQ(bus->counters().received, 7);
+  EXPECT_EQ(sequences, (std::vector<std::int64_t>{41, 42, 43, 44, 45, 46, 47, 48}));
+  EXPECT_EQ(bus->counters().published, 8);
+  EXPECT_EQ(bus->counters().received, 8);
   EXPECT_EQ(bus->counters().refused, 0);
 }
 

@@ -131,6 +131,7 @@ TEST(MessageJob, IsKnownOfEveryType) {
   EXPECT_EQ(job_of(kFrameChannel, encode(samples::make<frame_t>())), samples::make<frame_t>().job_id);
   EXPECT_EQ(job_of(kDefectsChannel, encode(samples::make<defects_t>())), samples::make<defects_t>().job_id);
   EXPECT_EQ(job_of(kPostsChannel, encode(samples::make<posts_t>())), samples::make<posts_t>().job_id);
+  EXPECT_EQ(job_of(kSizesChannel, encode(samples::make<sizes_t>())), samples::make<sizes_t>().job_id);
   EXPECT_FALSE(job_of(kJobChannel, encode(samples::make<frame_t>())));
   EXPECT_FALSE(job_of("OTHER", encode(samples::make<job_t>())));
 }

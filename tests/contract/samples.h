@@ -151,4 +151,16 @@ inline posts_t make() {
   return m;
 }
 
+template <>
+inline sizes_t make() {
+  sizes_t m;
+  m.utime = 1700000000123456;
+  m.sequence = 48;
+  m.job_id = "0123456789abcdef";
+  m.sim_time_s = 1.5;
+  m.n_sizes = 3;
+  m.species = {0, 0, 1};
+  return m;
+}
+
 }  // namespace shaken::proto::samples

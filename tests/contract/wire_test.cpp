@@ -31,8 +31,10 @@ template <class T>
 class WireType : public testing::Test {};
 template <>
 constexpr std::uint64_t kFingerprint<posts_t> = 0xee2ebc06ec3e5b90;
+template <>
+constexpr std::uint64_t kFingerprint<sizes_t> = 0xd7bf43e2e931e56c;
 
-using AllTypes = testing::Types<status_t, job_t, observables_t, frame_static_t, frame_t, defects_t, posts_t>;
+using AllTypes = testing::Types<status_t, job_t, observables_t, frame_static_t, frame_t, defects_t, posts_t, sizes_t>;
 TYPED_TEST_SUITE(WireType, AllTypes);
 
 TYPED_TEST(WireType, KeepsItsFingerprint) {

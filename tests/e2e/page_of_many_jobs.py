@@ -81,7 +81,7 @@ def frame(k, f):
     angles = [spread * math.sin(7.3 * i + 0.02 * f) for i in range(N_RODS)]
     order = math.hypot(sum(math.cos(2 * a) for a in angles), sum(math.sin(2 * a) for a in angles)) / N_RODS
     head = json.dumps({"time_s": EVERY_S * f, "box_mm": [BOX_MM, BOX_MM], "order": order, "director_rad": 0.0, "n_rods": N_RODS,
-                       "outlines": [[1.1, 0.4, 0.25]], "gap_mm": 1.2, "has_heights": True, "walls": None}).encode()
+                       "outlines": [[1.1, 0.4, 0.25]], "species_of_outline": [], "gap_mm": 1.2, "has_heights": True, "walls": None}).encode()
     head += b" " * (-len(head) % 4)
     values = x + y + [round(a / math.pi * 32768) for a in angles] + [1000 * (i % 5) for i in range(N_RODS)]
     values += [4000 * (i % 5 - 2) for i in range(N_RODS)]  # heights around the middle of the gap
@@ -357,7 +357,7 @@ def use(page, address, daemon):
         import("/page/painter.js").then(({instancesOf}) => {
           const n = 2000, place = (k) => Int16Array.from({length: n}, (_, i) => ((i * k) % 65536) - 32768);
           const frame = {n_rods: n, box_mm: [80, 80], walls: null, outlines: [[2, 0.4, 0.25]], x: place(7919), y: place(104729),
-                         heading: place(31), n_z: new Int16Array(n), species: new Uint8Array(n)};
+                         heading: place(31), n_z: new Int16Array(n), shape: new Uint8Array(n)};
           const whole = instancesOf(frame, {x: 0.5, y: 0.5, zoom: 1}), shifted = instancesOf(frame, {x: 0.1, y: 0.9, zoom: 1});
           // the slow twin: every image of every rod
           const seen = (view, high = 2) => {

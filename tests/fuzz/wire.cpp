@@ -65,6 +65,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     message->job_id = kJob;
     rods.note(*message);
   }
+  if (auto message = decoded<sizes_t>(payload)) {
+    message->job_id = kJob;
+    rods.note(*message);
+  }
   if (const auto message = decoded<job_t>(payload)) (void)jobs.contradicts(*message);
   if (auto message = decoded<observables_t>(payload)) {
     message->job_id = kJob;

@@ -25,7 +25,7 @@ TEST(Equipartition, OfElasticRodsBetweenPlatesAtRest) {
   auto simulation = Simulation::start(system);
   ASSERT_TRUE(static_cast<bool>(simulation));
   const Species& rods = simulation->world().species.front();
-  const analysis::RodInertia inertia{rods.mass, rods.inertia_perp, rods.inertia_par};
+  const analysis::RodInertia inertia[]{{rods.mass, rods.inertia_perp, rods.inertia_par}};
   const auto temperatures = [&] {
     const Snapshot now = simulation->snapshot();
     return analysis::granular_temperatures(now.director, now.velocity, now.angular_velocity, inertia);

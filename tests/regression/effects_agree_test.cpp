@@ -129,6 +129,14 @@ INSTANTIATE_TEST_SUITE_P(
                            s.n_rods = 50;
                            s.added = {AddedRods{kPolarRod, 10}, AddedRods{kSphere, 20}};
                          }},
+                    Case{"Polydisperse",
+                         [](System& s) {
+                           s.n_rods = 50;
+                           s.rod.spread = {.length = 0.15, .end_diameter = 0.3};
+                           s.added[0] = AddedRods{kSphere, 20};
+                           s.added[0]->rod.spread.length = 0.2;
+                           s.rod_rod.own[Contacts::place(0, 1)].friction = 0.5;
+                         }},
                     Case{"VeryDifferentSizes",
                          [](System& s) {
                            s.n_rods = 8;
@@ -319,6 +327,10 @@ System draw_mix() {
   const auto maybe = [] { return *rc::gen::inRange(0, 2) == 1; };
   if (maybe()) system.impacts = ImpactTime::kAtInstant;
   if (maybe()) system.rod = kBowlingPin;
+  if (maybe()) {
+    system.rod.spread.length = 0.05 * *rc::gen::inRange(1, 5);
+    system.n_rods /= 2;
+  }
   if (maybe()) system.added[0] = AddedRods{kPolarRod, *rc::gen::inRange(1, 8)};
   if (maybe()) system.added[1] = AddedRods{kSphere, *rc::gen::inRange(1, 12)};
   if (maybe()) {

@@ -60,6 +60,7 @@ TEST(GoldenHash, TrajectoriesAreWhatTheyWere) {
       {"among posts, compressed", scene_of(2.5, 18, 60), 20000, 0xda28e612c63c018b},
       {"several species among posts in a disc, impacts at their instant", mixed(Arena::kDisc), 30000,
        0x48307e86766668d0},
+      {"rods that differ in length and taper, compressed", scene_of(3.5, 18, 80), 10000, 0x3514b5e2c0e5e375},
   };
   cases[1].system.start = Start::kRandom;
   cases[2].system.rod = {.length = 0.8, .mid_diameter = 0.8, .end_diameter = 0.8, .n_beads = 1};
@@ -96,6 +97,8 @@ TEST(GoldenHash, TrajectoriesAreWhatTheyWere) {
   cases[20].system.impacts = ImpactTime::kAtInstant;
   cases[20].system.posts = Posts{.diameter = 1.3, .places = {{5, 6}, {6.3, 6}, {7, 10}, {10, 7}}};
   cases[20].system.n_rods = 10;
+  cases[21].system.rod.spread = {.length = 0.1, .end_diameter = 0.2};
+  cases[21].system.start = Start::kCompressed;
   for (const Golden& golden : cases) {
     auto simulation = Simulation::start(golden.system);
     ASSERT_TRUE(static_cast<bool>(simulation)) << simulation.error().message;

@@ -275,6 +275,20 @@ void draw_horizontal_vibration(std::uint64_t seed, Json& scene) {
   scene["plates"]["horizontal_angle"] = draw.plain(-180, 180);
 }
 
+/// Rods that differ in size, by numbers of their own.
+void draw_spread(std::uint64_t seed, Json& scene) {
+  SceneDraw draw(seed + 7'000'000'021);
+  for (const char* name : {"rods", "rods_2", "rods_3"}) {
+    if (!scene.contains(name) || !draw.chance(0.12)) continue;
+    Json& rods = scene[name];
+    rods["length_spread"] = draw.plain(0.01, 0.25);
+    const bool has_profile = !rods.contains("bead_diameters") && !(rods.contains("beads") && rods["beads"] == 1);
+    if (has_profile && draw.chance(0.5)) rods["end_diameter_spread"] = draw.plain(0.01, 0.25);
+    if (!scene["rods"].contains("area_fraction")) continue;  // rows have room for the longest
+    scene["rods"]["area_fraction"] = std::min(scene["rods"]["area_fraction"].get<double>(), draw.plain(0.05, 0.4));
+  }
+}
+
 }  // namespace
 
 SceneCase draw_scene_case(std::uint64_t seed) {
@@ -340,6 +354,7 @@ SceneCase draw_scene_case(std::uint64_t seed) {
   draw_posts(seed, scene);
   draw_contacts(seed, scene);
   draw_horizontal_vibration(seed, scene);
+  draw_spread(seed, scene);
   return one;
 }
 

@@ -76,7 +76,8 @@ export function useForRods(gl, {program, at}, palettes, frame, colouring) {
   kTextures.forEach((name, unit) => gl.uniform1i(at[name], unit));
   const ofSpecies = palettes[colouring === "species" ? "species" : "others"];
   gl.uniform3fv(at.speciesColour, ofSpecies.flatMap(rgb).map((c) => c / 255));
-  gl.uniform3fv(at.outline, frame.outlines.slice(0, 8).flat());
+  const speciesOf = frame.species_of_outline;
+  gl.uniform4fv(at.outline, frame.outlines.slice(0, 27).flatMap((one, k) => [...one, speciesOf.length ? speciesOf[k] : k]));
   gl.uniform1f(at.director, frame.director_rad);
   gl.uniform1i(at.colouring, kColourings.indexOf(colouring));
 }

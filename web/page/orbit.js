@@ -11,14 +11,14 @@ const kMargin = 1.03;
 const kVertex = `
 layout(location = 0) in vec4 ring;  // parts of the half length, and of the end's radius, along the rod; radius / end's; angle
 layout(location = 1) in vec4 rod;   // its centre [mm]; heading / pi
-layout(location = 2) in vec2 kind;  // n_z, species
+layout(location = 2) in vec2 kind;  // n_z, which outline
 uniform mat4 look;
 uniform vec3 toEye;
-uniform vec3 outline[8];            // half length, radius in the middle, radius at the ends [mm]
+uniform vec4 outline[27];           // half length, radius in the middle, radius at the ends [mm]; species
 centroid out vec3 colour;
 ${kColourOf}
 void main() {
-  vec3 shape = outline[int(kind.y)];
+  vec4 shape = outline[int(kind.y)];
   float theta = rod.w * pi, nz = kind.x, flatPart = sqrt(max(0.0, 1.0 - nz * nz));
   vec3 axis = vec3(flatPart * cos(theta), flatPart * sin(theta), nz);
   vec3 across = vec3(-sin(theta), cos(theta), 0.0), third = cross(axis, across);
@@ -28,7 +28,7 @@ void main() {
   gl_Position = look * vec4(place, 1.0);
   vec3 normal = normalize(ring.y * axis + ring.z * radial);
   vec3 light = normalize(toEye + vec3(0.0, 0.0, 0.6));
-  colour = colourOf(theta, nz, kind.y) * (0.35 + 0.65 * max(0.0, dot(normal, light)));
+  colour = colourOf(theta, nz, shape.w) * (0.35 + 0.65 * max(0.0, dot(normal, light)));
 }`;
 const kFragment = `
 centroid in vec3 colour;
@@ -180,7 +180,7 @@ export class OrbitPainter {
 
   paintRods(frame, look, toEye, colouring) {
     const {gl, bodies} = this, n = frame.n_rods, kinds = new Float32Array(2 * n);
-    for (let i = 0; i < n; ++i) kinds.set([frame.n_z[i] / 32767, frame.species[i]], 2 * i);
+    for (let i = 0; i < n; ++i) kinds.set([frame.n_z[i] / 32767, frame.shape[i]], 2 * i);
     useForRods(gl, bodies, this.palettes, frame, colouring);
     gl.uniformMatrix4fv(bodies.at.look, false, look);
     gl.uniform3fv(bodies.at.toEye, toEye);

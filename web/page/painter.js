@@ -8,15 +8,15 @@ import {periodOf, toNearest} from "/page/plane.js";
 const kVertex = `
 layout(location = 0) in vec2 corner;
 layout(location = 1) in vec4 rod;  // its centre, from the middle of the view [mm]; heading / pi; n_z
-layout(location = 2) in float species;
+layout(location = 2) in float outlineOf;
 uniform float scale;       // half the view's width is 1 / scale [mm]
-uniform vec3 outline[8];   // half length, radius in the middle, radius at the ends [mm]
+uniform vec4 outline[27];  // half length, radius in the middle, radius at the ends [mm]; species
 out vec2 at;               // along and across the rod [mm]
 flat out vec3 shape;
 flat out vec3 colour;
 ${kColourOf}
 void main() {
-  vec3 whole = outline[int(species)];
+  vec4 whole = outline[int(outlineOf)];
   float nz = rod.w;
   float flatPart = sqrt(max(0.0, 1.0 - nz * nz));
   shape = vec3(whole.x * flatPart, whole.yz);
@@ -26,7 +26,7 @@ void main() {
   vec2 axis = vec2(cos(theta), sin(theta));
   vec2 place = rod.xy + at.x * axis + at.y * vec2(-axis.y, axis.x);
   gl_Position = vec4(place * scale, 0.0, 1.0);
-  colour = colourOf(theta, nz, species);
+  colour = colourOf(theta, nz, whole.w);
 }`;
 
 const kFragment = `
@@ -48,7 +48,7 @@ void main() {
 
 /**
  * The rods of a frame as they are seen, each image of them near the border too: 4 numbers for each, as the shader has them,
- * and its species. `view` is {x, y, zoom}; the box is periodic where it has no walls.
+ * and which outline it has. `view` is {x, y, zoom}; the box is periodic where it has no walls.
  */
 export function instancesOf(frame, view) {
   const {n_rods: n, box_mm: box} = frame, half = Math.max(...box) / 2 / view.zoom;
@@ -59,22 +59,22 @@ export function instancesOf(frame, view) {
     return Array.from({length: 2 * most + 1}, (_, k) => (k - most) * side);
   });
   const images = shifts[0].length * shifts[1].length;
-  const rods = new Float32Array(4 * images * n), species = new Uint8Array(images * n);
+  const rods = new Float32Array(4 * images * n), shape = new Uint8Array(images * n);
   let count = 0;
   // of the centre, from the middle of the view
   const placed = (at, middle, axis) => toNearest((at / 65536 + 0.5 - middle) * box[axis], period[axis]);
   for (let i = 0; i < n; ++i) {
-    const x = placed(frame.x[i], view.x, 0), y = placed(frame.y[i], view.y, 1), most = half + reach[frame.species[i]];
+    const x = placed(frame.x[i], view.x, 0), y = placed(frame.y[i], view.y, 1), most = half + reach[frame.shape[i]];
     for (const dx of shifts[0]) {
       if (Math.abs(x + dx) > most) continue;
       for (const dy of shifts[1]) {
         if (Math.abs(y + dy) > most) continue;
         rods.set([x + dx, y + dy, frame.heading[i] / 32768, frame.n_z[i] / 32768], 4 * count);
-        species[count++] = frame.species[i];
+        shape[count++] = frame.shape[i];
       }
     }
   }
-  return {count, rods: rods.subarray(0, 4 * count), species: species.subarray(0, count)};
+  return {count, rods: rods.subarray(0, 4 * count), shape: shape.subarray(0, count)};
 }
 
 /**
@@ -103,7 +103,7 @@ export class RodPainter {
     gl.bindVertexArray(this.vertices);
     fill(gl, attribute(gl, 0, 2, gl.FLOAT), new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]));
     this.rods = attribute(gl, 1, 4, gl.FLOAT, true);
-    this.species = attribute(gl, 2, 1, gl.UNSIGNED_BYTE, true);
+    this.shape = attribute(gl, 2, 1, gl.UNSIGNED_BYTE, true);
   }
 
   /**
@@ -126,10 +126,10 @@ export class RodPainter {
     }
     useForRods(gl, program, palettes, frame, colouring);
     gl.uniform1f(program.at.scale, 2 * view.zoom / Math.max(...frame.box_mm));
-    const {count, rods, species} = instancesOf(frame, view);
+    const {count, rods, shape} = instancesOf(frame, view);
     gl.bindVertexArray(this.vertices);
     fill(gl, this.rods, rods);
-    fill(gl, this.species, species);
+    fill(gl, this.shape, shape);
     gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, count);
   }
 }

@@ -10,9 +10,10 @@ export function unpack(buffer) {
   const head = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, size)));
   const n = head.n_rods, begin = 4 + size;
   const array = (k) => new Int16Array(buffer, begin + 2 * n * k, n);
-  const many = head.outlines.length > 1, z = head.has_heights ? array(4) : null;
-  return {...head, x: array(0), y: array(1), heading: array(2), n_z: array(3), z,
-          species: many ? new Uint8Array(buffer, begin + (z ? 10 : 8) * n, n) : new Uint8Array(n)};
+  const many = head.outlines.length > 1, z = head.has_heights ? array(4) : null, kinds = head.species_of_outline;
+  const shape = many ? new Uint8Array(buffer, begin + (z ? 10 : 8) * n, n) : new Uint8Array(n);
+  return {...head, x: array(0), y: array(1), heading: array(2), n_z: array(3), z, shape,
+          species: kinds.length ? shape.map((k) => kinds[k]) : shape};
 }
 
 export function unpackText(text) {
@@ -33,7 +34,7 @@ export function rodAt(frame, view, x, y, reach = 0) {
   let best = -1, least = Infinity;
   const [periodX, periodY] = periodOf(frame);
   for (let i = 0; i < frame.n_rods; ++i) {
-    const [length, middle, end] = frame.outlines[frame.species[i]], theta = frame.heading[i] / 32768 * Math.PI;
+    const [length, middle, end] = frame.outlines[frame.shape[i]], theta = frame.heading[i] / 32768 * Math.PI;
     const off = (at, from, to, side, period) => toNearest(to - (at / 65536 + 0.5 - from) * side, period);
     const dx = off(frame.x[i], view.x, x, frame.box_mm[0], periodX), dy = off(frame.y[i], view.y, y, frame.box_mm[1], periodY);
     const along = dx * Math.cos(theta) + dy * Math.sin(theta), across = -dx * Math.sin(theta) + dy * Math.cos(theta);

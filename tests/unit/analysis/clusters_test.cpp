@@ -15,12 +15,13 @@ namespace shaken::analysis {
 namespace {
 
 constexpr double kBox = 20;
-constexpr ClusterRule kRule{.tail = 2, .head = 2, .distance = 1};
+constexpr ClusterRule kRule{.distance = 1};
+constexpr RodAxis kAxis[]{{.tail = 2, .head = 2}};
 using Sizes = std::vector<std::size_t>;
 
 TEST(ClusterSizes, OfRodsPlacedByHand) {
-  const auto sizes = [](std::vector<Vec3> places, std::vector<Vec3> directors, ClusterRule rule = kRule) {
-    return cluster_sizes(places, directors, kBox, rule);
+  const auto sizes = [](std::vector<Vec3> places, std::vector<Vec3> directors) {
+    return cluster_sizes(places, directors, kAxis, kBox, kRule);
   };
   EXPECT_EQ(sizes({}, {}), Sizes{});
   EXPECT_EQ(sizes({{5, 5, 0}}, {axis(0)}), Sizes{1});
@@ -43,22 +44,22 @@ TEST(ClusterSizes, KnowWallsHeadsAndAngles) {
   // Walls: no images.
   const Region square(kBox, SideWalls{Arena::kSquare, 19.9});
   const std::vector<Vec3> corners{{19.8, 19.8, 0}, {0.3, 0.3, 0}}, along{axis(0), axis(0)};
-  EXPECT_EQ(cluster_sizes(corners, along, square, kRule), (Sizes{1, 1}));
+  EXPECT_EQ(cluster_sizes(corners, along, kAxis, square, kRule), (Sizes{1, 1}));
   const Region channel(kBox, SideWalls{Arena::kChannel, 19.9});
-  EXPECT_EQ(cluster_sizes(corners, along, channel, kRule), (Sizes{1, 1}));
-  EXPECT_EQ(cluster_sizes(std::vector<Vec3>{{19.8, 5, 0}, {0.3, 5, 0}}, along, channel, kRule), Sizes{2});
+  EXPECT_EQ(cluster_sizes(corners, along, kAxis, channel, kRule), (Sizes{1, 1}));
+  EXPECT_EQ(cluster_sizes(std::vector<Vec3>{{19.8, 5, 0}, {0.3, 5, 0}}, along, kAxis, channel, kRule), Sizes{2});
   // The head is farther from the centre of mass than the tail: heads touch, tails do not.
-  const ClusterRule polar{.tail = 1, .head = 3, .distance = 1};
+  const RodAxis polar[]{{.tail = 1, .head = 3}};
   const std::vector<Vec3> apart{{5, 5, 0}, {11.5, 5, 0}};
-  EXPECT_EQ(cluster_sizes(apart, std::vector<Vec3>{axis(0), axis(kPi)}, kBox, polar), Sizes{2});
-  EXPECT_EQ(cluster_sizes(apart, std::vector<Vec3>{axis(kPi), axis(0)}, kBox, polar), (Sizes{1, 1}));
+  EXPECT_EQ(cluster_sizes(apart, std::vector<Vec3>{axis(0), axis(kPi)}, polar, kBox, kRule), Sizes{2});
+  EXPECT_EQ(cluster_sizes(apart, std::vector<Vec3>{axis(kPi), axis(0)}, polar, kBox, kRule), (Sizes{1, 1}));
   // Axes may differ by 0.3 and no more, whichever way they point.
   ClusterRule aligned = kRule;
   aligned.angle = 0.3;
   const std::vector<Vec3> near{{5, 5, 0}, {5, 5.5, 0}};
-  EXPECT_EQ(cluster_sizes(near, std::vector<Vec3>{axis(0), axis(kPi + 0.29)}, kBox, aligned), Sizes{2});
-  EXPECT_EQ(cluster_sizes(near, std::vector<Vec3>{axis(0), axis(0.31)}, kBox, aligned), (Sizes{1, 1}));
-  EXPECT_EQ(cluster_sizes(near, std::vector<Vec3>{axis(0), axis(kPi / 2)}, kBox, kRule), Sizes{2});
+  EXPECT_EQ(cluster_sizes(near, std::vector<Vec3>{axis(0), axis(kPi + 0.29)}, kAxis, kBox, aligned), Sizes{2});
+  EXPECT_EQ(cluster_sizes(near, std::vector<Vec3>{axis(0), axis(0.31)}, kAxis, kBox, aligned), (Sizes{1, 1}));
+  EXPECT_EQ(cluster_sizes(near, std::vector<Vec3>{axis(0), axis(kPi / 2)}, kAxis, kBox, kRule), Sizes{2});
 }
 
 // Spheres are axes without length: those of a square lattice of spacing 1 make one cluster or none.
@@ -66,21 +67,24 @@ TEST(ClusterSizes, OfSpheresOnALattice) {
   std::vector<Vec3> places;
   for (int i = 0; i < 400; ++i) places.push_back(Vec3(i % 20 + 0.5, i / 20 + 0.5, 0.5));
   const std::vector<Vec3> directors(400, Vec3(0, 0, 1));
-  EXPECT_EQ(cluster_sizes(places, directors, kBox, {.distance = 1.01}), Sizes{400});
-  EXPECT_EQ(cluster_sizes(places, directors, kBox, {.distance = 0.99}), Sizes(400, 1));
+  constexpr RodAxis kPoint[]{{}};
+  EXPECT_EQ(cluster_sizes(places, directors, kPoint, kBox, {.distance = 1.01}), Sizes{400});
+  EXPECT_EQ(cluster_sizes(places, directors, kPoint, kBox, {.distance = 0.99}), Sizes(400, 1));
 }
 
 // The slow twin looks at all pairs and all images of each, and walks from rod to rod.
-Sizes slow_sizes(const std::vector<Vec3>& places, const std::vector<Vec3>& directors, const ClusterRule& rule) {
+Sizes slow_sizes(const std::vector<Vec3>& places, const std::vector<Vec3>& directors, const std::vector<RodAxis>& axes,
+                 const ClusterRule& rule) {
   const std::size_t n = places.size();
   const auto are_neighbours = [&](std::size_t i, std::size_t j) {
     if (std::acos(std::min(1.0, std::abs(directors[i].dot(directors[j])))) > rule.angle) return false;
     for (int a = -1; a <= 1; ++a) {
       for (int b = -1; b <= 1; ++b) {
-        const Vec3 from = places[i] - rule.tail * directors[i];
-        const Vec3 to = places[j] - rule.tail * directors[j] + kBox * Vec3(a, b, 0);
-        const double length = rule.tail + rule.head;
-        if (segment_distance(from, length * directors[i], to, length * directors[j]) < rule.distance) return true;
+        const Vec3 from = places[i] - axes[i].tail * directors[i];
+        const Vec3 to = places[j] - axes[j].tail * directors[j] + kBox * Vec3(a, b, 0);
+        const Vec3 along = (axes[i].tail + axes[i].head) * directors[i];
+        const Vec3 other = (axes[j].tail + axes[j].head) * directors[j];
+        if (segment_distance(from, along, to, other) < rule.distance) return true;
       }
     }
     return false;
@@ -109,9 +113,14 @@ TEST(ClusterSizes, EqualThoseOfTheWalk) {
   for (const std::size_t n : {3u, 20u, 40u, 80u}) {
     for (const double distance : {0.2, 0.5, 0.9}) {
       for (const double angle : {kPi / 2, 0.5}) {
-        const ClusterRule rule{.tail = 0.7, .head = 1.1, .distance = distance, .angle = angle};
+        const ClusterRule rule{.distance = distance, .angle = angle};
         const std::vector<Vec3> places = random_places(draw, n, kBox), directors = random_axes(draw, n);
-        EXPECT_EQ(cluster_sizes(places, directors, kBox, rule), slow_sizes(places, directors, rule)) << n;
+        std::vector<RodAxis> axes(n, {.tail = 0.7, .head = 1.1});
+        EXPECT_EQ(cluster_sizes(places, directors, std::span(axes).first(1), kBox, rule),
+                  slow_sizes(places, directors, axes, rule))
+            << n;
+        for (RodAxis& axis : axes) axis = {draw.uniform(0.1, 1), draw.uniform(0.1, 1.5)};
+        EXPECT_EQ(cluster_sizes(places, directors, axes, kBox, rule), slow_sizes(places, directors, axes, rule)) << n;
       }
     }
   }

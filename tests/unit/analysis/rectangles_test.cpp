@@ -109,7 +109,8 @@ TEST(Rectangles, ClustersAreThoseOfAllPairs) {
     }
     std::sort(sizes.rbegin(), sizes.rend());
     EXPECT_GT(sizes.front(), 3U);
-    EXPECT_EQ(cluster_sizes(places, axes, box, {0, 0, 1.2, kPi / 2}), sizes);
+    constexpr RodAxis kPoint[]{{}};
+    EXPECT_EQ(cluster_sizes(places, axes, kPoint, box, {.distance = 1.2}), sizes);
   }
 }
 

@@ -30,7 +30,7 @@ class ExportVerb : public ::testing::Test {
     write("summary.json", R"({"n_rods": 1, "measured": {"alpha": {"value": 2, "sem": 0.5}}})");
     EXPECT_TRUE(run::write_observables(run_ / "observables.h5",
                                        {{"/msd/lag_s", {1, 2}}, {"/msd/total_mm2", {0.5, 0.75}}, {"/g2/r_mm", {1}}}));
-    const shaken::Cell cell{.box = 10, .gap = 1.5, .species = {{{0}, {0.25}}}};
+    const shaken::Cell cell{.box = 10, .gap = 1.5, .shapes = {{{0}, {0.25}}}};
     auto log = run::FrameLog::create(run_ / "trajectory.part", {1, cell, 0.5, "", {}});
     EXPECT_TRUE(log) << log.error().message;
     for (int f = 0; f < 5; ++f) {

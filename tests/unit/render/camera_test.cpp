@@ -74,7 +74,7 @@ TEST(OrbitView, RodsAreSeenWhereTheyAreAndNowhereElse) {
                           (1 - 2 * (y + 0.5) / kHeight) * camera.half.y() * camera.up + camera.forward)
                              .normalized();
         double inside = -1e9;  // how deep in the body the ray goes [mm]
-        const BeadRow& beads = picture.cell.species[0];
+        const BeadRow& beads = picture.cell.shapes[0];
         for (std::size_t i = 0; i < beads.offset.size(); ++i) {
           const Vec3 centre = picture.frame.position[0] + beads.offset[i] * picture.frame.director[0] - camera.eye;
           inside = std::max(inside, beads.radius[i] - (centre - centre.dot(ray) * ray).norm());

@@ -44,7 +44,7 @@ TEST(Colourings, ValuesAreWhatTheirNamesSay) {
   EXPECT_NEAR(value("angle", picture, 1), 50, 1e-9);
   EXPECT_NEAR(value("angle", picture, 2), 110, 1e-9);
   EXPECT_TRUE(std::isnan(value("heading", picture, 1))) << "both ends are the same";
-  picture.cell.species[0].radius.back() *= 0.9;
+  picture.cell.shapes[0].radius.back() *= 0.9;
   EXPECT_NEAR(value("heading", picture, 1), 230, 1e-9);
   EXPECT_NEAR(value("heading", picture, 2), 290, 1e-9);
   EXPECT_NEAR(value("tilt", picture, 0), 0.2, 1e-12);
@@ -79,7 +79,7 @@ TEST(Colourings, LocalOrderAndDensityOfAnOrderedHalf) {
   };
   EXPECT_NEAR(value("order", picture, near(15, 30)), 1, 1e-6);
   EXPECT_LT(value("order", picture, near(45, 30)), 0.4);
-  const double area = picture.cell.species[0].area();  // of a rod on each mm^2
+  const double area = picture.cell.shapes[0].area();  // of a rod on each mm^2
   EXPECT_NEAR(value("density", picture, near(15, 30)), area, 0.01 * area);
   EXPECT_NEAR(value("density", picture, near(45, 30)), area / 2, 0.05 * area);
   EXPECT_NEAR(value("density", picture, near(15, 0)), area, 0.01 * area) << "across the border";
@@ -87,12 +87,12 @@ TEST(Colourings, LocalOrderAndDensityOfAnOrderedHalf) {
 
 TEST(Colourings, RodsWithoutAValueHaveTheColourOfTheirSpecies) {
   RodPicture picture = empty_picture(20);
-  picture.cell.species.push_back({{0}, {0.5}});
-  picture.cell.species.push_back({{-1, 1}, {0.3, 0.2}});
+  picture.cell.shapes.push_back({{0}, {0.5}});
+  picture.cell.shapes.push_back({{-1, 1}, {0.3, 0.2}});
   add_rod(picture, 5, 5, 0.3);
   add_rod(picture, 9, 5, 0.3);
   add_rod(picture, 9, 9, 0.3);
-  picture.cell.species_of_rod = {0, 1, 2};
+  picture.cell.shape_of_rod = {0, 1, 2};
   for (const char* name : {"layers", "angle"}) {
     EXPECT_EQ(rod_colour(picture, 1, by(name), by(name).range, Palette::kSafe), species_colour(1)) << name;
     EXPECT_EQ(rod_colour(picture, 2, by(name), by(name).range, Palette::kSafe), species_colour(2)) << name;
@@ -119,7 +119,7 @@ TEST(ChosenColour, FollowsTheOrder) {
   EXPECT_EQ(chosen_colour(picture, film, true), "layers") << "nine of ten";
   film[1] = 0.1;
   EXPECT_EQ(chosen_colour(picture, film, true), "angle");
-  picture.cell.species = {{{0}, {0.5}}};
+  picture.cell.shapes = {{{0}, {0.5}}};
   EXPECT_EQ(chosen_colour(picture, std::vector<double>{0.9}, true), "species") << "spheres";
 }
 

@@ -120,7 +120,7 @@ TEST(GapView, RodsAreWhole) {
 TEST(GapView, APeriodicBoxGoesOnAndAnArenaDoesNot) {
   // Four rods in a row in depth, a box apart, each smaller than the one before.
   RodPicture picture = empty_picture(10);
-  picture.cell.species = {{{0}, {0.3}}};
+  picture.cell.shapes = {{{0}, {0.3}}};
   add_rod(picture, 5, 6.5, 0);
   const auto coloured = [&] {
     const Image image = look(picture);
@@ -139,11 +139,11 @@ TEST(GapView, APeriodicBoxGoesOnAndAnArenaDoesNot) {
 
 TEST(GapView, TheNearerRodHidesTheFarther) {
   RodPicture picture = empty_picture(kBox);
-  picture.cell.species.push_back(picture.cell.species[0]);
+  picture.cell.shapes.push_back(picture.cell.shapes[0]);
   add_rod(picture, kBox / 2, kBox / 2 + 4, 0);
   add_rod(picture, kBox / 2, kBox / 2 + 2, 0);
   for (const bool orange_in_front : {true, false}) {
-    picture.cell.species_of_rod = orange_in_front ? std::vector<std::uint8_t>{1, 0} : std::vector<std::uint8_t>{0, 1};
+    picture.cell.shape_of_rod = orange_in_front ? std::vector<std::uint8_t>{1, 0} : std::vector<std::uint8_t>{0, 1};
     const Image image = look(picture);
     const Vec2 middle = pixel_of(picture, picture.frame.position[1]);
     EXPECT_EQ(is_rod(image.pixel(int(middle.x()), int(middle.y()))), orange_in_front);

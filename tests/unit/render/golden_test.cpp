@@ -72,12 +72,12 @@ RodPicture paired() {
 RodPicture mixed() {
   RodPicture picture = empty_picture(32);
   picture.cell.walls = SideWalls{Arena::kDisc, 30};
-  picture.cell.species.push_back({{-1.2, -0.4, 0.4, 1.2}, {0.45, 0.4, 0.35, 0.2}});
-  picture.cell.species.push_back({{0}, {0.5}});
+  picture.cell.shapes.push_back({{-1.2, -0.4, 0.4, 1.2}, {0.45, 0.4, 0.35, 0.2}});
+  picture.cell.shapes.push_back({{0}, {0.5}});
   for (int i = 0; i < 120; ++i) {
     const double r = 13 * std::sqrt((i + 0.5) / 120), turn = 2.39996 * i;
     add_rod(picture, 16 + r * std::cos(turn), 16 + r * std::sin(turn), turn);
-    picture.cell.species_of_rod.push_back(static_cast<std::uint8_t>(i % 3));
+    picture.cell.shape_of_rod.push_back(static_cast<std::uint8_t>(i % 3));
   }
   return picture;
 }

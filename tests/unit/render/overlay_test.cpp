@@ -276,11 +276,11 @@ TEST(RoundLength, IsTheLongestOneTwoFive) {
 
 TEST(Overlay, EachSpeciesIsShownWithItsNumberAndItsOrder) {
   RodPicture picture = empty_picture(kBox);
-  picture.cell.species.push_back({{0}, {0.8}});
-  picture.cell.species.push_back({{-0.4, 0.4}, {0.5, 0.3}});
+  picture.cell.shapes.push_back({{0}, {0.8}});
+  picture.cell.shapes.push_back({{-0.4, 0.4}, {0.5, 0.3}});
   for (int i = 0; i < 6; ++i) {
     add_rod(picture, 3 * i + 1, 10, i == 4 ? kPi / 2 : 0);
-    picture.cell.species_of_rod.push_back(static_cast<std::uint8_t>(i / 2));
+    picture.cell.shape_of_rod.push_back(static_cast<std::uint8_t>(i / 2));
   }
   EXPECT_EQ(species_text(picture.cell, picture.frame, 0), "2 rods, S = 1.000");
   EXPECT_EQ(species_text(picture.cell, picture.frame, 1), "2 spheres");

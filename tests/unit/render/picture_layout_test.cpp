@@ -25,7 +25,7 @@ TEST(Layout, NothingOverlapsOrLeavesThePicture) {
   for (const auto& [width, height] : sizes) {
     for (const bool history : {false, true}) {
       for (const int more : {0, 1, 2, 3, 4, 5, 6, 7}) {
-        const bool label = more % 2 == 1, species_of_rod = more / 2 % 2 == 1;
+        const bool label = more % 2 == 1, shape_of_rod = more / 2 % 2 == 1;
         PictureStyle style;
         if (more >= 4) {
           style.tracks = 2;
@@ -33,7 +33,7 @@ TEST(Layout, NothingOverlapsOrLeavesThePicture) {
         }
         style.width = width;
         style.height = height;
-        const Layout layout = layout_of(style, {.history = history, .label = label, .species = species_of_rod ? 3 : 0});
+        const Layout layout = layout_of(style, {.history = history, .label = label, .species = shape_of_rod ? 3 : 0});
         const Rect box{double(layout.box_x), double(layout.box_y), double(layout.box_side), double(layout.box_side)};
         const std::vector<Rect> all = {box,
                                        layout.label,
@@ -57,7 +57,7 @@ TEST(Layout, NothingOverlapsOrLeavesThePicture) {
           }
         }
         EXPECT_EQ(layout.label.width > 0, label);
-        EXPECT_EQ(layout.species.width > 0, species_of_rod);
+        EXPECT_EQ(layout.species.width > 0, shape_of_rod);
       }
     }
   }

@@ -27,7 +27,7 @@ TEST(RodPicture, AreaFractionOfARectangle) {
   RodPicture picture = empty_picture(83.73);
   picture.cell.box = {21, 126};
   picture.frame.position.resize(100);
-  const double square = empty_picture(10).cell.species[0].area() * 100 / (21 * 126);
+  const double square = empty_picture(10).cell.shapes[0].area() * 100 / (21 * 126);
   EXPECT_NEAR(picture.area_fraction(), square, 1e-12);
 }
 
@@ -60,7 +60,7 @@ TEST(View, OfARectangleIsASquareOfItsImages) {
 TEST(RodPicture, AreaFractionOfASphereIsADiscs) {
   RodPicture picture;
   picture.cell.box = 2;
-  picture.cell.species = {{{0}, {0.5}}};
+  picture.cell.shapes = {{{0}, {0.5}}};
   picture.frame.position.resize(1);
   EXPECT_NEAR(picture.area_fraction(), kPi * 0.25 / 4, 1e-12);
 }
@@ -68,8 +68,8 @@ TEST(RodPicture, AreaFractionOfASphereIsADiscs) {
 TEST(RodPicture, AreaFractionIsOfAllKindsAndPerArena) {
   RodPicture picture;
   picture.cell.box = 40;
-  picture.cell.species = {{{0}, {0.5}}, {{0}, {1}}};
-  picture.cell.species_of_rod = {1, 0, 1};
+  picture.cell.shapes = {{{0}, {0.5}}, {{0}, {1}}};
+  picture.cell.shape_of_rod = {1, 0, 1};
   picture.frame.position.resize(3);
   const double discs = kPi * (0.25 + 1 + 1);
   EXPECT_NEAR(picture.area_fraction(), discs / 1600, 1e-12);
@@ -83,18 +83,33 @@ TEST(RodPicture, AreaFractionIsOfAllKindsAndPerArena) {
   }
 }
 
+TEST(RodPicture, LengthOfRodsThatDifferHasADeviation) {
+  RodPicture picture;
+  picture.cell.shapes = {{{-2, 0, 2}, {0.25, 0.4, 0.25}}};
+  picture.frame.position.resize(4);
+  EXPECT_EQ(picture.length_text(), "4.5 mm");
+  picture.cell.shapes.push_back({{-2.2, 0, 2.2}, {0.25, 0.4, 0.25}});
+  picture.cell.shapes.push_back({{-1.8, 0, 1.8}, {0.25, 0.4, 0.25}});
+  picture.cell.shapes.push_back({{0}, {0.4}});
+  picture.cell.species_of_shape = {0, 0, 0, 1};
+  picture.cell.shape_of_rod = {0, 1, 2, 3};  // sqrt(2/3) of 0.4 mm
+  EXPECT_EQ(picture.length_text(), "4.5\u00b10.33 mm");
+  EXPECT_EQ(picture.count(0), 3u);
+  EXPECT_EQ(picture.count_of_shape(0), 1u);
+}
+
 TEST(RodPicture, LengthOfARodWithAHeadIsTipToTip) {
   RodPicture picture;
-  picture.cell.species = {{{-1.5, 0.5, 2.5}, {0.5, 0.4, 0.3}}};
+  picture.cell.shapes = {{{-1.5, 0.5, 2.5}, {0.5, 0.4, 0.3}}};
   EXPECT_DOUBLE_EQ(picture.rod_length(), 4.8);
 }
 
 TEST(Measure, AsksOnlyRodsOfTheFirstKind) {
   RodPicture picture = empty_picture(20);
-  picture.cell.species.push_back({{0}, {0.5}});
+  picture.cell.shapes.push_back({{0}, {0.5}});
   for (int i = 0; i < 40; ++i) {
     add_rod(picture, 0.5 * i, 0.5 * i, i % 2 ? 0.7 : 0.13 * i);
-    picture.cell.species_of_rod.push_back(i % 2 ? 0 : 1);
+    picture.cell.shape_of_rod.push_back(i % 2 ? 0 : 1);
   }
   measure(picture, {.defects = true});
   EXPECT_NEAR(picture.found.director_angle, 0.7, 1e-12);
@@ -137,7 +152,7 @@ TEST(Measure, FindsAPlantedPairOfDefects) {
 // One bead is a sphere: its director means nothing.
 TEST(Measure, FindsNeitherOrderNorDefectsOfSpheres) {
   RodPicture picture = empty_picture(40);
-  picture.cell.species = {{{0}, {0.4}}};
+  picture.cell.shapes = {{{0}, {0.4}}};
   for (int i = 0; i < 400; ++i) add_rod(picture, 2 * (i % 20) + 1, 2 * (i / 20) + 1, 0.9 * i * i);
   measure(picture, {.defects = true, .field = true});
   EXPECT_FALSE(picture.cell.has_axes());

@@ -296,12 +296,12 @@ Image flat_image(const RodPicture& picture, const PictureStyle& style) {
 TEST(FlatRods, HaveTheOutlineThatTheRasterisedOnesHave) {
   // Level, tilted and upright rods, a sphere whose director says nothing, a polar rod.
   RodPicture picture = empty_picture(20);
-  picture.cell.species.push_back({{0}, {0.9}});
-  picture.cell.species.push_back({{-1, 0, 1}, {0.9, 0.5, 0.2}});
+  picture.cell.shapes.push_back({{0}, {0.9}});
+  picture.cell.shapes.push_back({{-1, 0, 1}, {0.9, 0.5, 0.2}});
   for (const double n_z : {0.0, 0.3, 0.7, 0.95, 1.0}) {
     for (const std::uint8_t species : {0, 1, 2}) {
       add_rod(picture, 2 + 15 * n_z, 3.0 + 6 * species, 0.4, n_z);
-      picture.cell.species_of_rod.push_back(species);
+      picture.cell.shape_of_rod.push_back(species);
     }
   }
   PictureStyle style = bare();

@@ -23,7 +23,7 @@ RodPicture empty_picture(double box_side) {
   RodPicture picture;
   picture.cell.box = box_side;
   picture.cell.gap = 1.2;
-  BeadRow& beads = picture.cell.species.emplace_back();
+  BeadRow& beads = picture.cell.shapes.emplace_back();
   for (int i = -7; i <= 7; ++i) {
     beads.offset.push_back(2.05 * i / 7);
     beads.radius.push_back(0.4 - 0.2 * std::abs(i) / 7);
@@ -39,8 +39,8 @@ void add_rod(RodPicture& picture, double x, double y, double angle, double n_z) 
 
 double half_width(const RodPicture& picture, double x) {
   double widest = 0;
-  for (std::size_t i = 0; i < picture.cell.species[0].offset.size(); ++i) {
-    const double d = x - picture.cell.species[0].offset[i], r = picture.cell.species[0].radius[i];
+  for (std::size_t i = 0; i < picture.cell.shapes[0].offset.size(); ++i) {
+    const double d = x - picture.cell.shapes[0].offset[i], r = picture.cell.shapes[0].radius[i];
     if (std::abs(d) < r) widest = std::max(widest, std::sqrt(r * r - d * d));
   }
   return widest;

@@ -318,8 +318,8 @@ bool is_floor(const Image& image, int x, int y) {
 /// Rods of a second kind alone in a box of 10 mm, the first of them in its middle.
 RodPicture second_kind(const BeadRow& beads, double angle) {
   RodPicture picture = empty_picture(kBox);
-  picture.cell.species.push_back(beads);
-  picture.cell.species_of_rod = {1};
+  picture.cell.shapes.push_back(beads);
+  picture.cell.shape_of_rod = {1};
   add_rod(picture, 5, 5, angle);
   return picture;
 }
@@ -340,7 +340,7 @@ TEST(RodsPass, ASphereAmongRodsIsRound) {
   const double radius = 0.6;
   RodPicture picture = second_kind({{0}, {radius}}, 0.8);
   add_rod(picture, 2, 2, 0.3);
-  picture.cell.species_of_rod.push_back(0);
+  picture.cell.shape_of_rod.push_back(0);
   const auto places = coloured(draw(picture));
   double most = 0;
   for (const auto& [x, y] : places) most = std::max(most, std::hypot(x + 0.5 - 500, y + 0.5 - 500));
@@ -522,21 +522,21 @@ TEST(RodsPass, RefusesWhatCannotBeDrawn) {
     return image ? std::string("drawn") : image.error().message;
   };
   RodPicture no_beads = red_picture();
-  no_beads.cell.species[0].offset.clear();
-  no_beads.cell.species[0].radius.clear();
+  no_beads.cell.shapes[0].offset.clear();
+  no_beads.cell.shapes[0].radius.clear();
   EXPECT_NE(message(no_beads).find("0 beads"), std::string::npos);
   RodPicture many_beads = red_picture();
-  many_beads.cell.species[0].offset.assign(RodsPass::kMaxBeads + 1, 0);
-  many_beads.cell.species[0].radius.assign(RodsPass::kMaxBeads + 1, 1);
+  many_beads.cell.shapes[0].offset.assign(RodsPass::kMaxBeads + 1, 0);
+  many_beads.cell.shapes[0].radius.assign(RodsPass::kMaxBeads + 1, 1);
   EXPECT_NE(message(many_beads).find("256 beads"), std::string::npos);
   RodPicture uneven = red_picture();
   uneven.frame.position.emplace_back(1, 1, 1);
   EXPECT_NE(message(uneven).find("directors"), std::string::npos);
   RodPicture unknown_kind = second_kind({{0}, {0.5}}, 0);
-  unknown_kind.cell.species_of_rod[0] = 2;
-  EXPECT_NE(message(unknown_kind).find("of a species whose beads"), std::string::npos);
-  unknown_kind.cell.species_of_rod.clear();
-  EXPECT_NE(message(unknown_kind).find("each rod's species"), std::string::npos);
+  unknown_kind.cell.shape_of_rod[0] = 2;
+  EXPECT_NE(message(unknown_kind).find("of a shape whose beads"), std::string::npos);
+  unknown_kind.cell.shape_of_rod.clear();
+  EXPECT_NE(message(unknown_kind).find("each rod's shape"), std::string::npos);
   EXPECT_NE(message(empty_picture(0)).find("no size"), std::string::npos);
   EXPECT_NE(message(red_picture(), 0).find("pixels; possible are"), std::string::npos);
   EXPECT_NE(message(red_picture(), RodsPass::kMaxSide + 1).find("pixels; possible are"), std::string::npos);

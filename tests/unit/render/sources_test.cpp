@@ -178,7 +178,7 @@ TEST(Interpolation, GoesAcrossTheBorderAndHitsEitherFrame) {
   after.director[0] = Vec3(-1, 0, 0);
   EXPECT_NEAR(between(before, after, 0.4, rods.cell).director[0].x(), 1, 1e-12);
   Cell polar = rods.cell;
-  polar.species[0].radius.back() = 0.5;
+  polar.shapes[0].radius.back() = 0.5;
   EXPECT_NEAR(between(before, after, 0.4, polar).position[0].x(), 9.8, 1e-12) << "stays as it was";
 }
 
@@ -196,7 +196,7 @@ TEST(TrajectorySource, TakesTheDirectorFieldFromTheScene) {
 // Such a box is as finite as any, but a rod would be drawn in it millions of times.
 TEST(TrajectorySource, ABoxThatNoSceneHasIsRefusedAtOnce) {
   const ScratchFolder folder;
-  const Cell cell{.box = 1e-6, .gap = 1.2, .species = {{{-2, 0, 2}, {0.2, 0.4, 0.2}}}};
+  const Cell cell{.box = 1e-6, .gap = 1.2, .shapes = {{{-2, 0, 2}, {0.2, 0.4, 0.2}}}};
   const auto log = run::FrameLog::create(run::RunDirectory{folder.path()}.frames(), {0, cell, 1e-5, "{}", {}});
   ASSERT_FALSE(log);
   EXPECT_NE(log.error().message.find("a box side of 1e-06 mm; a scene has 1 to 2000 mm"), std::string::npos)
@@ -207,7 +207,7 @@ TEST(TrajectorySource, ABoxThatNoSceneHasIsRefusedAtOnce) {
 // One rod goes 3 mm to the right and 1 mm down in 0.1 s, over two borders of a box of 10 mm.
 TEST(TrajectorySource, DisplacementsGoOnAcrossBorders) {
   const ScratchFolder folder;
-  const Cell cell{.box = 10, .gap = 1.2, .species = {{{-2, 0, 2}, {0.2, 0.4, 0.2}}}};
+  const Cell cell{.box = 10, .gap = 1.2, .shapes = {{{-2, 0, 2}, {0.2, 0.4, 0.2}}}};
   auto log = run::FrameLog::create(run::RunDirectory{folder.path()}.frames(), {1, cell, 1e-5, "{}", {}}).value();
   for (int k = 0; k < 3; ++k) {
     Snapshot now;
@@ -291,8 +291,8 @@ frame_static_t mixed_constants() {
   const Cell cell{.box = 20,
                   .gap = 1.2,
                   .walls = SideWalls{.arena = Arena::kSquare, .size = 15},
-                  .species = {{{-1, 0, 1}, {0.2, 0.4, 0.2}}, {{-0.5, 0.7}, {0.4, 0.3}}, {{0}, {0.5}}},
-                  .species_of_rod = {0, 1, 2}};
+                  .shapes = {{{-1, 0, 1}, {0.2, 0.4, 0.2}}, {{-0.5, 0.7}, {0.4, 0.3}}, {{0}, {0.5}}},
+                  .shape_of_rod = {0, 1, 2}};
   frame_static_t constants = proto::encode_cell(cell, 3, "");
   constants.job_id = "cccc0003";
   return constants;

@@ -25,8 +25,8 @@ TrajectoryHeader two_species() {
   return {2,
           {.box = {10, 5},
            .gap = 1.5,
-           .species = {{{-1, 0, 1}, {0.25, 0.5, 0.25}}, {{-0.5, 0.75}, {0.5, 0.25}}},
-           .species_of_rod = {0, 1}},
+           .shapes = {{{-1, 0, 1}, {0.25, 0.5, 0.25}}, {{-0.5, 0.75}, {0.5, 0.25}}},
+           .shape_of_rod = {0, 1}},
           0.25,
           R"({"plates": {"amplitude": 0.25}})",
           {"0123456789abcdef", 7}};
@@ -36,6 +36,13 @@ TrajectoryHeader two_species() {
 RecordedFrame frame_of_two() {
   const float half = std::sqrt(0.5F);
   return {8, 2, {1, 2, 0.5, 9.5, 0.25, 1}, {1.5, -2, 0, 0, 0, 4}, {half, 0, half, 0, 1, 0, 0, 0}, {0, -1, 0, 3, 0, 0}};
+}
+
+/// The same rods, as two sizes of one species.
+TrajectoryHeader two_sizes() {
+  TrajectoryHeader header = two_species();
+  header.cell.species_of_shape = {0, 0};
+  return header;
 }
 
 /// All that a format makes of frames.
@@ -71,6 +78,14 @@ TEST(BeadsXyz, HasOneLineForEachBead) {
                 "A3 2 2 0.5 0.25 0\n"
                 "B1 9.5 0.25 0.5 0.5 1\n"
                 "B2 9.5 0.25 1.75 0.25 1\n");
+}
+
+TEST(Xyz, SizesAreOfOneSpeciesWithBeadsOfTheirOwn) {
+  const std::string rods = text_of(*make_extended_xyz(two_sizes()), {frame_of_two()});
+  EXPECT_THAT(rods, HasSubstr("\n1 1 2 0.5 0 0 0.70710677 0 0.70710677 0.5 0.5 1.25 "));
+  EXPECT_THAT(rods, HasSubstr("\n1 9.5 0.25 1 1 0 0 0 1 0.5 0.5 1 "));
+  const std::string beads = text_of(*make_beads_xyz(two_sizes()), {frame_of_two()});
+  EXPECT_THAT(beads, ::testing::EndsWith("A3 2 2 0.5 0.25 0\nA1 9.5 0.25 0.5 0.5 1\nA2 9.5 0.25 1.75 0.25 1\n"));
 }
 
 TEST(Xyz, FramesFollowEachOther) {
@@ -194,7 +209,8 @@ TEST(Gsd, BeginsAsItsSpecificationSays) {
 }
 
 TEST(Gsd, HoldsTheRodsFromTheMiddleOfTheBox) {
-  const GsdFile file(text_of(*make_gsd(two_species(), 1), {frame_of_two()}));
+  const GsdFile file(
+      text_of(*make_gsd(two_sizes(), 1), {frame_of_two()}));  // a type for each size, as for each species
   const auto is = [](auto... values) { return ::testing::ElementsAre(values...); };
   EXPECT_THAT(file.array<std::uint64_t>(0, "configuration/step", kUint64), is(8U));
   EXPECT_THAT(file.array<float>(0, "configuration/box", kFloat), is(10.F, 5.F, 2.F, 0.F, 0.F, 0.F));
@@ -247,7 +263,7 @@ std::vector<RecordedFrame> random_frames(std::size_t n_frames, int n_rods, doubl
 
 TrajectoryHeader many_rods(double side) {
   return {50,
-          {.box = side, .gap = 1.2, .species = {{{-1, 0, 1}, {0.2, 0.4, 0.2}}}},
+          {.box = side, .gap = 1.2, .shapes = {{{-1, 0, 1}, {0.2, 0.4, 0.2}}}},
           4e-6,
           R"({"plates": {"amplitude": 0.04}})",
           {}};

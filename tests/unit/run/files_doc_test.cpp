@@ -171,12 +171,19 @@ TEST(ObservablesPage, NamesEveryNumberThatARunWrites) {
 
 TEST(FilesPage, NamesEveryPartOfTheTrajectoryWithItsUnit) {
   const auto documented = rows_of("trajectory.h5");
-  const auto written = data_sets(files().trajectory());
+  auto written = data_sets(files().trajectory());
+  const ScratchFolder folder;
+  scene::RunPlan of_sizes = everything();
+  of_sizes.system.rod.spread.length = 0.02;
+  RunOptions options;
+  options.directory = folder / "sizes";
+  ASSERT_EQ(run(of_sizes, options).state, RunState::kDone);
+  written.merge(data_sets(RunDirectory{options.directory}.trajectory()));
   for (const auto& [path, unit] : written) {
-    // one data set under several names, and the third species as the second
+    // one data set under several names, and the third species or shape as the second
     std::string name =
         std::regex_replace(path, std::regex("/(image|velocity|orientation|box/edges)/(step|time)"), "/position/$2");
-    name = std::regex_replace(name, std::regex("species_3"), "species_2");
+    name = std::regex_replace(name, std::regex("(species|shape)_[0-9]+"), "$1_2");
     const auto row = documented.find(name);
     ASSERT_NE(row, documented.end()) << path << " is not in docs/files.md";
     EXPECT_EQ(row->second.unit, unit) << path;

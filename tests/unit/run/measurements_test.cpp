@@ -7,9 +7,13 @@
 #include <cmath>
 #include <random>
 
+#include "analysis/clusters.h"
 #include "analysis/director_field.h"
+#include "analysis/region.h"
+#include "analysis/temperatures.h"
 #include "run/measure/largest_tilt.h"
 #include "scene/observables.h"
+#include "sim/world.h"
 
 namespace shaken::run {
 namespace {
@@ -608,7 +612,7 @@ struct Mixture {
     plan.mixing.reset();  // which has a test of its own
     plan.system.n_rods = 60;
     plan.system.added[1] = AddedRods{{.length = 2.5, .mid_diameter = 0.8, .end_diameter = 0.5, .n_beads = 9}, 40};
-    for (int i = 0; i < 100; ++i) cell.species_of_rod.push_back(i % 5 < 3 ? 0 : 1);
+    for (int i = 0; i < 100; ++i) cell.shape_of_rod.push_back(i % 5 < 3 ? 0 : 1);
   }
   /// The same rods, of which only those of one species are there and measured.
   Reduction alone(std::size_t species, Tick end) const {
@@ -626,7 +630,7 @@ struct Mixture {
       const Snapshot all = random_snapshot(t);
       Snapshot some{all.tick, all.time, all.box, {}, {}, {}, {}, {}};
       for (std::size_t i = 0; i < 100; ++i) {
-        if (cell.species_of_rod[i] != species) continue;
+        if (cell.shape_of_rod[i] != species) continue;
         some.position.push_back(all.position[i]);
         some.image.push_back(all.image[i]);
         some.director.push_back(all.director[i]);
@@ -642,6 +646,47 @@ struct Mixture {
 void expect_same(double found, double expected, const std::string& what) {
   EXPECT_TRUE(found == expected || (std::isnan(found) && std::isnan(expected)))
       << what << ": " << found << ", not " << expected;
+}
+
+// Each rod with its own mass, inertia and length, whichever of two species is measured.
+TEST(Measurements, OfRodsThatDifferAreThoseOfEachRodsOwnSize) {
+  Mixture mixture;
+  mixture.plan.system.rod.spread = {.length = 0.2, .end_diameter = 0.1};
+  mixture.plan.system.added[1]->rod.spread.length = 0.15;
+  const World world = empty_world(mixture.plan.system);
+  const Cell cell = world.cell();
+  ASSERT_EQ(cell.n_species(), 2U);
+  Measurements measurements(mixture.plan, cell);
+  measure(measurements, 0, 20000);
+  const Reduction result = measurements.reduce(0.2);
+  for (const std::size_t species : {0U, 1U}) {
+    const std::string prefix = species == 0 ? "" : "/rods_3";
+    std::vector<analysis::RodInertia> inertias;
+    std::vector<analysis::RodAxis> axes;
+    for (std::size_t i = 0; i < 100; ++i) {
+      if (cell.species_of(i) != species) continue;
+      const Species& rod = world.species_of(i);
+      inertias.push_back({rod.mass, rod.inertia_perp, rod.inertia_par});
+      axes.push_back({rod.tail.length, rod.head.length});
+    }
+    // at the first sample of each observable
+    const auto sampled = [&](const std::string& observable) {
+      const double time = result.arrays.at(prefix + observable + "/time_s").at(0);
+      return random_snapshot(std::lround(time / kDt));
+    };
+    const auto theirs = [&](const auto& values) { return cell.of_species(species, values); };
+    Snapshot now = sampled("/temperatures");
+    const auto found = analysis::granular_temperatures(theirs(now.director), theirs(now.velocity),
+                                                       theirs(now.angular_velocity), inertias);
+    EXPECT_EQ(result.arrays.at(prefix + "/temperatures/vertical_pJ").at(0), found[1]);
+    now = sampled("/clusters");
+    const analysis::ClusterRule rule{mixture.plan.clusters->distance_for(mixture.plan.system.rod.mid_diameter),
+                                     mixture.plan.clusters->angle * kPi / 180};
+    const auto sizes =
+        analysis::cluster_sizes(theirs(now.position), theirs(now.director), axes, analysis::Region(now.box), rule);
+    EXPECT_EQ(result.arrays.at(prefix + "/clusters/largest").at(0),
+              static_cast<double>(sizes.front()) / static_cast<double>(axes.size()));
+  }
 }
 
 TEST(Measurements, OfEachSpeciesAreThoseOfItsRodsAlone) {

@@ -148,7 +148,7 @@ TEST(Messages, PostsComeBackAndFitIntoOneDatagram) {
 
 TEST(Messages, StaticPartOfManyRodsFitsIntoOneDatagram) {
   World world = mixed_world();
-  world.species_of_rod.assign(18000, 1);
+  world.shape_of_rod.assign(18000, 1);
   for (Species& species : world.species) {
     species.bead_offset.assign(kMostBeads, 0);
     species.bead_radius.assign(kMostBeads, 1);
@@ -161,7 +161,7 @@ TEST(Messages, OrderIsOfTheFirstKindOfRod) {
   s.director = {Vec3(1, 0, 0), Vec3(0, 1, 0)};
   EXPECT_NEAR(make_frame(small_world(), s).order, 0, 1e-12);
   World world = mixed_world();
-  world.species_of_rod = {1, 0};
+  world.shape_of_rod = {1, 0};
   EXPECT_NEAR(make_frame(world, s).order, 1, 1e-12);
   EXPECT_NEAR(std::abs(make_frame(world, s).director_rad), kPi / 2, 1e-12);
   EXPECT_EQ(make_frame(world, s).rods.size(), 2U);

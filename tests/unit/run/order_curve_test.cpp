@@ -14,7 +14,7 @@ const BeadRow kSphere{{0}, {0.4}};
 
 /// `n_frames` frames 0.1 s apart of two rods, the second of which turns by 90 degrees in the last one.
 void record_rods(const RunDirectory& directory, int n_frames, const BeadRow& beads = kRod) {
-  const Cell cell{.box = 10, .gap = 1.2, .species = {beads}};
+  const Cell cell{.box = 10, .gap = 1.2, .shapes = {beads}};
   auto log = FrameLog::create(directory.frames(), {2, cell, 1e-5, "{}", {}}).value();
   for (int k = 0; k < n_frames; ++k) {
     Snapshot now;

@@ -26,7 +26,7 @@ constexpr int kRods = 300;
 
 TrajectoryHeader header() {
   return {kRods,
-          {.box = {kSide, kHigh}, .gap = kGap, .species = {{{-2.05, 0, 2.05}, {0.2, 0.4, 0.2}}}},
+          {.box = {kSide, kHigh}, .gap = kGap, .shapes = {{{-2.05, 0, 2.05}, {0.2, 0.4, 0.2}}}},
           kDt,
           R"({"rods": {"count": 300}})",
           {"0123456789abcdef", 77}};
@@ -117,15 +117,35 @@ TEST(Trajectory, SpeciesAndSideWallsComeBack) {
   const ScratchFolder folder;
   TrajectoryHeader several = header();
   several.cell.gap = 0.1 + 0.2;  // no short decimal
-  several.cell.species.push_back({{0}, {0.45}});
-  several.cell.species.push_back({{-1.2, 0.1, 1.4}, {0.45, 1.0 / 3, 0.2}});
+  several.cell.shapes.push_back({{0}, {0.45}});
+  several.cell.shapes.push_back({{-1.2, 0.1, 1.4}, {0.45, 1.0 / 3, 0.2}});
   for (int i = 0; i < kRods; ++i)
-    several.cell.species_of_rod.push_back(static_cast<std::uint8_t>(i % 7 == 0 ? 1 : i % 5 == 0 ? 2 : 0));
+    several.cell.shape_of_rod.push_back(static_cast<std::uint8_t>(i % 7 == 0 ? 1 : i % 5 == 0 ? 2 : 0));
   for (const auto& [name, arena] : kArenaNames) {
     several.cell.walls = SideWalls{.arena = arena, .size = 70.25, .contact = {0.02, 0.7}};
     if (arena == Arena::kAnnulus) several.cell.walls->inner = 12.5;
     if (arena == Arena::kStadium) several.cell.walls->length = 3.125;
     expect_frames(folder, 2, several);
+  }
+}
+
+TEST(Trajectory, SizesOfSpeciesComeBack) {
+  const ScratchFolder folder;
+  TrajectoryHeader several = header();
+  several.cell.shapes.push_back({{-2.25, 0, 2.25}, {0.2, 0.4, 0.2}});
+  several.cell.species_of_shape = {0, 0};
+  for (int i = 0; i < kRods; ++i) several.cell.shape_of_rod.push_back(static_cast<std::uint8_t>(i % 2));
+  expect_frames(folder, 2, several);
+  several.cell.shapes.push_back({{0}, {0.45}});
+  several.cell.species_of_shape.push_back(1);
+  several.cell.shape_of_rod[3] = 2;
+  expect_frames(folder, 2, several);
+  for (const std::vector<std::uint8_t>& wrong :
+       {std::vector<std::uint8_t>{0, 0}, {0, 0, 2}, {1, 1, 1}, {0, 1, 0}, {0, 0, 0, 0}}) {
+    several.cell.species_of_shape = wrong;
+    const auto log = FrameLog::create(folder / "t.part", several);
+    ASSERT_FALSE(log);
+    EXPECT_NE(log.error().message.find("contradict the species"), std::string::npos) << log.error().message;
   }
 }
 
@@ -143,12 +163,12 @@ TEST(Trajectory, PostsComeBack) {
 TEST(Trajectory, ASpeciesWithoutBeadsIsRefused) {
   const ScratchFolder folder;
   TrajectoryHeader several = header();
-  several.cell.species.push_back({{0}, {0.45}});
-  several.cell.species_of_rod.assign(kRods, 2);
+  several.cell.shapes.push_back({{0}, {0.45}});
+  several.cell.shape_of_rod.assign(kRods, 2);
   const auto log = FrameLog::create(folder / "t.part", several);
   ASSERT_FALSE(log);
   EXPECT_NE(log.error().message.find("beads are not there"), std::string::npos) << log.error().message;
-  several.cell.species_of_rod.assign(kRods - 1, 1);
+  several.cell.shape_of_rod.assign(kRods - 1, 1);
   EXPECT_FALSE(FrameLog::create(folder / "t.part", several)) << "a species for each rod";
 }
 
@@ -211,11 +231,11 @@ TEST(Trajectory, LengthsThatAreNoneAreRefused) {
     of.cell.gap = bad;
     EXPECT_FALSE(check(of)) << bad;
     of = header();
-    of.cell.species[0].radius.back() = bad;
+    of.cell.shapes[0].radius.back() = bad;
     EXPECT_FALSE(check(of)) << bad;
   }
   TrajectoryHeader of = header();
-  of.cell.species[0].offset.pop_back();
+  of.cell.shapes[0].offset.pop_back();
   EXPECT_FALSE(check(of));
   EXPECT_TRUE(check(header()));
 }

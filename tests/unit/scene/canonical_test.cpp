@@ -24,6 +24,8 @@ nlohmann::json random_scene() {
   if (maybe()) rods["bead_pitch"] = between(0.1, 0.4);
   if (maybe()) rods["density"] = between(1, 20);
   if (maybe()) rods["start"] = "aligned";
+  if (maybe()) rods["length_spread"] = between(0, 0.1);
+  if (maybe()) rods["end_diameter_spread"] = between(0, 0.1);
   const bool fraction = maybe();
   if (fraction) rods["area_fraction"] = between(0.01, 0.85);
   if (maybe()) rods["count"] = *rc::gen::inRange(40, 100);

@@ -28,7 +28,7 @@ System scene_at(double length, double area_fraction, double side, Start start = 
 /// Every pair, no neighbour list: nothing touches, nothing sticks into a plate.
 Result<std::vector<Flight>> flights_of(const System& system) {
   const World world = empty_world(system);
-  return initial_flights(system, world.species, world.species_of_rod);
+  return initial_flights(system, world.species, world.shape_of_rod);
 }
 
 void expect_free(const System& system, const std::vector<Flight>& flights) {
@@ -128,7 +128,7 @@ TEST(InitialFlights, AtAnAngleHaveRoomForPolarRodsAndOtherSpecies) {
   system.rod.profile = Profile::kPolar;
   system.added[0] = AddedRods{{.length = 2.5, .mid_diameter = 0.9, .n_beads = 11}, 40};
   const World world = empty_world(system);
-  const auto flights = initial_flights(system, world.species, world.species_of_rod);
+  const auto flights = initial_flights(system, world.species, world.shape_of_rod);
   ASSERT_TRUE(static_cast<bool>(flights)) << flights.error().message;  // which itself looks for overlaps
   int n_back = 0;
   for (const Flight& flight : *flights) n_back += flight.director.x() < 0;
@@ -247,7 +247,7 @@ TEST(MakeWorld, FromAnotherKeepsWhereRodsAreAndHowTheyMove) {
   ASSERT_TRUE(made) << made.error().message;
   const World& world = *made;
   EXPECT_EQ(world.tick, 0);
-  EXPECT_EQ(world.species_of_rod, before.world().species_of_rod);
+  EXPECT_EQ(world.shape_of_rod, before.world().shape_of_rod);
   const Snapshot then = before.snapshot();
   const Snapshot now = snapshot(world);
   for (std::size_t i = 0; i < now.n_rods(); ++i) {
@@ -286,12 +286,12 @@ TEST(MakeWorld, FromAnotherKeepsTheSpeciesOfEachRodWhateverTheSeed) {
   System system = before.world().system;
   system.seed += 1;
   const World world = std::move(make_world(system, before.world())).value();
-  EXPECT_NE(world.species_of_rod, before.world().species_of_rod);
+  EXPECT_NE(world.shape_of_rod, before.world().shape_of_rod);
   const auto heights = [](const World& of, std::uint8_t species) {
     std::vector<double> all;
     const Snapshot rods = snapshot(of);
     for (std::size_t i = 0; i < of.rods.size(); ++i) {
-      if (of.species_of_rod[i] == species) all.push_back(rods.position[i].z());
+      if (of.shape_of_rod[i] == species) all.push_back(rods.position[i].z());
     }
     return all;
   };

@@ -99,7 +99,7 @@ std::array<Vec3, 2> collide(const System& system, std::uint8_t first, std::uint8
   System with_two = system;
   with_two.n_rods = 1;
   World world = empty_world(with_two);
-  world.species_of_rod = {first, second};
+  world.shape_of_rod = {first, second};
   const TickRules rules(world);
   const double touch = rules.species_of(0).bead_radius[0] + rules.species_of(1).bead_radius[0];
   world.rods.resize(2);

@@ -77,7 +77,7 @@ TEST(PackedFrame, RodsOfManyMessagesFollowEachOther) {
 TEST(PackedFrame, SpeciesAndWallsAreThereWhereTheyAreInTheRun) {
   client::RodFrame frame = some_frame(2);
   frame.outlines.push_back({0, 0.5, 0.5});
-  frame.cell.species_of_rod = {1, 0};
+  frame.cell.shape_of_rod = {1, 0};
   frame.cell.walls.emplace();
   frame.cell.walls->arena = Arena::kAnnulus;
   frame.cell.walls->size = 18;
@@ -90,6 +90,10 @@ TEST(PackedFrame, SpeciesAndWallsAreThereWhereTheyAreInTheRun) {
   EXPECT_EQ(nlohmann::json::parse(other.substr(4, u16(other, 0)))["walls"]["length_mm"], 5);
   EXPECT_EQ(head["walls"], nlohmann::json({{"arena", "annulus"}, {"size_mm", 18}, {"inner_mm", 6}}));
   EXPECT_EQ(bytes.substr(4 + size + 16), std::string("\x01\x00", 2));
+  EXPECT_EQ(head["species_of_outline"], nlohmann::json::array());
+  frame.cell.species_of_shape = {0, 0};
+  const std::string of_sizes = packed(frame);
+  EXPECT_EQ(nlohmann::json::parse(of_sizes.substr(4, u16(of_sizes, 0)))["species_of_outline"], nlohmann::json({0, 0}));
 }
 
 TEST(PackedFrame, PostsAreThereWhereTheyAreInTheRun) {

@@ -23,7 +23,7 @@ class RecordedRunTest : public testing::Test {
   run::RunDirectory directory() const { return {folder_ / kRun}; }
   /// Two rods in a box of 10 mm, `n_frames` frames 0.1 s apart; the second rod turns by 90 degrees in the last one.
   void record(int n_frames, const BeadRow& beads = {{-2, 0, 2}, {0.2, 0.4, 0.2}}) const {
-    const Cell cell{.box = 10, .gap = 1.2, .species = {beads}};
+    const Cell cell{.box = 10, .gap = 1.2, .shapes = {beads}};
     auto log = run::FrameLog::create(directory().frames(), {2, cell, 1e-5, "{}", {}}).value();
     for (int k = 0; k < n_frames; ++k) {
       Snapshot now;

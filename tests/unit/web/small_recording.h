@@ -13,7 +13,7 @@ namespace shaken::web {
 
 /// The trajectory.h5 of a run with two frames of one rod.
 inline void record_two_frames(const run::RunDirectory& directory, const std::string& run) {
-  const Cell cell{.box = 10, .gap = 1.2, .species = {{{-2, 0, 2}, {0.2, 0.4, 0.2}}}};
+  const Cell cell{.box = 10, .gap = 1.2, .shapes = {{{-2, 0, 2}, {0.2, 0.4, 0.2}}}};
   auto log = run::FrameLog::create(directory.frames(), {1, cell, 1e-5, "{}", {run, 1}}).value();
   for (int k = 0; k < 2; ++k) {
     Snapshot now;

@@ -89,6 +89,40 @@ TEST(LiveRods, PostsComeByThemselvesAndStay) {
   EXPECT_EQ(rods.newest()->cell.posts.centres.size(), 2U);
 }
 
+TEST(LiveRods, SizesComeByThemselvesAndStay) {
+  LiveRods rods;
+  rods.select(kJob);
+  frame_static_t two = constants();
+  two.n_species = 2;
+  two.species_beads = {3, 3};
+  two.n_beads = 6;
+  two.bead_offset_mm = {-2, 0, 2, -2.5, 0, 2.5};
+  two.bead_radius_mm = {0.2, 0.4, 0.2, 0.2, 0.4, 0.2};
+  two.rod_species = {0, 1, 1};
+  two.n_rod_species = 3;
+  sizes_t sizes = proto::encode_sizes({0, 0});
+  sizes.job_id = kJob;
+  rods.note(sizes);  // of what cell is not known yet
+  rods.note(two);
+  send(rods, frame(0));
+  EXPECT_EQ(rods.newest()->cell.n_species(), 2U);
+  rods.note(sizes);
+  rods.note(two);
+  send(rods, frame(1));
+  EXPECT_EQ(rods.newest()->cell.n_species(), 1U);
+  EXPECT_EQ(rods.newest()->cell.shape_of(2), 1U);
+  for (const std::vector<std::uint8_t>& wrong : {std::vector<std::uint8_t>{0}, {1, 1}, {0, 2}, {0, 0, 0}}) {
+    sizes = proto::encode_sizes(wrong);
+    sizes.job_id = kJob;
+    rods.note(sizes);
+  }
+  sizes = proto::encode_sizes({0, 1});
+  sizes.job_id = "another";
+  rods.note(sizes);
+  send(rods, frame(2));
+  EXPECT_EQ(rods.newest()->cell.n_species(), 1U);
+}
+
 TEST(LiveRods, SpheresHaveNoOrder) {
   LiveRods rods;
   rods.select(kJob);

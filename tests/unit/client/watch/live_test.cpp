@@ -104,7 +104,7 @@ TEST(LiveJobs, MessagesWinOverOlderFilesAndStrangersAreIgnored) {
 
 /// Frames of one rod at 0, 0.5, 1.0 ... in `directory`.
 void record_frames(const std::filesystem::path& directory, int n_frames) {
-  const Cell cell{.box = 10, .gap = 1.2, .species = {{{-2, 0, 2}, {0.2, 0.4, 0.2}}}};
+  const Cell cell{.box = 10, .gap = 1.2, .shapes = {{{-2, 0, 2}, {0.2, 0.4, 0.2}}}};
   auto log = run::FrameLog::create(run::RunDirectory{directory}.frames(), {1, cell, 1e-5, "{}", {}}).value();
   for (int k = 0; k < n_frames; ++k) {
     Snapshot now;

@@ -215,7 +215,7 @@ TEST(RodColours, AutomaticDoesNotFlicker) {
 TEST(RodColours, SpeciesHaveTheirOwn) {
   RodFrame frame = frame_of({{2.5, 5.25, 0, 0}, {7.5, 5.25, 0, 0}});
   frame.outlines.push_back(frame.outlines.front());
-  frame.cell.species_of_rod = {0, 1};
+  frame.cell.shape_of_rod = {0, 1};
   const CellGrid grid = drawn(frame, {.colouring = Colouring::kWheel, .grain = Grain::kBraille});
   EXPECT_EQ(grid.at(2, 2).fore, ink_of(wheel_tone(0)));
   EXPECT_EQ(grid.at(7, 2).fore, ink_of(other_tone(1)));
