@@ -12,7 +12,7 @@ import sys
 SIM = ["sim/lanes", "sim/system.h", "sim/physics_version.h", "sim/snapshot.h", "sim/posts.h", "sim/rod", "sim/cell.h",
        "sim/motion", "sim/posts.cpp", "sim/contact", "sim/neighbors", "sim/ledger.h", "sim/world", "sim/balance",
        "sim/turned_rows", "sim/director_patterns", "sim/aligning_field", "sim/initial",
-       "sim/close_up", "sim/effects", "sim/tick", "sim/bounds", "sim/schedule", "sim/stepping",
+       "sim/close_up", "sim/overlaps", "sim/effects", "sim/tick", "sim/bounds", "sim/schedule", "sim/stepping",
        "sim/compression", "sim/checkpoint", "sim/simulation"]
 ALLOWED = {
     "base/core": [],
@@ -40,8 +40,11 @@ ALLOWED = {
     "run/files/order_curve.cpp": ["run/files", "base", "analysis/order.h"],
     "run/files": ["base", "sim/cell.h", "sim/snapshot.h"],
     "run/export": ["base", "run/files", "sim/system.h"],
+    # whether rods of another run are those of a scene, and how fast rods are at a start, the simulation itself says
+    "run/import": ["run", "base", "scene", "sim/initial.h", "sim/close_up.h", "sim/overlaps.h", "sim/simulation.h",
+                   "sim/system.h", "sim/world.h"],
     "run": ["proto", "base", "scene", "analysis", "run/files", "sim/rod", "sim/cell.h", "sim/system.h",
-            "sim/snapshot.h", "sim/world.h", "sim/simulation.h", "sim/balance.h", "sim/close_up.h",
+            "sim/snapshot.h", "sim/world.h", "sim/simulation.h", "sim/balance.h", "sim/close_up.h", "sim/overlaps.h",
             "sim/effects/registry.h", "sim/motion/side_walls.h", "sim/physics_version.h"],
     # drawing knows rods and fields; only the program's sources of frames know files and the bus
     "render/main.cpp": ["render", "base", "run/files"],

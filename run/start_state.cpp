@@ -12,6 +12,7 @@
 #include "base/paths.h"
 #include "run/files/checkpoint_file.h"
 #include "run/files/directory.h"
+#include "run/import/import_id.h"
 #include "run/saved_run.h"
 #include "scene/canonical.h"
 
@@ -66,13 +67,17 @@ std::vector<path> folders_near(const path& directory) {
 Result<Simulation> saved_state(const RunDirectory& directory, const std::string& id, double time) {
   const Result<scene::RunPlan> plan = read_plan(directory);
   if (!plan) return plan.error();
-  if (scene::run_id(*plan) != id) return Error{directory.root.string() + " holds another run"};
+  std::error_code ignored;
+  const bool is_imported = std::filesystem::exists(directory.imported(), ignored);
+  const Error other{directory.root.string() + " holds another run"};
+  if (!is_imported && scene::run_id(*plan) != id) return other;
   std::string trouble = kNotSaved;
   for (const path& file : directory.checkpoints()) {
     if (!std::filesystem::exists(file)) continue;
     const Result<Checkpoint> checkpoint = read_checkpoint(file, id);
     Result<Simulation> simulation =
         checkpoint ? Simulation::resume(plan->system, checkpoint->simulation) : Result<Simulation>(checkpoint.error());
+    if (simulation && is_imported && import_id(*plan, *simulation) != id) return other;
     if (simulation && simulation->tick() == std::llround(time / plan->system.dt)) return simulation;
     if (trouble != kNotSaved) continue;  // the newest has told
     trouble = simulation ? fmt::format("its last saved state is that at {:.10g} s", simulation->time())

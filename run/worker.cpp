@@ -82,6 +82,10 @@ void tell_ending(const RunDirectory& directory) {
 
 ExitCode run_scene(const scene::RunPlan& plan, const WorkerOptions& asked) {
   const RunDirectory directory{asked.out};
+  std::error_code hidden;
+  if (std::filesystem::exists(directory.imported(), hidden)) {
+    throw Failure(ExitCode::kBadInput, asked.out + " holds imported rods, from which runs start: give another --out");
+  }
   RunOptions options;
   options.directory = asked.out;
   options.job_id = asked.job_id.empty() ? scene::run_id(plan) : asked.job_id;

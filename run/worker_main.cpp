@@ -3,6 +3,7 @@
 
 #include "base/program.h"
 #include "run/files/version.h"
+#include "run/import/import_run.h"
 #include "run/replay.h"
 #include "run/worker.h"
 
@@ -16,6 +17,7 @@ constexpr const char* kFooter = R"(Examples:
   shaken-worker quickstart.json --out runs/quick      goes on from the last checkpoint, or says that it is done
   shaken-worker quickstart.json --probe cost.json     runs nothing, but tells what the run would cost
   shaken-worker replay runs/wild                      meets a failed run's numerical trouble again
+  shaken-worker import rods.csv --scene scene.json    makes a run of the rods in a file
 
 Exit codes: 0 done, 1 failed, 2 bad input, 97 no room on the disk, 99 stopped by a signal after a checkpoint.)";
 
@@ -58,6 +60,7 @@ void describe(CLI::App& app, run::WorkerOptions& options) {
 
 int main(int argc, char** argv) {
   if (argc > 1 && std::string_view(argv[1]) == "replay") return run::replay_command(argc - 1, argv + 1);
+  if (argc > 1 && std::string_view(argv[1]) == "import") return run::import_command(argc - 1, argv + 1);
   Program app("shaken-worker", "Runs one scene from start to end in a run directory.", kFooter);
   run::stop_on_signals();
   run::WorkerOptions options;

@@ -48,9 +48,9 @@ Result<void> check_cell(const Cell& cell, std::size_t n_rods) {
     if (!is_inside) return Error{"a post outside of the box"};
   }
   if (!wrong.empty()) return Error{wrong};
-  if (cell.shapes.empty()) return Error{"no species"};
+  if (cell.shapes.empty()) return Error{"no beads"};
   if (cell.shape_of_rod.size() != (cell.shapes.size() > 1 ? n_rods : 0)) {
-    return Error{"a number of rods that contradicts that of their species"};
+    return Error{"a number of rods that contradicts that of their shapes"};
   }
   if (const auto& species = cell.species_of_shape; !species.empty()) {
     const bool has_gap =
@@ -58,9 +58,9 @@ Result<void> check_cell(const Cell& cell, std::size_t n_rods) {
     if (species.size() != cell.shapes.size() || species.front() != 0 || has_gap)
       return Error{"sizes that contradict the species that they are of"};
   }
-  const auto is_known = [&](std::uint8_t species) { return species < cell.shapes.size(); };
+  const auto is_known = [&](std::uint8_t shape) { return shape < cell.shapes.size(); };
   if (std::all_of(cell.shape_of_rod.begin(), cell.shape_of_rod.end(), is_known)) return {};
-  return Error{"a rod of a species whose beads are not there"};
+  return Error{"a rod of a shape whose beads are not there"};
 }
 
 }  // namespace shaken::scene

@@ -51,6 +51,7 @@ std::vector<Species> sizes_of_species(const RodShape& rod) {
 }
 
 double thickest_bead(const RodShape& rod) {
+  if (!rod.has_axis()) return rod.mid_diameter;
   if (rod.bead_diameters.empty()) return std::max(rod.mid_diameter, rod.end_diameter);
   return *std::max_element(rod.bead_diameters.begin(), rod.bead_diameters.end());
 }

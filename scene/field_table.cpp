@@ -169,6 +169,16 @@ Field rods_start_separation() {
   return of_starts(std::move(field), {Start::kDefectPair});
 }
 
+Field start_time() {
+  Field field =
+      derived(quantity("start.time", at<&RunPlan::start, &StartState::time>, kTime, 1e-7, 1e8,
+                       "Simulated time at which that run ended, or was last saved: a whole number of vibrations. "
+                       "0 of imported rods."),
+              "must be given");
+  field.or_zero = true;
+  return field;
+}
+
 Field start_run() {
   return plain({.path = "start.run",
                 .form = Form::kText,
@@ -177,7 +187,8 @@ Field start_run() {
                 .may_look_like_number = true,
                 .expected = "the id of a run, 16 hex digits",
                 .fallback_note = "must be given",
-                .doc = "Id of the run whose rods are taken over. It must have the same rods, shape of the box, "
+                .doc = "Id of the run whose rods are taken over, or that `shaken import` prints. It must have the same "
+                       "rods, shape of the box, "
                        "plates, walls and posts; side and gap (without walls and posts), shaking, gravity, contacts, "
                        "step and seed may differ."},
                at<&RunPlan::start, &StartState::run>);
@@ -351,9 +362,7 @@ std::vector<std::vector<Field>> groups() {
     block("start", at<&RunPlan::start>, false,
           "The rods begin where another run has left them, in place of rows or random places; times count from there."),
     start_run(),
-    derived(quantity("start.time", at<&RunPlan::start, &StartState::time>, kTime, 1e-7, 1e8,
-                     "Simulated time at which that run ended, or was last saved: a whole number of vibrations."),
-            "must be given"),
+    start_time(),
 
     quantity("box.side", sys<&System::box_side>, kLength, 1, 2000,
              "Side L of the box along x. The box is periodic in x and y."),

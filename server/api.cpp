@@ -356,7 +356,9 @@ Api::Answer Api::clean(const Call& call) const {
     const bool is_known = run.job.has_value();
     runs.push_back({{"id", run.id},
                     {"known", is_known},
-                    {"state", is_known ? Json(to_word(run.job->state)) : Json(nullptr)},
+                    {"state", is_known          ? Json(to_word(run.job->state))
+                              : run.is_imported ? Json("imported")
+                                                : Json(nullptr)},
                     {"label", is_known ? run.job->label : ""},
                     {"sweep", is_known ? Json(sweep_word(run.job->sweep)) : Json(nullptr)},
                     {"finished_utime", is_known ? run.job->finished : 0},

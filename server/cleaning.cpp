@@ -110,7 +110,9 @@ std::vector<Cleaned> clean(Queue& queue, const fs::path& runs, const CleanReques
   for (const std::string& id : run_ids(runs)) {
     if (request.only && !request.only->contains(id)) continue;
     if (request.sweep && !of_sweep.contains(id)) continue;
-    Cleaned run{.id = id, .job = queue.job(id), .bytes = 0, .removed = false, .kept = {}};
+    Cleaned run{.id = id, .job = queue.job(id), .is_imported = false, .bytes = 0, .removed = false, .kept = {}};
+    std::error_code hidden;
+    run.is_imported = !run.job && fs::exists(run::RunDirectory{runs / id}.imported(), hidden);
     if (run.job ? !fits(*run.job, request, now) : request.older.count() > 0 && age_of(runs / id) < request.older)
       continue;
     const bool takes_done = std::count(request.states.begin(), request.states.end(), JobState::kDone) > 0;

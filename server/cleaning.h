@@ -26,8 +26,9 @@ struct CleanRequest {
 /// A run directory that fits a request.
 struct Cleaned {
   std::string id;
-  std::optional<Job> job;  ///< none: the queue does not know it
-  std::int64_t bytes = 0;  ///< of its files
+  std::optional<Job> job;    ///< none: the queue does not know it
+  bool is_imported = false;  ///< a run of rods from a file, which is no job
+  std::int64_t bytes = 0;    ///< of its files
   bool removed = false;
   std::string kept;  ///< why it was not removed though that was asked for; or empty
 };

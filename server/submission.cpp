@@ -204,6 +204,11 @@ std::string refuse_start(const scene::StartState& start, const Queue& queue, con
     return fmt::format("no run {} is known here; submit it first, or take the id of one that is (`shaken status`)",
                        start.run);
   }
+  std::error_code ignored;
+  if (!queued && std::filesystem::exists(directory.imported(), ignored)) {
+    if (start.time == 0) return "";
+    return fmt::format("the rods of run {} are imported: set start.time to 0, not {:.10g} s", start.run, start.time);
+  }
   const auto plan = scene::load_scene(*kept, "its scene");
   if (!plan) return "";
   const double dt = plan->system.dt;

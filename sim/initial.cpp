@@ -531,7 +531,7 @@ RodsLeft rods_left(const World& world, const World& left) {
   RodsLeft rods;
   rods.poses.reserve(left.rods.size());
   rods.motions.reserve(left.rods.size());
-  std::vector<std::size_t> next(world.species.size(), 0);  // of each species, where to look for its next rod
+  std::vector<std::size_t> next(world.species.size(), 0);  // of each shape, where to look for its next rod
   for (const std::uint8_t kind : world.shape_of_rod) {
     std::size_t& from = next[kind];
     while (left.shape_of_rod[from] != kind) ++from;

@@ -31,7 +31,7 @@ struct RodFrame {
   std::vector<proto::RodPose> rods{};
   std::vector<double> heights{};       ///< of the rods' centres (n_rods) [mm]; empty where unknown, as of live rods
   Cell cell{};                         ///< periodic unless there are walls
-  std::vector<RodOutline> outlines{};  ///< one per species, at least one
+  std::vector<RodOutline> outlines{};  ///< one per shape, at least one
 };
 
 /// The part of the box that is looked at.

@@ -98,8 +98,9 @@ class Clean : public Verb {
     for (const Json& run : runs) {
       const bool is_known = run.value("known", true);
       n_unknown += is_known ? 0 : 1;
-      table.add_row({short_id(run.at("id").get<std::string>()), is_known ? text_of(run, "state") : "unknown",
-                     size_of(run), text_of(run, "sweep"), text_of(run, "label")});
+      table.add_row({short_id(run.at("id").get<std::string>()),
+                     run.at("state").is_null() ? "unknown" : text_of(run, "state"), size_of(run), text_of(run, "sweep"),
+                     text_of(run, "label")});
     }
     console.out << table.text(console.width) << fmt::format("{} in all\n", size_of(found));
     if (n_unknown > 0 && !unknown_) {

@@ -137,7 +137,7 @@ void put_legend(const WatchContent& content, const Area& area, const Area& pictu
       put(" 0.3 head up");
       break;
     case Colouring::kSpecies:
-      for (std::size_t i = 0; i < content.rods->outlines.size(); ++i) {
+      for (std::size_t i = 0; i < content.rods->cell.n_species(); ++i) {
         put_colours({species_tone(i), species_tone(i)});
         put(fmt::format(" rods{} ", i == 0 ? "" : fmt::format("_{}", i + 1)));
       }

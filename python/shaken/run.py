@@ -242,6 +242,8 @@ class DirectoryRun(Run):
         except FileNotFoundError as error:
             missing = Path(error.filename).name
             raise ShakenError(f"{self.directory} has no {missing}: " + (
+                "it holds imported rods, which have not been simulated; open a run that starts from them"
+                if (self.directory / "imported.json").exists() else
                 "the run has not ended yet (`shaken status` says how far it is)" if missing == "summary.json" else
                 "it is no directory of a run")) from None
         except (OSError, ValueError) as error:

@@ -155,6 +155,9 @@ def test_what_is_no_run_is_said_to_be_none(tmp_path, run_at):
     (made_up_run(tmp_path / "early") / "summary.json").unlink()
     with pytest.raises(shaken.ShakenError, match="has not ended yet"):
         shaken.open(tmp_path / "early")
+    (tmp_path / "early/imported.json").write_text("{}")
+    with pytest.raises(shaken.ShakenError, match="imported rods, which have not been simulated"):
+        shaken.open(tmp_path / "early")
     with pytest.raises(shaken.ShakenError, match="does not record|records frames"):
         next(run_at("a").frames())
 

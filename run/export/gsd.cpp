@@ -103,6 +103,13 @@ Result<void> hand_over(const StateWriter& bytes, const Sink& sink) {
   return sink({reinterpret_cast<const char*>(bytes.bytes().data()), bytes.bytes().size()});
 }
 
+/// "A" of a species, "A1" to "A9" of its sizes.
+std::string name_of_type(const Cell& cell, std::size_t shape) {
+  if (cell.species_of_shape.empty()) return letter_of(shape);
+  const std::size_t species = cell.species_of_shape[shape];
+  return fmt::format("{}{}", letter_of(species), shape - cell.first_shape_of(species) + 1);
+}
+
 class Gsd final : public FrameFormat {
  public:
   Gsd(const TrajectoryHeader& header, std::size_t n_frames)
@@ -111,7 +118,7 @@ class Gsd final : public FrameFormat {
     std::vector<std::string> names;
     std::vector<std::string> shapes;
     for (std::size_t k = 0; k < n_types; ++k) {
-      names.push_back(letter_of(k));
+      names.push_back(name_of_type(header.cell, k));
       shapes.push_back(shape_of(header.cell.shapes[k]));
     }
     types_ = text_rows(names);

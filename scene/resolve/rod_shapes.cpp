@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,14 +15,21 @@ namespace shaken::scene {
 
 namespace {
 
-/// Neighbouring beads leave no hole between them, in any size.
-bool touching(const RodShape& candidate) {
-  return std::ranges::all_of(sizes_of_species(candidate), [](const Species& size) {
-    for (int b = 0; b + 1 < size.n_beads(); ++b) {
-      if (size.bead_radius[b] + size.bead_radius[b + 1] < size.pitch()) return false;
-    }
-    return true;
-  });
+/// Neighbouring beads leave holes between them.
+bool has_holes(const RodShape& rod) {
+  const Species species = species_of(rod);
+  for (int b = 0; b + 1 < species.n_beads(); ++b) {
+    if (species.bead_radius[b] + species.bead_radius[b + 1] < species.pitch()) return true;
+  }
+  return false;
+}
+
+/// The first size that has holes.
+std::optional<RodShape> size_with_holes(const RodShape& rod) {
+  for (const RodShape& size : sizes_of(rod)) {
+    if (has_holes(size)) return size;
+  }
+  return std::nullopt;
 }
 
 /// Every size is longer than thick.
@@ -36,14 +44,52 @@ bool check_lengths(Resolution& scene, const RodGroup& group) {
   return true;
 }
 
-/// Ends differ where their diameter is given, as that of a profile.
+/// Ends differ where their diameter is given, as that of a profile; and every size is one that a scene could give.
 bool check_spread(Resolution& scene, const RodGroup& group) {
-  const std::string path = group.path("end_diameter_spread");
-  if (!scene.ok({path, group.path("length_spread")})) return false;
+  const std::string path = group.path("end_diameter_spread"), of_length = group.path("length_spread");
+  if (!scene.ok({path, of_length})) return false;
   const RodShape& rod = group.rod;
-  if (rod.spread.end_diameter == 0 || (rod.has_axis() && rod.bead_diameters.empty())) return true;
-  return scene.refuse({path}, fmt::format("{} is of rods whose ends have a diameter of their own, not {}; remove it",
-                                          path, rod.has_axis() ? "of beads one by one" : "of spheres"));
+  if (rod.spread.end_diameter > 0 && (!rod.has_axis() || !rod.bead_diameters.empty())) {
+    return scene.refuse({path}, fmt::format("{} is of rods whose ends have a diameter of their own, not {}; remove it",
+                                            path, rod.has_axis() ? "of beads one by one" : "of spheres"));
+  }
+  if (!rod.spread.is_any()) return true;
+  const auto is_within = [](const Field& field, double value) { return value >= field.low && value <= field.high; };
+  const Field& length = field_at("rods.length");
+  const Field& diameter = field_at("rods.mid_diameter");
+  for (const RodShape& size : sizes_of(rod)) {
+    const double thinnest = rod.bead_diameters.empty() ? std::min(size.mid_diameter, size.end_diameter)
+                                                       : std::ranges::min(size.bead_diameters);
+    const double thinnest_there = rod.has_axis() ? thinnest : size.mid_diameter;
+    if (is_within(length, size.length) && is_within(diameter, thinnest_there) &&
+        is_within(diameter, thickest_bead(size)))
+      continue;
+    return scene.refuse(
+        {of_length, path},
+        fmt::format("rods of {}, {} to {} thick, are among those that {} and {} make: lengths are {}, diameters {}",
+                    length_text(size.length), length_text(thinnest_there), length_text(thickest_bead(size)), of_length,
+                    path, format_range(length.low, length.high, length.dimension),
+                    format_range(diameter.low, diameter.high, diameter.dimension)));
+  }
+  return true;
+}
+
+/// No bead of a list sticks out beyond the tips, in any size.
+bool check_tips(Resolution& scene, const RodGroup& group) {
+  for (const RodShape& size : sizes_of(group.rod)) {
+    const std::vector<double>& diameters = size.bead_diameters;
+    const auto n = static_cast<int>(diameters.size());
+    const double pitch = n > 1 ? (size.length - 0.5 * (diameters.front() + diameters.back())) / (n - 1) : 0.0;
+    for (int b = 0; b < n; ++b) {
+      const double center = 0.5 * diameters.front() + b * pitch;
+      const double radius = 0.5 * diameters[static_cast<std::size_t>(b)];
+      if (center - radius >= -1e-9 && center + radius <= size.length + 1e-9) continue;
+      return scene.refuse({group.path("bead_diameters"), group.path("length"), group.path("length_spread")},
+                          fmt::format("bead {} of {} would stick out beyond the tips of a rod of {}", b + 1,
+                                      length_text(diameters[static_cast<std::size_t>(b)]), length_text(size.length)));
+    }
+  }
+  return true;
 }
 
 /// Beads one by one: what the other keys say of them follows.
@@ -76,19 +122,11 @@ bool resolve_listed_beads(Resolution& scene, const RodGroup& group) {
   if (n == 1) rod.length = follows("length", thickest);
   if (!fine) return false;
   if (n > 1 && !check_lengths(scene, group)) return false;
-  const double pitch = n > 1 ? (rod.length - 0.5 * (diameters.front() + diameters.back())) / (n - 1) : 0.0;
-  for (int b = 0; b < n; ++b) {
-    const double center = 0.5 * diameters.front() + b * pitch;
-    const double radius = 0.5 * diameters[static_cast<std::size_t>(b)];
-    if (center - radius >= -1e-9 && center + radius <= rod.length + 1e-9) continue;
-    return scene.refuse({list, group.path("length")},
-                        fmt::format("bead {} of {} would stick out beyond the tips of a rod of {}", b + 1,
-                                    length_text(diameters[static_cast<std::size_t>(b)]), length_text(rod.length)));
-  }
-  if (!touching(rod)) {
+  if (!check_tips(scene, group)) return false;
+  if (const auto size = size_with_holes(rod)) {
     return scene.refuse({list},
                         fmt::format("{} beads of these diameters leave holes between them on a rod of {}; give more", n,
-                                    length_text(rod.length)));
+                                    length_text(size->length)));
   }
   return true;
 }
@@ -127,12 +165,16 @@ bool resolve_shape(Resolution& scene, const RodGroup& group) {
     }
     rod.n_beads = n_beads;
   }
-  if (rod.n_beads > 1 && !touching(rod)) {
+  if (rod.n_beads == 1) return true;
+  if (const auto size = size_with_holes(rod)) {
     RodShape enough = rod;
-    while (!touching(enough) && enough.n_beads < kMaxBeads) enough.n_beads += 2;
-    return scene.refuse({beads, pitch_path, length_path},
-                        fmt::format("{} beads leave holes between them on a rod of {}; take at least {}", rod.n_beads,
-                                    length_text(rod.length), enough.n_beads));
+    while (size_with_holes(enough) && enough.n_beads < kMaxBeads) enough.n_beads += 2;
+    const std::string cure = size_with_holes(enough) ? fmt::format("even {} would; make the rods thicker", kMaxBeads)
+                                                     : fmt::format("take at least {}", enough.n_beads);
+    return scene.refuse(
+        {beads, pitch_path, length_path, group.path("length_spread"), group.path("end_diameter_spread")},
+        fmt::format("{} beads leave holes between them on a rod of {}; {}", rod.n_beads, length_text(size->length),
+                    cure));
   }
   return true;
 }

@@ -109,7 +109,8 @@ struct Polydispersity {
 
 struct Taper {
   static bool is_on(const RodShape& rod) {
-    if (rod.bead_diameters.empty()) return rod.n_beads > 1 && rod.end_diameter != rod.mid_diameter;
+    if (rod.bead_diameters.empty())
+      return rod.n_beads > 1 && (rod.end_diameter != rod.mid_diameter || rod.spread.end_diameter > 0);
     return std::any_of(rod.bead_diameters.begin(), rod.bead_diameters.end(),
                        [&](double diameter) { return diameter != rod.bead_diameters.front(); });
   }
@@ -128,6 +129,7 @@ struct Taper {
   static void switch_off(System& system) {
     const auto straighten = [](RodShape& rod) {
       rod.end_diameter = rod.mid_diameter;
+      rod.spread.end_diameter = 0;
       std::fill(rod.bead_diameters.begin(), rod.bead_diameters.end(), rod.mid_diameter);
     };
     straighten(system.rod);

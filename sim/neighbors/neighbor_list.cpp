@@ -21,7 +21,7 @@ Vec2 flat_direction(const Pose& pose) {
 
 NeighborList::NeighborList(std::span<const Species> species, std::span<const std::uint8_t> shape_of_rod, const Box& box,
                            double skin)
-    : species_of_rod_(shape_of_rod.begin(), shape_of_rod.end()), skin_(skin), box_(box) {
+    : shape_of_rod_(shape_of_rod.begin(), shape_of_rod.end()), skin_(skin), box_(box) {
   double farthest = 0;  // that two centres of a pair can be apart
   for (const Species& kind : species) {
     shadows_.push_back({kind.half_length, kind.max_radius});
@@ -36,7 +36,7 @@ NeighborList::NeighborList(std::span<const Species> species, std::span<const std
 }
 
 std::size_t NeighborList::bytes() const {
-  std::size_t bytes = heap_bytes(species_of_rod_, placed_center_, placed_direction_, cell_, members_, pairs_, unused_,
+  std::size_t bytes = heap_bytes(shape_of_rod_, placed_center_, placed_direction_, cell_, members_, pairs_, unused_,
                                  pairs_of_, n_pairs_of_, mark_);
   for (const auto& members : members_) bytes += heap_bytes(members);
   return bytes;

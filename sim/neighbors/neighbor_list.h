@@ -84,7 +84,7 @@ class NeighborList {
     double half_length;
     double radius;
   };
-  const Shadow& shadow(int i) const { return shadows_[species_of_rod_[i]]; }
+  const Shadow& shadow(int i) const { return shadows_[shape_of_rod_[i]]; }
   /// How near the segments of two rods must be to make a pair.
   double reach(int i, int j) const { return shadow(i).radius + shadow(j).radius + skin_; }
   void note_place(int i, const Pose& pose);
@@ -99,8 +99,8 @@ class NeighborList {
   void add_to(int i, int p);
   void remove_from(int i, int p);
 
-  std::vector<Shadow> shadows_;               ///< (n_species)
-  std::vector<std::uint8_t> species_of_rod_;  ///< (n_rods)
+  std::vector<Shadow> shadows_;             ///< (n_shapes)
+  std::vector<std::uint8_t> shape_of_rod_;  ///< (n_rods)
   double skin_;
   Box box_;
   std::array<int, 2> n_cells_;  ///< along x and y; 1, 1: no grid

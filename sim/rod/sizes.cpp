@@ -17,7 +17,7 @@ struct Deviation {
 /// Points of a Latin square, which a quarter turn brings onto each other: neither quantity says anything of the mean of
 /// the other.
 constexpr std::array<Deviation, kSizes> kDeviations{
-    {{0, 0}, {kA, -kC}, {kB, kD}, {kC, kA}, {kD, -kB}, {-kA, kC}, {-kB, -kD}, {-kC, -kA}, {-kD, kB}}};
+    {{0, 0}, {kA, -kC}, {-kA, kC}, {kB, kD}, {-kB, -kD}, {kC, kA}, {-kC, -kA}, {kD, -kB}, {-kD, kB}}};
 
 }  // namespace
 
@@ -40,10 +40,8 @@ std::vector<RodShape> sizes_of(const RodShape& mean) {
 }
 
 int count_of_size(int count, std::size_t k, std::size_t n_sizes) {
-  const auto upto = [&](std::size_t sizes) {
-    return static_cast<std::int64_t>(count) * static_cast<std::int64_t>(sizes) / static_cast<std::int64_t>(n_sizes);
-  };
-  return static_cast<int>(upto(k + 1) - upto(k));
+  const auto rods = static_cast<std::size_t>(count);
+  return static_cast<int>(rods / n_sizes + (k < rods % n_sizes ? 1 : 0));
 }
 
 std::vector<Component> components_of(const System& system) {

@@ -28,7 +28,8 @@ struct Component {
 /// Of all rods of a system: species by species, each with the mean size in front.
 std::vector<Component> components_of(const System& system);
 
-/// The number of rods among `count` that are of size `k` of `n_sizes`.
+/// The number of rods among `count` that are of size `k` of `n_sizes`: those that are left over go to the mean size and
+/// to pairs about it.
 int count_of_size(int count, std::size_t k, std::size_t n_sizes);
 
 }  // namespace shaken

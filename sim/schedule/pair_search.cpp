@@ -31,18 +31,17 @@ PairSearch::PairSearch(const TickRules& rules) : rules_(rules) {
 bool PairSearch::find(const PairRods& pair, const Pose& pose_i, const Pose& pose_j, const Direction& direction,
                       std::vector<BeadContact>& beads, std::vector<PairContact>& contacts) const {
   const auto& [i, j] = pair;
-  const std::uint8_t species_i = rules_.shape_of_rod[i];
-  const std::uint8_t species_j = rules_.shape_of_rod[j];
+  const std::uint8_t shape_i = rules_.shape_of_rod[i];
+  const std::uint8_t shape_j = rules_.shape_of_rod[j];
   const Vec3 D = nearest_image(pose_i.position, pose_j.position, rules_.box);
   const Vec3 d(direction[0], direction[1], direction[2]);
-  if (hull_gap(hulls_[species_i], std::abs(pose_i.director.dot(d)), hulls_[species_j], std::abs(pose_j.director.dot(d)),
+  if (hull_gap(hulls_[shape_i], std::abs(pose_i.director.dot(d)), hulls_[shape_j], std::abs(pose_j.director.dot(d)),
                D.dot(d)) > margins::kHullsApart)
     return false;
-  const BeadRange beads_i =
-      beads_may_overlap(lanes_[species_i], pose_i.director, lanes_[species_j], pose_j.director, D);
+  const BeadRange beads_i = beads_may_overlap(lanes_[shape_i], pose_i.director, lanes_[shape_j], pose_j.director, D);
   if (beads_i.empty()) return false;
   beads.clear();
-  find_bead_contacts(rules_.species[species_i], pose_i.director, rules_.species[species_j], pose_j.director, D, beads_i,
+  find_bead_contacts(rules_.species[shape_i], pose_i.director, rules_.species[shape_j], pose_j.director, D, beads_i,
                      beads);
   for (const BeadContact& contact : beads) contacts.push_back({i, j, contact});
   return !beads.empty();
@@ -50,8 +49,8 @@ bool PairSearch::find(const PairRods& pair, const Pose& pose_i, const Pose& pose
 
 void PairSearch::bound(std::span<const PairRods> pairs, const std::vector<RodAtTick>& rods,
                        const std::vector<FlightBound>& motion, PairLanes& lanes, PairBounds& bounds) const {
-  const std::uint8_t species_i = rules_.shape_of_rod[pairs.front()[0]];
-  const std::uint8_t species_j = rules_.shape_of_rod[pairs.front()[1]];
+  const std::uint8_t shape_i = rules_.shape_of_rod[pairs.front()[0]];
+  const std::uint8_t shape_j = rules_.shape_of_rod[pairs.front()[1]];
   HullSafeTimes hull;
   Vec3 D[kLanes];
   for (std::size_t lane = 0; lane < pairs.size(); ++lane) {
@@ -60,11 +59,11 @@ void PairSearch::bound(std::span<const PairRods> pairs, const std::vector<RodAtT
     lanes.set(static_cast<int>(lane), D[lane], motion[i], motion[j]);
   }
   const auto horizon = static_cast<float>(static_cast<double>(TimingWheel::horizon() - 1) * rules_.dt);
-  hull_safe_times(hulls_[species_i], hulls_[species_j], lanes, static_cast<int>(pairs.size()), horizon, hull);
+  hull_safe_times(hulls_[shape_i], hulls_[shape_j], lanes, static_cast<int>(pairs.size()), horizon, hull);
 
   const auto per_dt = static_cast<float>((1.0 - static_cast<double>(margins::kTime)) / rules_.dt);
   const auto dt = static_cast<float>(rules_.dt);
-  const double reach = reach_[species_i] + reach_[species_j];
+  const double reach = reach_[shape_i] + reach_[shape_j];
   for (std::size_t lane = 0; lane < pairs.size(); ++lane) {
     const FlightBound& i = motion[pairs[lane][0]];
     const FlightBound& j = motion[pairs[lane][1]];
@@ -76,7 +75,7 @@ void PairSearch::bound(std::span<const PairRods> pairs, const std::vector<RodAtT
     bounds.direction[lane] = {hull.direction[0][lane], hull.direction[1][lane], hull.direction[2][lane]};
     bounds.by_beads[lane] = time < kShortBound * dt;
     if (bounds.by_beads[lane]) {
-      const BeadSafeTime beads = bead_safe_time(lanes_[species_i], i, lanes_[species_j], j, D[lane], kBeadHorizon * dt);
+      const BeadSafeTime beads = bead_safe_time(lanes_[shape_i], i, lanes_[shape_j], j, D[lane], kBeadHorizon * dt);
       if (beads.time > time) {
         time = beads.time;
         gap = beads.gap;

@@ -44,9 +44,9 @@ class PairSearch {
 
  private:
   const TickRules& rules_;
-  std::vector<Hull> hulls_;       ///< (n_species)
-  std::vector<BeadLanes> lanes_;  ///< (n_species)
-  std::vector<double> reach_;     ///< (n_species) [mm]
+  std::vector<Hull> hulls_;       ///< (n_shapes)
+  std::vector<BeadLanes> lanes_;  ///< (n_shapes)
+  std::vector<double> reach_;     ///< (n_shapes) [mm]
   float slow_;
 };
 

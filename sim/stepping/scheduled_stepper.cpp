@@ -136,7 +136,7 @@ void ScheduledStepper::pose_listed(const World& world, Tick now, Share& share) {
 }
 
 auto ScheduledStepper::groups_of_rods() const {
-  return Groups(rules_.species.size() > 1, [this](int i) { return species_index(i); });
+  return Groups(rules_.species.size() > 1, [this](int i) { return shape_of(i); });
 }
 
 // ---- 1. surfaces
@@ -557,10 +557,10 @@ void ScheduledStepper::bound_motions(const World& world, Tick now, Share& share)
 }
 
 void ScheduledStepper::schedule_pairs(Tick now, Share& share) {
-  const auto n_species = static_cast<int>(rules_.species.size());
-  const Groups groups(n_species > 1, [this, n_species](int p) {
+  const auto n_shapes = static_cast<int>(rules_.species.size());
+  const Groups groups(n_shapes > 1, [this, n_shapes](int p) {
     const auto& [i, j] = pairs_.rods(p);
-    return species_index(i) * n_species + species_index(j);
+    return shape_of(i) * n_shapes + shape_of(j);
   });
   groups.sort(share.stored.to_bound);
   groups.in_lanes(share.stored.to_bound, [&](std::span<const int> pairs) { bound_pairs(pairs, now, share); });

@@ -142,7 +142,7 @@ class ScheduledStepper final : public Stepper {
   /// Where free flight brought the rod; impacts at their instant may have displaced it since.
   const Pose& flight_pose(int i) const { return flight_pose_.empty() ? rods_[i].pose : flight_pose_[i]; }
   auto groups_of_rods() const;
-  int species_index(int i) const { return rules_.shape_of_rod[i]; }
+  int shape_of(int i) const { return rules_.shape_of_rod[i]; }
 
   TickRules rules_;
   PairSearch search_;

@@ -28,7 +28,7 @@ TEST(EveryProgram, EndsWithItsOwnCodeWhereNobodyCanBeToldWhy) {
       {"shaken-worker --nothing", 2},        {"shaken-worker replay nothing", 2},
       {"shaken-worker replay --nothing", 2}, {"shaken-render picture nothing -o x.png", 2},
       {"shaken-render nothing", 2},          {"shaken-task /nothing", 1},
-      {"shaken-task --nothing", 2},
+      {"shaken-task --nothing", 2},          {"shaken-worker import nothing --scene nothing", 2},
   };
   for (const auto& [command, code] : commands) EXPECT_EQ(shell(command + " 2>/dev/full").code, code) << command;
 }

@@ -124,8 +124,8 @@ class Run:
             self.gap = float(parameters.attrs["gap_mm"])
             self.dt = float(parameters.attrs["dt_s"])
             offset, radius = parameters["bead_offset_mm"][()], parameters["bead_radius_mm"][()]
-            if "species" in particles or "walls" in parameters:
-                sys.exit("rods of several species and side walls are not dealt with here")
+            if "species" in particles or "shape" in particles or "walls" in parameters:
+                sys.exit("rods of several species or sizes and side walls are not dealt with here")
         director = np.stack([2 * (x * z + w * y), 2 * (y * z - w * x), w * w - x * x - y * y + z * z], axis=-1)
         self.director = director / np.linalg.norm(director, axis=-1, keepdims=True)
         self.theta = np.arctan2(self.director[..., 1], self.director[..., 0])

@@ -221,7 +221,7 @@ TEST(Gsd, HoldsTheRodsFromTheMiddleOfTheBox) {
   EXPECT_EQ(file.array<float>(0, "particles/velocity", kFloat), frame_of_two().velocity);
   EXPECT_EQ(file.array<std::int32_t>(0, "particles/image", kInt32), frame_of_two().image);
   EXPECT_THAT(file.array<double>(0, "log/time_s", kDouble), is(2.0));
-  EXPECT_THAT(file.array<char>(0, "particles/types", kInt8), is('A', '\0', 'B', '\0'));
+  EXPECT_THAT(file.array<char>(0, "particles/types", kInt8), is('A', '1', '\0', 'A', '2', '\0'));
 
   const std::vector<char> shapes = file.array<char>(0, "particles/type_shapes", kInt8);
   using Json = nlohmann::json;

@@ -58,6 +58,22 @@ TEST(Spread, EverySizeMustBeARodAndFitIntoTheCell) {
   EXPECT_THAT(problem_of(R"({"rods": {"length_spread": 0.31}})"), HasSubstr("outside [0, 0.3]"));
 }
 
+TEST(Spread, EverySizeIsOneThatASceneCouldGive) {
+  EXPECT_THAT(
+      problem_of(R"({"rods_2": {"beads": 1, "mid_diameter": "0.06 mm", "length_spread": 0.3, "count": 18}})"),
+      HasSubstr("rods of 0.04908070845 mm, 0.04908070845 mm to 0.04908070845 mm thick, are among those that "
+                "rods_2.length_spread and rods_2.end_diameter_spread make: lengths are [0.05, 50] mm, diameters "
+                "[0.05, 20] mm"));
+  EXPECT_THAT(
+      problem_of(
+          R"({"rods": {"length": 40, "length_spread": 0.2, "beads": 101, "mid_diameter": 4, "end_diameter": 4}, "box": {"gap": 6}})"),
+      HasSubstr("rods of 53.96897374 mm"));
+  EXPECT_THAT(
+      problem_of(
+          R"({"rods": {"length": 3, "bead_diameters": [0.3, 0.8, 0.8, 0.8, 0.8, 0.8, 0.8, 0.8, 0.3], "length_spread": 0.25}})"),
+      HasSubstr("bead 2 of 0.8 mm would stick out beyond the tips of a rod of 2.250414918 mm"));
+}
+
 // The pitch is the largest between neighbouring beads of any size.
 TEST(Spread, TheLongestRodsKeepToTheBeadPitch) {
   const RodShape rod = plan_of(R"({"rods": {"length_spread": 0.2, "bead_pitch": 0.3}})").system.rod;

@@ -895,6 +895,26 @@ TEST_F(ApiTest, ARunThatStartsFromAnotherWaitsForIt) {
   EXPECT_THAT(submit({{"text", elsewhen}}).error(), HasSubstr("ends at 10 s"));
 }
 
+TEST_F(ApiTest, ARunStartsFromImportedRodsAtZero) {
+  const std::string id = "0123456789abcdef";
+  const auto start = [&](const std::string& time) {
+    return submit({{"text", R"({"start": {"run": ")" + id + R"(", "time": )" + time + "}}"}});
+  };
+  EXPECT_THAT(start("0").error(), HasSubstr("no run 0123456789abcdef is known here"));
+  std::filesystem::create_directories(directory_ / "runs" / id);
+  write_text(directory_ / "runs" / id / "scene.json", "{}");
+  write_text(directory_ / "runs" / id / "imported.json", "{}");
+  const Response submitted = start("0");
+  ASSERT_EQ(submitted.status, 201) << submitted.error();
+  EXPECT_TRUE(begin(queue_, submitted.json["jobs"][0]["id"])) << "it waits for nothing";
+  EXPECT_THAT(start("9").error(), HasSubstr("the rods of run 0123456789abcdef are imported: set start.time to 0"));
+
+  const Json run = post("/v1/clean", R"({"dry_run": true})").json["runs"][0];
+  EXPECT_EQ(run["id"], id);
+  EXPECT_EQ(run["known"], false);
+  EXPECT_EQ(run["state"], "imported");
+}
+
 // How long such a parent takes is known only once it has ended.
 TEST_F(ApiTest, ARunStartsOnlyWhereItsParentWithAConditionCanHaveEnded) {
   const std::string until =

@@ -17,10 +17,11 @@ namespace {
 
 /// A scene in which every effect is on and all kinds of contact occur within 2,000 ticks.
 System everything_on() {
-  System system = test::short_rods(60, 19);
+  System system = test::short_rods(54, 19);
   system.added[0] = AddedRods{{.length = 2.5, .n_beads = 9, .profile = Profile::kPolar}, 25};
   system.added[1] = AddedRods{{.length = 0.8, .n_beads = 1}, 10};
   system.rod.spread = {.length = 0.05, .end_diameter = 0.1};
+  system.added[1]->rod.spread.length = 0.1;
   system.walls = SideWalls{Arena::kSquare, 18.0, 1.0, {0.1, 0.3}};
   system.posts = Posts{.diameter = 1.2, .columns = 2, .rows = 2, .contact = {0.1, 0.3}};
   system.posts->contact.own[Contacts::place(0, 2)].friction = 0.4;
@@ -73,7 +74,7 @@ const std::map<std::string_view, void (*)(System&)>& neutral_by_hand() {
        [](System& s) {
          s.added = {std::nullopt, std::nullopt};
        }},
-      {"polydispersity", [](System& s) { s.rod.spread = {}; }},
+      {"polydispersity", [](System& s) { s.rod.spread = s.added[1]->rod.spread = {}; }},
       {"rod_base_collisions", [](System& s) { s.base = false; }},
       {"rod_lid_collisions", [](System& s) { s.lid = false; }},
       {"side_walls", [](System& s) { s.walls = std::nullopt; }},
@@ -85,6 +86,7 @@ const std::map<std::string_view, void (*)(System&)>& neutral_by_hand() {
       {"taper",
        [](System& s) {
          s.rod.end_diameter = s.rod.mid_diameter;
+         s.rod.spread.end_diameter = 0;
          s.added[0]->rod.end_diameter = s.added[0]->rod.mid_diameter;
          s.added[1]->rod.end_diameter = s.added[1]->rod.mid_diameter;
        }},

@@ -168,9 +168,9 @@ TEST(SpeciesContacts, ASpeciesThatIsLeftOutIsNotCounted) {
   system.rod_base.own[Contacts::place(0, 1)].restitution = 0.1;
   const TickRules rules(empty_world(system));
   ASSERT_EQ(rules.species.size(), 2U);
-  EXPECT_EQ(rules.species[0].rods[1].friction, 0.2);
+  EXPECT_EQ(rules.species[0].rods[2].friction, 0.2);
   EXPECT_EQ(rules.species[1].rods[0].friction, 0.2);
-  EXPECT_EQ(rules.species[1].rods[1].friction, 0.05);
+  EXPECT_EQ(rules.species[1].rods[2].friction, 0.05);
   EXPECT_EQ(rules.species[1].base.restitution, 0.7);
   EXPECT_EQ(rules.species[0].base.restitution, 0.3);
 }

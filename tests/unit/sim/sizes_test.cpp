@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sim/rod/species.h"
+#include "sim/tick/tick.h"
 #include "sim/world.h"
 #include "tests/support/short_rods.h"
 
@@ -108,13 +109,50 @@ TEST(Sizes, HaveEquallyManyRodsInRandomOrder) {
   EXPECT_EQ(cell.of_species(0, species).size(), 60u);
 }
 
-TEST(Sizes, OfFewerRodsThanSizesAreNotAllThere) {
-  int sum = 0;
-  for (std::size_t k = 0; k < kSizes; ++k) sum += count_of_size(4, k, kSizes);
-  EXPECT_EQ(sum, 4);
-  System system = test::short_rods(4, 30);
+// Species are counted as the scene has them, sizes do not change that: rods and rods_3, without rods_2.
+TEST(Sizes, HaveTheContactsOfTheirSpecies) {
+  System system = test::short_rods(20, 30);
   system.rod.spread.length = 0.1;
-  EXPECT_EQ(empty_world(system).shape_of_rod.size(), 4u);
+  system.added[1] = AddedRods{{.length = 0.8, .n_beads = 1, .spread = {.length = 0.1}}, 10};
+  system.rod_rod.friction = 0.05;
+  system.rod_rod.own[Contacts::place(0, 2)].friction = 0.2;
+  system.rod_rod.own[Contacts::place(2, 2)].friction = 0.4;
+  system.rod_base.own[Contacts::place(0, 2)].friction = 0.7;
+  system.rod_rod.own[Contacts::place(0, 1)].friction = system.rod_base.own[Contacts::place(0, 1)].friction =
+      9;  // of none
+  const World world = empty_world(system);
+  const TickRules rules(world);
+  const Cell cell = world.cell();
+  for (int i = 0; i < 30; ++i) {
+    const bool is_third = cell.species_of(static_cast<std::size_t>(i)) == 1;
+    EXPECT_EQ(rules.species_of(i).base.friction, is_third ? 0.7 : 0.01);
+    for (int j = 0; j < 30; ++j) {
+      const bool is_other_third = cell.species_of(static_cast<std::size_t>(j)) == 1;
+      const double friction = is_third && is_other_third ? 0.4 : is_third || is_other_third ? 0.2 : 0.05;
+      EXPECT_EQ(rules.rod_rod(i, j).friction, friction) << i << " " << j;
+    }
+  }
+}
+
+TEST(Sizes, OfFewerRodsThanSizesAreNotAllThere) {
+  const std::vector<RodShape> sizes = sizes_of(kMean);
+  for (const int count : {1, 3, 5, 9, 14, 99}) {
+    int sum = 0;
+    double longer = 0, wider = 0;
+    for (std::size_t k = 0; k < kSizes; ++k) {
+      const int rods = count_of_size(count, k, kSizes);
+      sum += rods;
+      longer += rods * (sizes[k].length - kMean.length);
+      wider += rods * (sizes[k].end_diameter - kMean.end_diameter);
+    }
+    EXPECT_EQ(sum, count);
+    if (count % 9 % 2 == 0 && count % 9 > 0) continue;  // one rod has no counterpart
+    EXPECT_NEAR(longer, 0, 1e-13) << count;
+    EXPECT_NEAR(wider, 0, 1e-13) << count;
+  }
+  System system = test::short_rods(1, 30);
+  system.rod.spread.length = 0.1;
+  EXPECT_EQ(empty_world(system).shape_of_rod, std::vector<std::uint8_t>{0}) << "the mean rod";
 }
 
 }  // namespace

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include "run/files/trajectory.h"
+#include "run/import/imported_rods.h"
+#include "scene/load.h"
+#include "sim/initial.h"
+#include "sim/world.h"
+
+namespace shaken::run {
+
+Result<std::vector<ImportedRod>> read_recorded_rods(const std::string& file, std::optional<int> frame,
+                                                    const System& system) {
+  const auto frames = TrajectoryReader::open(file);
+  if (!frames) return frames.error();
+  const TrajectoryHeader& header = frames->header();
+  const auto plan = scene::load_scene(header.scene_json, file + ", its scene");
+  if (!plan) return Error{keys::to_string(plan.error())};
+  std::string differs = start_mismatch(system, plan->system);
+  if (is_resized(system, plan->system)) {
+    differs += fmt::format("{}the side of the box or the gap ({:.10g} mm and {:.10g} mm in the file)",
+                           differs.empty() ? "" : ", ", plan->system.box_side, plan->system.gap);
+  }
+  if (!differs.empty()) {
+    return Error{
+        fmt::format("{}: not the same in the scene: {}; a run that starts from the imported rods may then have "
+                    "another box and gap",
+                    file, differs)};
+  }
+  if (frames->n_frames() == 0) return Error{file + " has no frames"};
+  const auto index = frame ? static_cast<std::size_t>(*frame) : frames->n_frames() - 1;
+  const Result<Snapshot> snapshot = frames->frame(index);
+  if (!snapshot) return snapshot.error();
+
+  const World world = empty_world(plan->system);
+  const bool has_plates = system.base || system.lid;
+  const double base = world.plates.at(has_plates ? snapshot->tick : 0).base;
+  std::vector<ImportedRod> rods;
+  for (std::size_t i = 0; i < snapshot->n_rods(); ++i) {
+    ImportedRod rod{.number = static_cast<int>(i),
+                    .shape = world.shape_of_rod[i],
+                    .position = snapshot->position[i],
+                    .director = snapshot->director[i],
+                    .velocity = snapshot->velocity[i]};
+    rod.position.z() -= base;
+    rods.push_back(rod);
+  }
+  return rods;
+}
+
+}  // namespace shaken::run

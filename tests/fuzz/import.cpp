@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Tables of rods from elsewhere.
+#include <algorithm>
+#include <cmath>
+
+#include "run/import/place_rods.h"
+#include "tests/fuzz/fuzz_target.h"
+
+using namespace shaken;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text = fuzz::text_of(data, size);
+  System system;
+  system.rod = {.length = 2.5, .n_beads = 9};
+  system.box_side = 16;
+  system.added[0] = AddedRods{.rod = {.length = 1.5, .n_beads = 5}, .count = 1};
+  std::vector<keys::Problem> problems;
+  const std::vector<run::ImportedRod> rods = run::read_csv_rods(text, "rods.csv", run::species_names(system), problems);
+  const int n_lines = static_cast<int>(std::count(text.begin(), text.end(), '\n')) + 1;
+  for (const keys::Problem& problem : problems) {
+    fuzz::promise(problem.line >= 0 && problem.line <= n_lines, "a problem has a line of the text, or none");
+    fuzz::promise(!problem.message.empty(), "a refusal says why");
+  }
+  // as many as there are, but at least one of each: then little but their places can be wrong
+  const auto n_second = std::count_if(rods.begin(), rods.end(), [](const auto& rod) { return rod.shape == 1; });
+  system.n_rods = std::max(1, static_cast<int>(rods.size()) - static_cast<int>(n_second));
+  system.added[0]->count = std::max(1, static_cast<int>(n_second));
+  std::vector<keys::Problem> misplaced;
+  const auto placed = run::place_rods(system, rods, "rods.csv", true, misplaced);
+  fuzz::promise(placed.has_value() == misplaced.empty(), "rods have places, or there is a reason");
+  if (!placed) return 0;
+  for (const Flight& rod : placed->world.rods) {
+    fuzz::promise(rod.position.x() >= 0 && rod.position.x() < system.box_side, "a centre lies in the box");
+    fuzz::promise(std::abs(rod.director.norm() - 1) < 1e-9, "a director has length 1");
+  }
+  return 0;
+}
