@@ -17,7 +17,7 @@ namespace {
 
 /// A scene in which every effect is on and all kinds of contact occur within 2,000 ticks.
 System everything_on() {
-  System system = test::short_rods(54, 19);
+  System system = test::short_rods(57, 19);
   system.added[0] = AddedRods{{.length = 2.5, .n_beads = 9, .profile = Profile::kPolar}, 25};
   system.added[1] = AddedRods{{.length = 0.8, .n_beads = 1}, 10};
   system.rod.spread = {.length = 0.05, .end_diameter = 0.1};
