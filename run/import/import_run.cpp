@@ -61,7 +61,7 @@ std::string without_name(const std::string& message, const std::string& file) {
 }
 
 /// As keys::tidied, with what concerns a whole file however many of its lines are wrong.
-std::vector<keys::Problem> as_told(std::vector<keys::Problem> problems) {
+std::vector<keys::Problem> in_order(std::vector<keys::Problem> problems) {
   const auto of_files =
       std::stable_partition(problems.begin(), problems.end(), [](const auto& p) { return p.line > 0; });
   const std::vector<keys::Problem> files(of_files, problems.end());
@@ -93,11 +93,11 @@ keys::Loaded<Import> read_import(const ImportOptions& asked) {
     if (!recorded) problems.push_back({asked.file, 0, 0, "", without_name(recorded.error().message, asked.file)});
     if (recorded) rods = *std::move(recorded);
   }
-  if (!plan || (rods.empty() && !problems.empty())) return as_told(std::move(problems));
+  if (!plan || (rods.empty() && !problems.empty())) return in_order(std::move(problems));
   auto placed = place_rods(plan->system, rods, asked.file, is_table, problems);
   if (asked.random_velocities && std::any_of(rods.begin(), rods.end(), moves))
     problems.push_back({asked.file, 0, 0, "", "the rods have velocities: leave out --random-velocities"});
-  if (!problems.empty()) return as_told(std::move(problems));
+  if (!problems.empty()) return in_order(std::move(problems));
   if (asked.random_velocities) {
     draw_velocities(placed->world);
     placed->n_still = 0;
@@ -119,7 +119,7 @@ class OneFrame final : public RecordedFrames {
 };
 
 /// The scene as text. How the rods of a run start, it does not say: they were not placed.
-std::string scene_text(const scene::RunPlan& plan) {
+std::string text_of_scene(const scene::RunPlan& plan) {
   OrderedJson scene = scene::to_json(plan);
   scene["rods"].erase("start");
   return scene.dump(2) + "\n";
@@ -139,7 +139,7 @@ bool holds(const RunDirectory& directory, const std::string& id, const Checkpoin
 void write_run(const RunDirectory& directory, const std::string& id, const ImportOptions& asked,
                const scene::RunPlan& plan, const Simulation& simulation, const OrderedJson& report) {
   done_or_fail(make_folder(directory.root));
-  const std::string scene = scene_text(plan);
+  const std::string scene = text_of_scene(plan);
   const Provenance provenance{id, plan.system.seed};
   done_or_fail(write_checkpoint(directory, id, {simulation.checkpoint(), {}, 0, 0}));
   done_or_fail(write_trajectory(
