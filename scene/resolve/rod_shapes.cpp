@@ -32,6 +32,13 @@ std::optional<RodShape> size_with_holes(const RodShape& rod) {
   return std::nullopt;
 }
 
+/// Diameter of the thinnest bead [mm].
+double thinnest_bead(const RodShape& rod) {
+  if (!rod.has_axis()) return rod.mid_diameter;
+  return rod.bead_diameters.empty() ? std::min(rod.mid_diameter, rod.end_diameter)
+                                    : std::ranges::min(rod.bead_diameters);
+}
+
 /// Every size is longer than thick.
 bool check_lengths(Resolution& scene, const RodGroup& group) {
   for (const RodShape& size : sizes_of(group.rod)) {
@@ -58,17 +65,14 @@ bool check_spread(Resolution& scene, const RodGroup& group) {
   const Field& length = field_at("rods.length");
   const Field& diameter = field_at("rods.mid_diameter");
   for (const RodShape& size : sizes_of(rod)) {
-    const double thinnest = rod.bead_diameters.empty() ? std::min(size.mid_diameter, size.end_diameter)
-                                                       : std::ranges::min(size.bead_diameters);
-    const double thinnest_there = rod.has_axis() ? thinnest : size.mid_diameter;
-    if (is_within(length, size.length) && is_within(diameter, thinnest_there) &&
+    if (is_within(length, size.length) && is_within(diameter, thinnest_bead(size)) &&
         is_within(diameter, thickest_bead(size)))
       continue;
     return scene.refuse(
         {of_length, path},
         fmt::format("rods of {}, {} to {} thick, are among those that {} and {} make: lengths are {}, diameters {}",
-                    length_text(size.length), length_text(thinnest_there), length_text(thickest_bead(size)), of_length,
-                    path, format_range(length.low, length.high, length.dimension),
+                    length_text(size.length), length_text(thinnest_bead(size)), length_text(thickest_bead(size)),
+                    of_length, path, format_range(length.low, length.high, length.dimension),
                     format_range(diameter.low, diameter.high, diameter.dimension)));
   }
   return true;
