@@ -299,6 +299,7 @@ TEST(Completion, BashScriptCompletesVerbsAndOptions) {
   EXPECT_EQ(completed("shaken --root /tmp wat", 3), "watch\n");
   EXPECT_EQ(completed("shaken results --agg", 2), "--aggregate\n");
   EXPECT_EQ(completed("shaken plot --format s", 3), "svg\n");
+  EXPECT_EQ(completed("shaken submit -s rods.le", 3), "rods.length= rods.length_spread=\n");
   EXPECT_EQ(completed("shaken submit -s rods.mi", 3), "rods.mid_diameter=\n");
   EXPECT_EQ(completed("shaken submit -s rods.start = al", 5), "aligned\n") << "bash splits words at =";
   EXPECT_EQ(completed("shaken picture x --style la", 4), "layers\n");

@@ -208,9 +208,14 @@ TEST(Gsd, BeginsAsItsSpecificationSays) {
   EXPECT_EQ(file.text(112), "hoomd");
 }
 
+TEST(Gsd, HasATypeForEachSize) {
+  const GsdFile file(text_of(*make_gsd(two_sizes(), 1), {frame_of_two()}));
+  EXPECT_THAT(file.array<std::uint32_t>(0, "particles/typeid", kUint32), ::testing::ElementsAre(0U, 1U));
+  EXPECT_THAT(file.array<char>(0, "particles/types", kInt8), ::testing::ElementsAre('A', '1', '\0', 'A', '2', '\0'));
+}
+
 TEST(Gsd, HoldsTheRodsFromTheMiddleOfTheBox) {
-  const GsdFile file(
-      text_of(*make_gsd(two_sizes(), 1), {frame_of_two()}));  // a type for each size, as for each species
+  const GsdFile file(text_of(*make_gsd(two_species(), 1), {frame_of_two()}));
   const auto is = [](auto... values) { return ::testing::ElementsAre(values...); };
   EXPECT_THAT(file.array<std::uint64_t>(0, "configuration/step", kUint64), is(8U));
   EXPECT_THAT(file.array<float>(0, "configuration/box", kFloat), is(10.F, 5.F, 2.F, 0.F, 0.F, 0.F));
@@ -221,7 +226,7 @@ TEST(Gsd, HoldsTheRodsFromTheMiddleOfTheBox) {
   EXPECT_EQ(file.array<float>(0, "particles/velocity", kFloat), frame_of_two().velocity);
   EXPECT_EQ(file.array<std::int32_t>(0, "particles/image", kInt32), frame_of_two().image);
   EXPECT_THAT(file.array<double>(0, "log/time_s", kDouble), is(2.0));
-  EXPECT_THAT(file.array<char>(0, "particles/types", kInt8), is('A', '1', '\0', 'A', '2', '\0'));
+  EXPECT_THAT(file.array<char>(0, "particles/types", kInt8), is('A', '\0', 'B', '\0'));
 
   const std::vector<char> shapes = file.array<char>(0, "particles/type_shapes", kInt8);
   using Json = nlohmann::json;

@@ -27,6 +27,8 @@ std::vector<std::filesystem::path> config_files() {
   return files;
 }
 
+TEST(Configs, AreThere) { EXPECT_GE(config_files().size(), 5U); }
+
 // A test for each file: packing rods in disorder takes seconds, under sanitizers minutes.
 class Config : public testing::TestWithParam<std::filesystem::path> {};
 
