@@ -58,9 +58,10 @@ struct Frame {
   double time = 0;  ///< [s]
   double base = 0;  ///< height of the base [mm]; rods' heights are counted as it is, from its lowest point
   bool has_lid = true;
-  std::vector<Vec3> position;  ///< (n_rods) centres [mm]
-  std::vector<Vec3> director;  ///< (n_rods) unit vectors, to the head
-  std::vector<Vec3> velocity;  ///< (n_rods) [mm/s]; empty where it is not known
+  std::optional<double> lid{};  ///< height of the lid, where it is not the gap above the base [mm]
+  std::vector<Vec3> position;   ///< (n_rods) centres [mm]
+  std::vector<Vec3> director;   ///< (n_rods) unit vectors, to the head
+  std::vector<Vec3> velocity;   ///< (n_rods) [mm/s]; empty where it is not known
 
   /// (n_rods) how far each rod's centre has come within some time, across borders too [mm]; empty unless asked for.
   std::vector<Vec2> displacement;

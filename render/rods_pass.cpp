@@ -128,7 +128,7 @@ void set_scene(GLuint program, const Cell& cell, const Frame& frame, const Pictu
   const double base = frame.base - camera.eye.z();
   pair("heights", camera.heights.x() - camera.eye.z(), camera.heights.y() - camera.eye.z());
   number("base", base);
-  pair("plates", base, base + cell.gap);
+  pair("plates", base, frame.lid ? *frame.lid - camera.eye.z() : base + cell.gap);
   glUniform1i(at("has_lid"), frame.has_lid ? 1 : 0);
   number("cut", camera.is_cut ? camera.nearest : 0);
   number("grid", camera.is_parallel ? 0 : 5);

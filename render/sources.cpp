@@ -87,7 +87,10 @@ Result<TrajectorySource> TrajectorySource::open(const std::filesystem::path& run
   if (reader->n_frames() == 0) return Error{file.string() + " holds no complete frame yet"};
   TrajectorySource source(file, std::move(*reader));
   // Another version's scene may be none to this one; nothing is then known of the plates.
-  if (auto plan = scene::load_scene(source.reader_.header().scene_json, file.string())) source.plan_ = std::move(*plan);
+  if (auto plan = scene::load_scene(source.reader_.header().scene_json, file.string())) {
+    source.plan_ = std::move(*plan);
+    source.plates_ = PlateMotion(source.plan_->system);
+  }
   source.notes_ = notes_of(file, source.reader_.header().provenance);
   return source;
 }
@@ -157,8 +160,9 @@ Result<RodPicture> TrajectorySource::bare_picture(const Snapshot& frame, Asked a
   picture.frame.time = frame.time;
   if (plan_) {
     const System& system = plan_->system;
-    // z_base = a cos(2 pi f t) + a (sim/motion/plates.h)
-    picture.frame.base = system.amplitude * (1 + std::cos(2 * kPi * system.frequency * picture.frame.time));
+    const PlateState plates = plates_->at(frame.tick);
+    picture.frame.base = plates.base;
+    if (system.has_lid_motion()) picture.frame.lid = plates.lid;
     picture.frame.has_lid = system.lid;
     const scene::MeasureDefects defects = plan_->defects.value_or(scene::MeasureDefects{});
     asked.smoothing = defects.smoothing;

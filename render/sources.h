@@ -16,6 +16,7 @@
 #include "render/style.h"
 #include "run/files/trajectory.h"
 #include "scene/run_plan.h"
+#include "sim/motion/plates.h"
 
 namespace shaken::render {
 
@@ -61,6 +62,7 @@ class TrajectorySource {
   std::filesystem::path file_;
   run::TrajectoryReader reader_;
   std::optional<scene::RunPlan> plan_;  ///< of the scene, if it is one
+  std::optional<PlateMotion> plates_;   ///< of that
   Notes notes_;
   /// Has the defects of the frames from `first` to `last` linked, and of those before that are linked already.
   Result<void> link(std::size_t first, std::size_t last);

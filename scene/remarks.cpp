@@ -58,6 +58,23 @@ bool has_head(const RodShape& rod) {
   return rod.has_axis() && rod.profile == Profile::kPolar && rod.mid_diameter != rod.end_diameter;
 }
 
+/// That friction may not stop what slides down the slope; none if it may well, or if walls or posts do.
+std::optional<std::string> remark_on_slope(const System& system) {
+  if (!system.has_inclination() || system.walls || system.posts) return std::nullopt;
+  const double slope = std::tan(system.inclination * kPi / 180);
+  double friction = 0;
+  for (std::size_t number = 0; number < kMostSpecies; ++number) {
+    if (!system.has_species(number)) continue;
+    if (system.base) friction = std::max(friction, system.rod_base.of(number).friction);
+    if (system.lid) friction = std::max(friction, system.rod_lid.of(number).friction);
+  }
+  if (slope <= friction) return std::nullopt;
+  return fmt::format(
+      "plates.inclination {:.4g} degrees is steeper than the friction of the plates, whose angle is {:.3g} degrees: "
+      "without walls rods may slide down faster and faster",
+      system.inclination, std::atan(friction) * 180 / kPi);
+}
+
 /// That no rod gets through between the posts of a lattice that fills the box; none if some do.
 std::optional<std::string> remark_on_posts(const System& system) {
   if (!system.posts || !system.posts->places.empty() || system.walls) return std::nullopt;
@@ -129,13 +146,14 @@ std::vector<std::string> remarks(const RunPlan& plan) {
         "spheres ({}.beads 1) have no axis, so this is not measured: {}{}", rods.prefix.empty() ? "rods" : rods.prefix,
         unmeasured, is_of_one_of_several ? "; observables are those of the first species (measure.of)" : ""));
   }
-  const auto gamma = gamma_of(plan.system);
-  if (gamma && *gamma < 1 && plan.system.base) {
-    list.push_back(
-        fmt::format("plates.gamma is {:.4g}: below 1 the base never falls faster than the rods, which come "
-                    "to rest on it",
-                    *gamma));
+  if (plan.system.lets_rods_rest()) {
+    list.push_back(fmt::format("{} {:.4g}: below 1 the base never falls faster than the rods, which come to rest on it",
+                               plan.system.has_second_vibration() || plan.system.has_inclination()
+                                   ? "the largest acceleration of the base over that of gravity across it is"
+                                   : "plates.gamma is",
+                               plan.system.peak_acceleration() / plan.system.gravity_on_plates().down));
   }
+  if (const auto remark = remark_on_slope(plan.system)) list.push_back(*remark);
   if (plan.system.has_horizontal_vibration() && !has_plate_friction(plan.system)) {
     list.push_back(
         "plates.horizontal_amplitude: no plate has friction, so the vibration in the plane does not reach the rods");

@@ -8,16 +8,19 @@
 namespace shaken {
 namespace {
 
-/// Calls visit(species, pose, motion) for every rod at the world's tick.
+/// Calls visit(species, pose, motion) for every rod at the world's tick, where it would be without periodic boundaries.
 template <class Visit>
 void for_each_rod(const World& world, const Visit& visit) {
+  const Gravity gravity = world.system.gravity_on_plates();
+  const Box box = world.system.box();
   for (std::size_t i = 0; i < world.rods.size(); ++i) {
     const Species& species = world.species_of(i);
     const Flight& flight = world.rods[i];
     const double tau = static_cast<double>(world.tick - flight.since) * world.system.dt;
-    const Pose pose = pose_after(flight, tau, world.system.gravity);
-    visit(species, pose,
-          motion_after(flight, tau, world.system.gravity, pose.director, species.inertia_par / species.inertia_perp));
+    Pose pose = pose_after(flight, tau, gravity);
+    pose.position.x() += flight.image[0] * box.x();
+    pose.position.y() += flight.image[1] * box.y();
+    visit(species, pose, motion_after(flight, tau, gravity, pose.director, species.inertia_par / species.inertia_perp));
   }
 }
 
@@ -46,8 +49,10 @@ Content content(const World& world) {
   Content content;
   content.tick = world.tick;
   content.energy = kinetic_energy(world).total();
+  const Gravity gravity = world.system.gravity_on_plates();
   for_each_rod(world, [&](const Species& species, const Pose& pose, const Motion& motion) {
-    content.energy += species.mass * world.system.gravity * pose.position.z();
+    content.energy += species.mass * gravity.down * pose.position.z();
+    if (gravity.is_inclined) content.energy -= species.mass * gravity.along.dot(pose.position.head<2>());
     content.momentum += species.mass * motion.velocity;
   });
   return content;
@@ -67,8 +72,10 @@ Balance balance(const World& world) {
                                balance.energy_lost_rod_rod - balance.energy_lost_surfaces - balance.energy_now;
   balance.momentum_unexplained = world.start.momentum - now.momentum;
   for (int c = 0; c < 3; ++c) balance.momentum_unexplained[c] += ledger.momentum[static_cast<std::size_t>(c)].value();
-  balance.momentum_unexplained.z() -=
-      mass_of_all(world) * world.system.gravity * static_cast<double>(world.tick - world.start.tick) * world.system.dt;
+  const Gravity gravity = world.system.gravity_on_plates();
+  const double mass_time = static_cast<double>(world.tick - world.start.tick) * world.system.dt * mass_of_all(world);
+  balance.momentum_unexplained.z() -= mass_time * gravity.down;
+  balance.momentum_unexplained.head<2>() += mass_time * gravity.along;
   return balance;
 }
 

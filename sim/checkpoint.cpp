@@ -105,7 +105,20 @@ void each_scene_key(Archive&& visit, const System& system) {
     visit(system.horizontal_phase);
     visit(system.horizontal_angle);
   }
+  if (system.has_second_vibration()) {
+    visit(system.second->amplitude);
+    visit(system.second->frequency);
+    visit(system.second->phase);
+  }
+  if (system.has_lid_motion()) {
+    visit(system.lid_motion->amplitude);
+    visit(system.lid_motion->phase);
+  }
   visit(system.gravity);
+  if (system.has_inclination()) {
+    visit(system.inclination);
+    visit(system.inclination_angle);
+  }
   visit(system.dt);
 }
 

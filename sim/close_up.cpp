@@ -20,9 +20,9 @@ std::optional<CloseUp::Rod> rod_at(const World& world, Tick tick, int rod, bool 
   const double tau = static_cast<double>(tick - flight.since) * world.system.dt;
   const Species& species = world.species_of(static_cast<std::size_t>(rod));
   const double inertia_ratio = species.inertia_par / species.inertia_perp;
-  const Pose pose = pose_after(flight, tau, world.system.gravity);
-  return CloseUp::Rod{rod, concerned, pose,
-                      motion_after(flight, tau, world.system.gravity, pose.director, inertia_ratio)};
+  const Gravity gravity = world.system.gravity_on_plates();
+  const Pose pose = pose_after(flight, tau, gravity);
+  return CloseUp::Rod{rod, concerned, pose, motion_after(flight, tau, gravity, pose.director, inertia_ratio)};
 }
 
 void add_plate_contacts(const World& world, const CloseUp::Rod& rod, CloseUp& out) {
@@ -35,7 +35,8 @@ void add_plate_contacts(const World& world, const CloseUp::Rod& rod, CloseUp& ou
       const double overlap = species.bead_radius[bead] - side * (center.z() - plate);
       if (!(overlap > 0)) continue;
       const Vec3 arm = center - rod.pose.position - species.bead_radius[bead] * side * Vec3::UnitZ();
-      const double u_n = side * (point_velocity(rod.motion, arm).z() - out.plates.velocity);
+      const double moving = side > 0 ? out.plates.velocity : out.plates.lid_velocity;
+      const double u_n = side * (point_velocity(rod.motion, arm).z() - moving);
       out.contacts.push_back({rod.rod, side > 0 ? CloseUp::kBase : CloseUp::kLid, bead, -1, overlap, -u_n});
     }
   }

@@ -73,7 +73,11 @@ double step_towards(double aim, double now, double by) {
 class Compression {
  public:
   Compression(const System& system, const GoOn& go_on)
-      : system_(system), go_on_(go_on), pattern_(start_pattern(system)), aim_(empty_world(system)) {
+      : system_(system),
+        plates_(plates_at_start(system)),
+        go_on_(go_on),
+        pattern_(start_pattern(system)),
+        aim_(empty_world(system)) {
     double longest = 0;
     for (const Species& species : aim_.species) {
       const auto [thin, thick] = std::minmax_element(species.bead_radius.begin(), species.bead_radius.end());
@@ -97,14 +101,15 @@ class Compression {
     are_placed_ = false;
     System loose = gas();
     loose.box_side = left.system.box_side;
-    loose.gap = left.system.gap;
-    thicken(loose, std::min(left.system.gap, system_.gap));
-    gap_ = system_.gap;
+    const PlateState plates = left.plates.at(left.tick);
+    loose.gap = left.system.has_lid_motion() ? plates.lid - plates.base : left.system.gap;
+    thicken(loose, std::min(loose.gap, plates_.gap));
+    gap_ = plates_.gap;
     world_ = empty_world(loose);
     poses_ = rods_left(world_, left).poses;
     motions_.resize(poses_.size());
     world_.rods.resize(poses_.size());
-    const double base = system_.is_planar() ? 0.0 : left.plates.at(left.tick).base;
+    const double base = system_.is_planar() ? 0.0 : plates.base;
     for (std::size_t i = 0; i < poses_.size(); ++i) {
       poses_[i].position.z() -= base;
       Flight flight;
@@ -112,7 +117,7 @@ class Compression {
       Rng rng(system_.seed, RngStream::kVelocity, 1, static_cast<std::uint64_t>(i));
       push_at_start(flight, system_, rng);
       const Species& species = world_.species_of(i);
-      motions_[i] = motion_after(flight, 0.0, 0.0, flight.director, species.inertia_par / species.inertia_perp);
+      motions_[i] = motion_after(flight, 0.0, Gravity(), flight.director, species.inertia_par / species.inertia_perp);
     }
     fly_anew_in(loose.box_side, loose.gap);
     return run();
@@ -153,7 +158,9 @@ class Compression {
   System gas() const {
     System gas = system_;
     gas.start = Start::kRandom;
-    gas.amplitude = gas.horizontal_amplitude = 0;
+    gas.amplitude = gas.horizontal_amplitude = gas.inclination = 0;
+    gas.second.reset();
+    gas.lid_motion.reset();
     gas.gravity = 0;
     gas.base = gas.lid = !system_.is_planar();
     const ContactParameters elastic{0.0, 1.0};
@@ -190,7 +197,7 @@ class Compression {
   /// Rods at random places of a box that is larger than wanted, if need be.
   Result<void> insert() {
     System loose = gas();
-    loose.gap = std::min(system_.gap, 1.5 * 2.0 * thickest_);
+    loose.gap = std::min(plates_.gap, 1.5 * 2.0 * thickest_);
     thicken(loose, loose.gap);
     const double fraction = area_of(aim_) / system_.area();
     double wanted = kLoose;
@@ -365,7 +372,7 @@ class Compression {
     look();
     if (deepest(neighbors(), aim_.species, 1.0, 1.0) > 0) return std::nullopt;
     if (deepest_in_posts(aim_.species, world_.system.box_side) > 0) return std::nullopt;
-    const double raised = 2.0 * system_.amplitude + 0.5 * (system_.gap - world_.system.gap);
+    const double raised = plates_.base + 0.5 * (plates_.gap - world_.system.gap);
     std::vector<Flight> flights(poses_.size());
     for (std::size_t i = 0; i < poses_.size(); ++i) {
       if (!is_between_plates(aim_.species_of(i), poses_[i])) return std::nullopt;
@@ -383,6 +390,7 @@ class Compression {
   }
 
   const System& system_;
+  PlatesAtStart plates_;
   const GoOn& go_on_;
   DirectorAt pattern_;                  ///< of the box that is wanted; or none
   std::optional<AligningField> field_;  ///< that turns rods towards it

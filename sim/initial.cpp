@@ -34,17 +34,17 @@ Lattice every_other_row_shifted(int columns, int rows, double clearance = 0) {
 double thickest(const Species& kind) { return *std::max_element(kind.bead_radius.begin(), kind.bead_radius.end()); }
 
 /// The most that a rod is tilted, as n_z; this keeps it off both plates.
-double most_tilt(const System& system, const Species& species) {
+double most_tilt(const System& system, double gap, const Species& species) {
   if (system.is_planar() || !(species.half_length > 0)) return 0.0;
-  const double room = 0.5 * system.gap - thickest(species);
+  const double room = 0.5 * gap - thickest(species);
   return std::min(0.02, 0.3 * room / species.half_length);
 }
 
 /// By how much any rod is shorter in the plane, on either side, for being tilted [mm].
-double shortened_by_tilt(const System& system, std::span<const Species> species) {
+double shortened_by_tilt(const System& system, double gap, std::span<const Species> species) {
   double shorter = 0;
   for (const Species& kind : species) {
-    const double tilt = most_tilt(system, kind);
+    const double tilt = most_tilt(system, gap, kind);
     shorter = std::max(shorter, kind.half_length * (1.0 - std::sqrt(1.0 - tilt * tilt)));
   }
   return shorter;
@@ -54,10 +54,10 @@ double shortened_by_tilt(const System& system, std::span<const Species> species)
 class Placement {
  public:
   Placement(const System& for_scene, std::span<const Species> of_species, std::span<const std::uint8_t> of_kinds)
-      : system(for_scene), species(of_species), shape_of_rod(of_kinds) {
+      : system(for_scene), plates(plates_at_start(for_scene)), species(of_species), shape_of_rod(of_kinds) {
     if (system.posts) {
       StandingPosts standing = standing_posts(system);
-      standing.diameter += 2.0 * (kClearance + shortened_by_tilt(system, species));
+      standing.diameter += 2.0 * (kClearance + shortened_by_tilt(system, plates.gap, species));
       posts.emplace(standing, system.box(), period_of(system.box(), system.walls));
     }
     for (const Species& kind : of_species) {
@@ -103,6 +103,7 @@ class Placement {
   const Species& species_of(int i) const { return species[shape_of_rod[static_cast<std::size_t>(i)]]; }
 
   const System& system;
+  PlatesAtStart plates;
   std::span<const Species> species;
   std::span<const std::uint8_t> shape_of_rod;
   std::optional<PostGrid> posts;  ///< thicker, by as much as a bead comes nearer when its rod is tilted
@@ -284,10 +285,10 @@ void lift_and_push(Flight& flight, const Placement& rods, const Species& species
                    Rng& rng) {
   const System& system = rods.system;
   const bool planar = system.is_planar();
-  const double base = 2.0 * system.amplitude;  // cos(0) = 1: the plates start at the top of their stroke
-  const double room = 0.5 * system.gap - thickest(species);
-  flight.position.z() = base + 0.5 * system.gap + (planar ? 0.0 : 0.3 * room * rng.uniform(-1, 1));
-  const double most = flat ? 0.0 : most_tilt(system, species);
+  const auto [base, gap] = rods.plates;
+  const double room = 0.5 * gap - thickest(species);
+  flight.position.z() = base + 0.5 * gap + (planar ? 0.0 : 0.3 * room * rng.uniform(-1, 1));
+  const double most = flat ? 0.0 : most_tilt(system, gap, species);
   const double tilt = most > 0 ? most * rng.uniform(-1, 1) : 0.0;
   const double level = std::sqrt(1.0 - tilt * tilt);
   flight.director = {level * in_plane.x(), level * in_plane.y(), tilt};
@@ -328,7 +329,7 @@ Result<Lattice> lattice_at_angle(const Placement& rods, const SinCos& angle) {
   const System& system = rods.system;
   if (rods.has_uprights())
     return does_not_fit(rods, "rows at an angle to the box are for periodic boxes, without walls or posts");
-  const double shorter = shortened_by_tilt(system, rods.species);
+  const double shorter = shortened_by_tilt(system, rods.plates.gap, rods.species);
   const TurnedRows turned(rods.species, system.box(), Vec2(angle.cos, angle.sin), kClearance + 2.0 * shorter);
   if (const auto lattice = turned.find(rods.n_rods())) return *lattice;
   char degrees[32];
@@ -452,7 +453,7 @@ Result<std::vector<Flight>> initial_flights(const System& system, std::span<cons
   SHAKEN_CHECK(!is_compressed(system.start), "sim/compression.h makes that");
   SHAKEN_CHECK(!directors || system.start == Start::kRandom, "only rods at random places follow a pattern");
   const Placement rods(system, species, shape_of_rod);
-  if (system.gap < 2.0 * rods.max_radius()) return Error{"the gap is smaller than the thickest bead"};
+  if (rods.plates.gap < 2.0 * rods.max_radius()) return Error{"the gap is smaller than the thickest bead"};
   if (const double least = least_box_side(species); system.box().shorter() < least * (1.0 - 1e-9)) {
     return Error{"the box is too small: rods might meet two images of another below " + std::to_string(least) + " mm"};
   }
@@ -484,6 +485,8 @@ Result<World> make_world_along(const System& system, const DirectorAt& directors
   return world;
 }
 
+constexpr SecondVibration kNoSecond{0, 0, 0};
+
 std::string start_mismatch(const System& system, const System& other) {
   std::string all;
   const auto compare = [&](bool is_same, const char* what) {
@@ -497,6 +500,12 @@ std::string start_mismatch(const System& system, const System& other) {
   compare(system.n_rods == other.n_rods, "their number");
   compare(system.box_aspect == other.box_aspect, "the shape of the box");
   compare(system.base == other.base && system.lid == other.lid, "the plates that are there");
+  // a lid that is elsewhere at the start might come down on rods
+  const auto lid_of = [](const System& one) {
+    return one.has_lid_motion() ? std::tuple(true, *one.lid_motion, one.amplitude, one.second.value_or(kNoSecond))
+                                : std::tuple(false, LidMotion{}, 0.0, kNoSecond);
+  };
+  compare(lid_of(system) == lid_of(other), "how the lid moves");
   compare(arena_of(system) == arena_of(other), "the walls");
   compare(standing_posts(system) == standing_posts(other), "the posts");
   if ((system.walls && other.walls) || (system.posts && other.posts)) {
@@ -508,8 +517,14 @@ std::string start_mismatch(const System& system, const System& other) {
 
 double off_the_beat(const System& system, Tick tick) {
   if (!system.has_moving_plates()) return 0;
-  const double cycles = static_cast<double>(tick) * system.dt * system.frequency;
-  return (cycles - std::round(cycles)) / system.frequency;
+  const double time = static_cast<double>(tick) * system.dt;
+  const auto off = [&](double frequency) {
+    return frequency > 0 ? time - std::round(time * frequency) / frequency : 0.0;
+  };
+  const double first = off(system.frequency);
+  if (!system.has_second_vibration()) return first;
+  const double second = off(system.second->frequency);
+  return std::abs(second) > std::abs(first) ? second : first;
 }
 
 bool is_resized(const System& system, const System& other) {
@@ -531,6 +546,7 @@ RodsLeft rods_left(const World& world, const World& left) {
   RodsLeft rods;
   rods.poses.reserve(left.rods.size());
   rods.motions.reserve(left.rods.size());
+  const Gravity gravity = left.system.gravity_on_plates();
   std::vector<std::size_t> next(world.species.size(), 0);  // of each shape, where to look for its next rod
   for (const std::uint8_t kind : world.shape_of_rod) {
     std::size_t& from = next[kind];
@@ -538,8 +554,8 @@ RodsLeft rods_left(const World& world, const World& left) {
     const Flight& flight = left.rods[from++];
     const double ratio = world.species[kind].inertia_par / world.species[kind].inertia_perp;
     const double tau = static_cast<double>(left.tick - flight.since) * left.system.dt;
-    rods.poses.push_back(pose_after(flight, tau, left.system.gravity));
-    rods.motions.push_back(motion_after(flight, tau, left.system.gravity, rods.poses.back().director, ratio));
+    rods.poses.push_back(pose_after(flight, tau, gravity));
+    rods.motions.push_back(motion_after(flight, tau, gravity, rods.poses.back().director, ratio));
   }
   return rods;
 }

@@ -11,6 +11,7 @@
 
 #include "base/core/box.h"
 #include "base/core/types.h"
+#include "sim/gravity.h"
 
 namespace shaken {
 
@@ -174,6 +175,22 @@ struct Posts {
   friend bool operator==(const Posts&, const Posts&) = default;
 };
 
+/// A vibration of the plates along z beside the first: a2 cos(2 pi f2 t + phi2). It is that of the base, and of a lid
+/// that moves with it.
+struct SecondVibration {
+  double amplitude = 0.01;   ///< a2 [mm]
+  double frequency = 400.0;  ///< f2 [Hz]
+  double phase = 0.0;        ///< phi2, of the second at the instant at which the first is at its highest [degrees]
+  friend bool operator==(const SecondVibration&, const SecondVibration&) = default;
+};
+
+/// A lid that does not move with the base: d cos(2 pi f t + phi) about its mean height, at the plates' frequency f.
+struct LidMotion {
+  double amplitude = 0.0;  ///< d; 0: at rest [mm]
+  double phase = 0.0;      ///< how far it is ahead of the base [degrees]
+  friend bool operator==(const LidMotion&, const LidMotion&) = default;
+};
+
 /// After what the plane repeats itself along x and along y [mm]; 0 where side walls end it.
 inline Vec2 period_of(const Box& box, const std::optional<SideWalls>& walls) {
   if (!walls) return box.sides();
@@ -195,9 +212,13 @@ struct System {
   double horizontal_amplitude = 0.0;  ///< b, of their vibration in the plane, at the same frequency [mm]
   double horizontal_phase = 0.0;      ///< how far that is ahead of the vibration along z [degrees]
   double horizontal_angle = 0.0;      ///< of its direction to the x axis [degrees]
-  double gravity = 9810.0;            ///< g, downwards [mm/s^2]
-  bool base = true;                   ///< whether there is a plate below
-  bool lid = true;                    ///< whether there is one above
+  std::optional<SecondVibration> second;
+  std::optional<LidMotion> lid_motion;
+  double gravity = 9810.0;         ///< g, downwards [mm/s^2]
+  double inclination = 0.0;        ///< of the plates to the horizontal [degrees]
+  double inclination_angle = 0.0;  ///< of the direction down the slope to the x axis [degrees]
+  bool base = true;                ///< whether there is a plate below
+  bool lid = true;                 ///< whether there is one above
   std::optional<SideWalls> walls;
   std::optional<Posts> posts;
 
@@ -228,17 +249,26 @@ struct System {
   /// Species `number` is there: the first always, others where they are added.
   bool has_species(std::size_t number) const { return number == 0 || added[number - 1].has_value(); }
   bool has_horizontal_vibration() const { return horizontal_amplitude > 0 && frequency > 0 && (base || lid); }
+  bool has_second_vibration() const {
+    return second && second->amplitude > 0 && second->frequency > 0 && (base || lid);
+  }
+  /// The lid does not move as the base does.
+  bool has_lid_motion() const { return lid && lid_motion && *lid_motion != LidMotion{amplitude, 0.0}; }
   /// There are plates, and they move.
   bool has_moving_plates() const {
-    return (amplitude > 0 || horizontal_amplitude > 0) && frequency > 0 && (base || lid);
+    const bool moves = amplitude > 0 || horizontal_amplitude > 0 || (has_lid_motion() && lid_motion->amplitude > 0);
+    return (moves && frequency > 0 && (base || lid)) || has_second_vibration();
   }
-  /// The largest acceleration of the plates along z [mm/s^2].
+  /// The largest acceleration of the base along z; of two vibrations that of both at once [mm/s^2].
   double peak_acceleration() const {
-    const double angular_frequency = 2.0 * kPi * frequency;
-    return amplitude * angular_frequency * angular_frequency;
+    const auto peak = [](double a, double f) { return a * (2.0 * kPi * f) * (2.0 * kPi * f); };
+    return peak(amplitude, frequency) + (second ? peak(second->amplitude, second->frequency) : 0.0);
   }
+  bool has_inclination() const { return inclination > 0 && gravity > 0; }
+  /// In the frame of the plates.
+  Gravity gravity_on_plates() const;
   /// The base is too weak to throw rods, which come to rest on it.
-  bool lets_rods_rest() const { return base && peak_acceleration() < gravity; }
+  bool lets_rods_rest() const { return base && peak_acceleration() < gravity_on_plates().down; }
   bool has_rotational_noise() const { return rotational_noise > 0; }
   bool has_impacts_at_instant() const { return impacts == ImpactTime::kAtInstant; }
   Box box() const { return Box::of_aspect(box_side, box_aspect); }

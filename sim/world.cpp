@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/core/rng.h"
+#include "base/core/sincos.h"
 #include "sim/rod/sizes.h"
 
 namespace shaken {
@@ -25,6 +26,17 @@ std::vector<std::uint8_t> draw_shapes(const std::vector<Component>& components, 
 
 }  // namespace
 
+Gravity System::gravity_on_plates() const {
+  Gravity on_plates(gravity);
+  if (!has_inclination()) return on_plates;
+  const SinCos slope = sincos(inclination * (kPi / 180.0));
+  const SinCos direction = sincos(inclination_angle * (kPi / 180.0));
+  on_plates.down = gravity * slope.cos;
+  on_plates.along = gravity * slope.sin * Vec2(direction.cos, direction.sin);
+  on_plates.is_inclined = true;
+  return on_plates;
+}
+
 World empty_world(const System& system) {
   World world;
   world.system = system;
@@ -34,9 +46,7 @@ World empty_world(const System& system) {
     world.species_of_shape.push_back(one.species);
   }
   world.shape_of_rod = draw_shapes(components, system.seed);
-  world.plates = PlateMotion(
-      system.amplitude, system.frequency, system.gap, system.dt,
-      {system.horizontal_amplitude, system.horizontal_phase * (kPi / 180.0), system.horizontal_angle * (kPi / 180.0)});
+  world.plates = PlateMotion(system);
   return world;
 }
 
@@ -54,6 +64,7 @@ Snapshot snapshot(const World& world) {
   out.time = static_cast<double>(world.tick) * world.system.dt;
   out.box = world.system.box();
   const std::size_t n = world.rods.size();
+  const Gravity gravity = world.system.gravity_on_plates();
   out.position.reserve(n);
   out.image.reserve(n);
   out.director.reserve(n);
@@ -63,9 +74,8 @@ Snapshot snapshot(const World& world) {
     const Flight& flight = world.rods[i];
     const Species& species = world.species_of(i);
     const double tau = static_cast<double>(world.tick - flight.since) * world.system.dt;
-    Pose pose = pose_after(flight, tau, world.system.gravity);
-    const Motion motion =
-        motion_after(flight, tau, world.system.gravity, pose.director, species.inertia_par / species.inertia_perp);
+    Pose pose = pose_after(flight, tau, gravity);
+    const Motion motion = motion_after(flight, tau, gravity, pose.director, species.inertia_par / species.inertia_perp);
     auto image = flight.image;
     wrap(pose.position.x(), image[0], out.box.x());
     wrap(pose.position.y(), image[1], out.box.y());

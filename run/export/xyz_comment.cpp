@@ -6,6 +6,9 @@
 #include <cctype>
 #include <nlohmann/json.hpp>
 
+#include "scene/load.h"
+#include "sim/motion/plates.h"
+
 namespace shaken::run {
 namespace {
 
@@ -18,10 +21,8 @@ std::string pbc_of(const Cell& cell) {
 }  // namespace
 
 double swept_height(const TrajectoryHeader& header) {
-  const auto scene = nlohmann::json::parse(header.scene_json, nullptr, false);
-  const auto amplitude = nlohmann::json::json_pointer("/plates/amplitude");
-  if (scene.is_discarded() || !scene.contains(amplitude) || !scene[amplitude].is_number()) return header.cell.gap;
-  return header.cell.gap + 2 * scene[amplitude].get<double>();
+  const auto plan = scene::load_scene(header.scene_json, "the scene");
+  return plan ? PlateMotion::without_ticks(plan->system).highest_lid() : header.cell.gap;
 }
 
 XyzComment::XyzComment(const TrajectoryHeader& header, const std::string& properties)

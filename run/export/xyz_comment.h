@@ -8,8 +8,8 @@
 
 namespace shaken::run {
 
-/// Height that the plates sweep: the gap and twice the amplitude, so that no rod is ever above it. The gap alone if the
-/// header knows no amplitude. [mm]
+/// Height that the plates sweep, so that no rod is ever above it. The gap alone if the header's scene is not known
+/// here. [mm]
 double swept_height(const TrajectoryHeader& header);
 
 /// The comment lines of frames in extended XYZ, whose columns are `properties`.

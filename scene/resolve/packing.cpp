@@ -124,15 +124,20 @@ void check_box(Resolution& scene) {
 
 void check_gap(Resolution& scene) {
   System& system = scene.plan.system;
+  const double gap = least_gap_of(system);
   for (const RodGroup& group : rod_groups(system)) {
     const Paths diameters{group.path("mid_diameter"), group.path("end_diameter"), group.path("bead_diameters"),
                           group.path("length_spread"), group.path("end_diameter_spread")};
     double thickest = 0;
     for (const RodShape& size : sizes_of(group.rod)) thickest = std::max(thickest, thickest_bead(size));
-    if (!scene.ok({"box.gap"}) || !scene.ok(diameters) || system.gap > thickest) continue;
-    scene.report(
-        {"box.gap", diameters[0], diameters[1], diameters[2], diameters[3], diameters[4]},
-        fmt::format("a gap of {} is too small for rods {} thick", length_text(system.gap), length_text(thickest)));
+    if (!scene.ok({"box.gap"}) || !scene.ok(diameters) || gap > thickest) continue;
+    const std::string moving =
+        system.has_lid_motion()
+            ? fmt::format(", of which the plates leave {} where they are nearest,", length_text(gap))
+            : std::string();
+    scene.report({"box.gap", diameters[0], diameters[1], diameters[2], diameters[3], diameters[4]},
+                 fmt::format("a gap of {}{} is too small for rods {} thick", length_text(system.gap), moving,
+                             length_text(thickest)));
   }
 }
 

@@ -86,4 +86,11 @@ void check_horizontal_vibration(Resolution& scene) {
   if (system.posts) refuse("posts", "posts");
 }
 
+void check_lid_motion(Resolution& scene) {
+  const System& system = scene.plan.system;
+  if (!system.lid_motion || system.lid || !scene.ok({"plates.lid"})) return;
+  scene.report({"plates.lid_motion", "plates.lid"},
+               "there is no lid that could move: remove plates.lid_motion, or set plates.lid to true");
+}
+
 }  // namespace shaken::scene

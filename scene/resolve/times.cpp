@@ -51,11 +51,16 @@ void resolve_accuracy(Resolution& scene) {
 bool check_step(Resolution& scene) {
   if (!scene.ok({"plates.frequency", "plates.gamma", "plates.amplitude"})) return false;
   const System& system = scene.plan.system;
-  if (system.dt * system.frequency * kLeastTicksPerPeriod <= 1) return true;
-  return scene.refuse({"time.step", "accuracy", "plates.frequency", "plates.amplitude"},
-                      fmt::format("a step of {} is too long for plates at {}: at most {}", time_text(system.dt),
-                                  format_quantity(system.frequency, Dimension::kFrequency),
-                                  time_text(1 / (kLeastTicksPerPeriod * system.frequency))));
+  const auto is_fine = [&](double frequency) { return system.dt * frequency * kLeastTicksPerPeriod <= 1; };
+  const auto refuse = [&](const char* key, double frequency) {
+    return scene.refuse({"time.step", "accuracy", key, "plates.amplitude"},
+                        fmt::format("a step of {} is too long for plates at {}: at most {}", time_text(system.dt),
+                                    format_quantity(frequency, Dimension::kFrequency),
+                                    time_text(1 / (kLeastTicksPerPeriod * frequency))));
+  };
+  if (!is_fine(system.frequency)) return refuse("plates.frequency", system.frequency);
+  if (!system.second || !scene.ok({"plates.second.frequency"}) || is_fine(system.second->frequency)) return true;
+  return refuse("plates.second.frequency", system.second->frequency);
 }
 
 void check_plates_in_a_tick(Resolution& scene) {

@@ -46,7 +46,8 @@ SHAKEN_INLINE F safe_time_off_base(const Constants& k, const F& gap, const F& ra
 
 /// The plates as each lane sees them.
 struct PlatesAt {
-  alignas(64) float base[kLanes], lid[kLanes], velocity[kLanes];
+  alignas(64) float base[kLanes], lid[kLanes], velocity[kLanes], velocity_apart[kLanes];
+  const float* lid_velocity;  ///< one of the two: of a lid that moves with the base, or by itself
 };
 
 /// Adds to `safe` (in ticks) what is safe from there on.
@@ -68,24 +69,27 @@ struct PlateKernel {
     const float h = k.half_length;
     const F velocity = lanes::load<W>(rods.velocity + l);
     const F n_z_rate = lanes::load<W>(rods.n_z_rate + l);
-    const F plate_velocity = lanes::load<W>(plates.velocity + l);
+    const F base_velocity = lanes::load<W>(plates.velocity + l);
+    const F lid_velocity = lanes::load<W>(plates.lid_velocity + l);
     const F base = lanes::load<W>(plates.base + l);
     const F lid = lanes::load<W>(plates.lid + l);
     const F ticks = lanes::load<W>(safe + l);
     const F t = ticks * k.dt;
 
     const F height = lanes::load<W>(rods.z + l) + (velocity - 0.5F * k.gravity * t) * t;
-    const F rise = velocity - k.gravity * t - plate_velocity;
+    const F upwards = velocity - k.gravity * t;
     const F rate2 = lanes::load<W>(rods.rate2 + l);
     const F n_z = lanes::load<W>(rods.n_z + l) + n_z_rate * t;
     const F speed = lanes::abs(velocity) + k.gravity * t;  // what it flies up and falls down again is rounded, too
     const F gap_margin = margins::kPlateLength * (1.0F + h + lanes::abs(height) + lanes::abs(lid) + speed * t);
-    const F rate_margin =
-        margins::kPlateSpeed + margins::kPlateRate * (speed + lanes::abs(plate_velocity) + h * lanes::abs(n_z_rate));
+    const F rates = speed + h * lanes::abs(n_z_rate);
+    const auto rate_margin = [&](const F& plate_velocity) {
+      return margins::kPlateSpeed + margins::kPlateRate * (rates + lanes::abs(plate_velocity));
+    };
     const F above = height - base - gap_margin;  // centre above the base
     const F below = lid - height - gap_margin;   // centre below the lid
-    const F up = rise - rate_margin;
-    const F down = -rise - rate_margin;
+    const F up = upwards - base_velocity - rate_margin(base_velocity);
+    const F down = lid_velocity - upwards - rate_margin(lid_velocity);
     F time = lanes::all<W>(k.horizon * k.dt);
     for (int b = 0; b < k.n_beads; ++b) {
       const OuterBead& bead = k.beads[b];
@@ -122,8 +126,8 @@ void plate_safe_ticks(const Species& species, const PlateMotion& plates, const P
   k.half_length = static_cast<float>(species.half_length);
   k.gravity = static_cast<float>(gravity);
   k.pull_base = static_cast<float>((plates.peak_acceleration() + gravity) * (1.0 + margins::kPlateConstants));
-  k.pull_lid = static_cast<float>((plates.peak_acceleration() - gravity) +
-                                  margins::kPlateConstants * (plates.peak_acceleration() + gravity));
+  k.pull_lid = static_cast<float>((plates.peak_lid_acceleration() - gravity) +
+                                  margins::kPlateConstants * (plates.peak_lid_acceleration() + gravity));
   k.dt = static_cast<float>(dt);
   k.per_dt = static_cast<float>((1.0 - static_cast<double>(margins::kTime)) / dt);
   k.horizon = static_cast<float>(horizon);
@@ -132,10 +136,13 @@ void plate_safe_ticks(const Species& species, const PlateMotion& plates, const P
   constexpr int kSteps = 3;
   alignas(64) float ticks[kLanes] = {};
   PlatesAt at;
+  const bool moves_apart = plates.lid_moves_apart();
+  at.lid_velocity = moves_apart ? at.velocity_apart : at.velocity;
   const auto see = [&](int l, const PlateState& plate) {
     at.base[l] = static_cast<float>(plate.base);
     at.lid[l] = static_cast<float>(plate.lid);
     at.velocity[l] = static_cast<float>(plate.velocity);
+    if (moves_apart) at.velocity_apart[l] = static_cast<float>(plate.lid_velocity);
   };
   const PlateState first = plates.at(now);
   for (int l = 0; l < kLanes; ++l) see(l, first);

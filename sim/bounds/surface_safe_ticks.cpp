@@ -35,8 +35,8 @@ void off_surface_ticks(std::span<const int> rods, const World& world, const std:
           static_cast<float>(flight.precession.x() * pose.director.y() - flight.precession.y() * pose.director.x());
       lanes.rate2[lane] = static_cast<float>(flight.rate * flight.rate);
     }
-    plate_safe_ticks(species, world.plates, lanes, static_cast<int>(rods.size()), rules.gravity, rules.dt, now, horizon,
-                     ticks, {rules.has_base, rules.has_lid, rules.rest});
+    plate_safe_ticks(species, world.plates, lanes, static_cast<int>(rods.size()), rules.gravity.down, rules.dt, now,
+                     horizon, ticks, {rules.has_base, rules.has_lid, rules.rest});
   }
   if (rules.impacts_at_instant) {
     // An impact on one bead may have pressed another deeper into a plate than it was found, though it recedes: the next
@@ -48,12 +48,14 @@ void off_surface_ticks(std::span<const int> rods, const World& world, const std:
     }
   }
   if (!rules.has_uprights()) return;
+  const double pull = rules.gravity.along_size();
   for (std::size_t lane = 0; lane < rods.size(); ++lane) {
     const Pose& pose = at_tick[rods[lane]].pose;
-    const Flight& flight = world.rods[rods[lane]];
+    Flight flight = world.rods[rods[lane]];
+    if (pull > 0) flight.velocity = velocity_at(flight, now, rules);
     double time = static_cast<double>(horizon) * rules.dt;
-    if (rules.walls) time = wall_safe_time(*rules.walls, rules.box, species, pose, flight, time);
-    if (rules.posts) time = post_safe_time(*rules.posts, rules.box, species, pose, flight, time);
+    if (rules.walls) time = wall_safe_time(*rules.walls, rules.box, species, pose, flight, time, pull);
+    if (rules.posts) time = post_safe_time(*rules.posts, rules.box, species, pose, flight, time, pull);
     ticks[lane] = std::min(ticks[lane], static_cast<Tick>(time / rules.dt * (1.0 - margins::kWallTime)));
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "base/core/types.h"
@@ -18,7 +19,18 @@ struct BeadContact {
 
 /// Squared distance of two segments: centres 0 and D, unit directions, half-lengths [mm^2].
 /// Source: closest points by clamped minimisation (Ericson 2005, section 5.1.9); parallel segments included.
-double segment_distance_squared(const Vec3& D, const Vec3& n_i, double h_i, const Vec3& n_j, double h_j);
+[[gnu::always_inline]] inline double segment_distance_squared(const Vec3& D, const Vec3& n_i, double h_i,
+                                                              const Vec3& n_j, double h_j) {
+  // minimise |D + t n_j - s n_i|^2 over |s| <= h_i, |t| <= h_j
+  const double c = n_i.dot(n_j);
+  const double d_i = D.dot(n_i);
+  const double d_j = D.dot(n_j);
+  const double det = 1.0 - c * c;
+  double s = det > 1e-12 ? std::clamp((d_i - c * d_j) / det, -h_i, h_i) : std::clamp(d_i, -h_i, h_i);
+  const double t = std::clamp(c * s - d_j, -h_j, h_j);
+  s = std::clamp(d_i + c * t, -h_i, h_i);
+  return (D + t * n_j - s * n_i).squaredNorm();
+}
 
 /// Some beads of a rod, one after the other.
 struct BeadRange {

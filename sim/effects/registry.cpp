@@ -22,7 +22,7 @@ std::int64_t n_rods(const World& world) { return static_cast<std::int64_t>(world
 
 // --- what every rod does
 
-struct Gravity {
+struct Falling {
   static bool is_on(const System& system) { return system.gravity > 0; }
   static std::string why(const System& system) { return setting("gravity", system.gravity, " mm/s^2"); }
   static std::int64_t work(const World& world) { return world.tick * n_rods(world); }
@@ -50,6 +50,38 @@ struct HorizontalVibration {
   }
   static std::int64_t work(const World& world) { return Vibration::work(world); }
   static void switch_off(System& system) { system.horizontal_amplitude = 0; }
+};
+
+struct SecondVibrationOfPlates {
+  static bool is_on(const System& system) { return system.has_second_vibration(); }
+  static std::string why(const System& system) {
+    const SecondVibration second = system.second.value_or(SecondVibration{0, 0, 0});
+    return setting("plates.second.amplitude", second.amplitude, " mm, ") +
+           setting("plates.second.frequency", second.frequency, " Hz");
+  }
+  static std::int64_t work(const World& world) {
+    const double time = static_cast<double>(world.tick) * world.system.dt;
+    return static_cast<std::int64_t>(std::floor(time * world.system.second->frequency));
+  }
+  static void switch_off(System& system) { system.second.reset(); }
+};
+
+struct LidByItself {
+  static bool is_on(const System& system) { return system.has_lid_motion(); }
+  static std::string why(const System& system) {
+    if (!system.lid_motion) return "no plates.lid_motion";
+    return setting("plates.lid_motion.amplitude", system.lid_motion->amplitude, " mm, ") +
+           setting("plates.lid_motion.phase", system.lid_motion->phase, " degrees");
+  }
+  static std::int64_t work(const World& world) { return world.counters.impulses_rod_lid; }
+  static void switch_off(System& system) { system.lid_motion.reset(); }
+};
+
+struct Inclination {
+  static bool is_on(const System& system) { return system.has_inclination(); }
+  static std::string why(const System& system) { return setting("plates.inclination", system.inclination, " degrees"); }
+  static std::int64_t work(const World& world) { return world.tick * n_rods(world); }
+  static void switch_off(System& system) { system.inclination = 0; }
 };
 
 struct Tilt {
@@ -421,9 +453,12 @@ constexpr Effect line(std::string_view name, std::string_view unit, std::string_
 }
 
 constexpr std::array kEffects{
-    line<Gravity>("gravity", "rod_ticks", "Rods fall."),
+    line<Falling>("gravity", "rod_ticks", "Rods fall."),
     line<Vibration>("vibration", "periods", "Both plates vibrate."),
     line<HorizontalVibration>("horizontal_vibration", "periods", "Both plates vibrate in the plane too."),
+    line<SecondVibrationOfPlates>("second_vibration", "periods", "The plates have a second vibration."),
+    line<LidByItself>("lid_motion", "impulses", "The lid does not move with the base."),
+    line<Inclination>("inclination", "rod_ticks", "Inclined plates: gravity has a part along them."),
     line<Tilt>("tilt", "rod_ticks", "Rods leave the plane and tilt out of it."),
     line<SeveralSpecies>("species", "rods", "Rods of other species beside the first."),
     line<Polydispersity>("polydispersity", "rods", "Rods of one species differ in size."),

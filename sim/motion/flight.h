@@ -8,6 +8,7 @@
 #include "base/core/box.h"
 #include "base/core/sincos.h"
 #include "base/core/types.h"
+#include "sim/gravity.h"
 #include "sim/rod/species.h"
 
 namespace shaken {
@@ -57,21 +58,36 @@ struct Flight {
   }
 };
 
-/// Pose after `tau` seconds of flight under gravity `g` [mm/s^2].
-inline Pose pose_after(const Flight& flight, double tau, double g) {
+/// Pose after `tau` seconds of flight under gravity.
+[[gnu::always_inline]] inline Pose pose_after(const Flight& flight, double tau, const Gravity& gravity) {
   Pose pose;
   pose.position = flight.position + flight.velocity * tau;
-  pose.position.z() -= 0.5 * g * tau * tau;
+  pose.position.z() -= 0.5 * gravity.down * tau * tau;
+  if (gravity.is_inclined) [[unlikely]] {
+    pose.position.x() += 0.5 * gravity.along.x() * tau * tau;
+    pose.position.y() += 0.5 * gravity.along.y() * tau * tau;
+  }
   const SinCos turn = sincos(flight.rate * tau);
   pose.director = flight.along + turn.cos * flight.across + turn.sin * flight.turned;
   return pose;
 }
 
+/// Velocity of the centre after `tau` seconds of flight [mm/s].
+[[gnu::always_inline]] inline Vec3 velocity_after(const Flight& flight, double tau, const Gravity& gravity) {
+  Vec3 velocity = flight.velocity;
+  velocity.z() -= gravity.down * tau;
+  if (gravity.is_inclined) [[unlikely]] {
+    velocity.x() += gravity.along.x() * tau;
+    velocity.y() += gravity.along.y() * tau;
+  }
+  return velocity;
+}
+
 /// Motion after `tau` seconds of flight, where the director has become `director`.
-inline Motion motion_after(const Flight& flight, double tau, double g, const Vec3& director, double inertia_ratio) {
+[[gnu::always_inline]] inline Motion motion_after(const Flight& flight, double tau, const Gravity& gravity,
+                                                  const Vec3& director, double inertia_ratio) {
   Motion motion;
-  motion.velocity = flight.velocity;
-  motion.velocity.z() -= g * tau;
+  motion.velocity = velocity_after(flight, tau, gravity);
   motion.angular_velocity = flight.precession + (1.0 - inertia_ratio) * flight.spin * director;
   return motion;
 }

@@ -95,10 +95,10 @@ bool is_clear_of_posts(const PostGrid& posts, const Species& species, const Pose
 }
 
 double post_safe_time(const PostGrid& posts, const Box& box, const Species& species, const Pose& pose,
-                      const Flight& flight, double horizon) {
+                      const Flight& flight, double horizon, double pull) {
   const Vec2 center = in_plane(pose.position), velocity = in_plane(flight.velocity);
   const double margin = 1e-9 * (1.0 + box.longer() + center.cwiseAbs().maxCoeff());
-  const double fastest = velocity.norm() + species.half_length * flight.rate;  // of its beads
+  const double fastest = velocity.norm() + pull * horizon + species.half_length * flight.rate;  // of its beads
   double time = fastest * horizon > posts.spacing() ? posts.spacing() / fastest : horizon;
 
   const Vec2 along = in_plane(pose.director);
@@ -113,7 +113,8 @@ double post_safe_time(const PostGrid& posts, const Box& box, const Species& spec
     if (gap > fastest * time) return;
     for (int b = 0; b < species.n_beads(); ++b) {
       const double s = species.bead_offset[b];
-      const BeadByPost bead{from + s * along, velocity + s * turning, 0.5 * std::abs(s) * flight.rate * flight.rate};
+      const BeadByPost bead{from + s * along, velocity + s * turning,
+                            0.5 * (std::abs(s) * flight.rate * flight.rate + pull)};
       time = time_to_post(bead, posts.radius() + species.bead_radius[b] + margin, time);
     }
   });

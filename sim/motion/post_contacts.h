@@ -32,6 +32,6 @@ double overlap_with_posts(const PostGrid& posts, const Species& species, const P
 /// it has flown so far, it meets no other. Numerics: posts are taken to be thicker by a margin for rounding, 1e-9
 /// of the lengths that places are given by.
 double post_safe_time(const PostGrid& posts, const Box& box, const Species& species, const Pose& pose,
-                      const Flight& flight, double horizon);
+                      const Flight& flight, double horizon, double pull = 0);
 
 }  // namespace shaken

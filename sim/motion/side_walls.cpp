@@ -156,10 +156,10 @@ bool may_touch_walls(const SideWalls& walls, const Box& box, const Species& spec
 }
 
 double wall_safe_time(const SideWalls& walls, const Box& box, const Species& species, const Pose& pose,
-                      const Flight& flight, double horizon) {
+                      const Flight& flight, double horizon, double pull) {
   const double margin = margin_for_rounding(box);
   const Vec2 velocity(flight.velocity.x(), flight.velocity.y());
-  const double fastest = velocity.norm() + species.half_length * flight.rate;  // of its beads
+  const double fastest = velocity.norm() + pull * horizon + species.half_length * flight.rate;  // of its beads
   const double gap = distance_to_walls(walls, box, pose.position) - species.half_length - species.max_radius;
   if (gap - margin > fastest * horizon) return horizon;
 
@@ -168,7 +168,7 @@ double wall_safe_time(const SideWalls& walls, const Box& box, const Species& spe
   const auto path_of = [&](int bead) {
     const double offset = species.bead_offset[bead];
     return BeadPath{axis.at(offset), velocity + offset * Vec2(turning.x(), turning.y()),
-                    0.5 * std::abs(offset) * flight.rate * flight.rate};
+                    0.5 * (std::abs(offset) * flight.rate * flight.rate + pull)};
   };
   double time = horizon;
   for (const int b : species.outer_beads) {

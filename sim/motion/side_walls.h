@@ -50,6 +50,6 @@ bool may_touch_walls(const SideWalls& walls, const Box& box, const Species& spec
 /// An inner wall lies behind its tangent at the point nearest to p, so each bead meets it no earlier than it would meet
 /// a straight wall there. Numerics: all walls are taken to be nearer by a margin for rounding, 1e-9 of the box.
 double wall_safe_time(const SideWalls& walls, const Box& box, const Species& species, const Pose& pose,
-                      const Flight& flight, double horizon);
+                      const Flight& flight, double horizon, double pull = 0);
 
 }  // namespace shaken

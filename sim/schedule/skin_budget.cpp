@@ -20,7 +20,7 @@ void SkinBudget::measure(const NeighborList& list, int rod, const Pose& pose, Ti
 }
 
 Tick SkinBudget::covered_ticks(const NeighborList& list, int rod, const Flight& flight, const Pose& pose,
-                               double half_length, Tick now, double dt, Tick horizon) {
+                               double half_length, Tick now, double dt, Tick horizon, double pull) {
   left_ = left(now, dt) * (1 - margins::kSkinStep);
   at_ = now;
   if (left_ < kLow) measure(list, rod, pose, now);
@@ -31,9 +31,10 @@ Tick SkinBudget::covered_ticks(const NeighborList& list, int rod, const Flight& 
   const Vec3& v = flight.velocity;
   const Vec3& p = flight.precession;
   const double flat2 = n.x() * n.x() + n.y() * n.y();
-  double speed = std::sqrt(v.x() * v.x() + v.y() * v.y());
   double time = static_cast<double>(horizon + 1) * dt;  // a rod at rest has all the time there is
-  if (half_length > 0 && flight.rate > 0) {             // a sphere has no segment
+  double speed = std::sqrt(v.x() * v.x() + v.y() * v.y());
+  if (pull > 0) speed += pull * (static_cast<double>(now - flight.since) * dt + time);
+  if (half_length > 0 && flight.rate > 0) {  // a sphere has no segment
     const double upright = 0.1 * std::sqrt(flat2) / flight.rate - dt;
     if (!(upright > 0)) {  // it may turn any way at once: to be measured at the next tick
       left_ = 0;
@@ -48,13 +49,14 @@ Tick SkinBudget::covered_ticks(const NeighborList& list, int rod, const Flight& 
   return std::min(horizon, static_cast<Tick>(time / dt * (1.0 - margins::kSkinTime)));
 }
 
-void SkinBudget::cover_tick(const Flight& flight, double half_length, Tick now, double dt) {
+void SkinBudget::cover_tick(const Flight& flight, double half_length, Tick now, double dt, double pull) {
   left_ = left(now, dt) * (1 - margins::kSkinStep);
   at_ = now;
   // The segment turns at rate / |n_xy| at most, and |n_xy| changes by the rate: here it stays above a half.
   const Vec3& n = flight.director;
   const bool lies = n.x() * n.x() + n.y() * n.y() > 0.5 && flight.rate * dt < 0.2;
-  const double speed = std::abs(flight.velocity.x()) + std::abs(flight.velocity.y()) + 2.0 * half_length * flight.rate;
+  const double speed =
+      std::abs(flight.velocity.x()) + std::abs(flight.velocity.y()) + 2.0 * half_length * flight.rate + 2.0 * pull * dt;
   speed_ = lies ? static_cast<float>(speed) : 1e30F;  // or else it is measured at the next tick
 }
 

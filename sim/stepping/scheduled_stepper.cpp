@@ -432,6 +432,7 @@ std::optional<NumericalTrouble> ScheduledStepper::check_changed(Tick now) {
 
 void ScheduledStepper::store_changed(World& world, Tick now, Share& share) {
   const auto slow = static_cast<double>(search_.slow());
+  const double pull = rules_.gravity.along_size();
   for (const int i : share.met.hit) {
     Flight& flight = world.rods[i];
     const Vec3 velocity = velocity_at(flight, now, rules_);
@@ -441,7 +442,7 @@ void ScheduledStepper::store_changed(World& world, Tick now, Share& share) {
     const bool displaced = rods_[i].displaced;
     if (displaced) skin_budgets_[i].measure(neighbors_, i, rods_[i].pose, now);
     if (marks_[i].rests_at == now)
-      skin_budgets_[i].cover_tick(flight, rules_.species_of(i).half_length, now, rules_.dt);
+      skin_budgets_[i].cover_tick(flight, rules_.species_of(i).half_length, now, rules_.dt, pull);
     // A rod that was displaced twice is where no flight with one hit led it. One that is fast may come near another
     // image, which the bound on the gap leaves out.
     const bool fast = std::max(std::abs(flight.velocity.x()), std::abs(flight.velocity.y())) >= slow;
@@ -466,6 +467,7 @@ void ScheduledStepper::schedule_rods(const World& world, Tick now, Share& share)
     }
   }
   constexpr Tick kHorizon = TimingWheel::horizon() - 1;
+  const double pull = rules_.gravity.along_size();
   const auto groups = groups_of_rods();
   groups.sort(share.stored.to_schedule);
   share.counts.count(WorkKind::kRodsBounded, std::ssize(share.stored.to_schedule));
@@ -474,8 +476,9 @@ void ScheduledStepper::schedule_rods(const World& world, Tick now, Share& share)
     off_surface_ticks(rods, world, rods_, now, kHorizon, rules_, share.plate_lanes, ticks);
     for (std::size_t lane = 0; lane < rods.size(); ++lane) {
       const int i = rods[lane];
-      const Tick covered = skin_budgets_[i].covered_ticks(neighbors_, i, world.rods[i], rods_[i].pose,
-                                                          rules_.species_of(i).half_length, now, rules_.dt, kHorizon);
+      const Tick covered =
+          skin_budgets_[i].covered_ticks(neighbors_, i, world.rods[i], rods_[i].pose, rules_.species_of(i).half_length,
+                                         now, rules_.dt, kHorizon, pull);
       wheel_.set(i, now + 1 + std::min(ticks[lane], covered), static_cast<int>(share.number));
     }
   });

@@ -64,7 +64,7 @@ inline Impulse frictionless(const Vec3& normal, const Vec3& u, double compliance
 }
 
 /// Flies the rod freely for `seconds`, of either sign, from or to the end of the tick.
-inline void fly(RodAtTick& rod, double seconds, const SpeciesMechanics& species, double gravity) {
+inline void fly(RodAtTick& rod, double seconds, const SpeciesMechanics& species, const Gravity& gravity) {
   Flight flight;
   flight.position = rod.pose.position;
   flight.velocity = rod.motion.velocity;

@@ -33,6 +33,9 @@ constexpr std::string_view kKnownEffects[] = {"gravity",
                                               "rotational_noise",
                                               "impacts_at_instant",
                                               "horizontal_vibration",
+                                              "second_vibration",
+                                              "lid_motion",
+                                              "inclination",
                                               "restitution_speed",
                                               "species_contacts"};
 
@@ -79,7 +82,7 @@ struct PlateHits {
   bool is_hit(int lane, int plate) const { return meets(lane, plate) && of_plate[plate].is_hit[lane] > 0; }
 
   /// Counts the lane's hits.
-  void count(int lane, const Vec3& plate_velocity, Counters& counters) const;
+  void count(int lane, const Vec3& base_velocity, const Vec3& lid_velocity, Counters& counters) const;
   /// The lane's rod after them; its motion only where a bead is in a plate.
   void get(int lane, RodAtTick& rod) const;
   /// The lane's rod before them, and which beads they are going to hit, where impulses are left to others.
@@ -144,14 +147,23 @@ struct PlateHitKernel {
     const SinCosOf<D> turn = sincos_of_small(angle);
     const Triple<D> start_velocity = flights.velocity.load<W>(l);
     Triple<D> position = flights.position.load<W>(l) + tau * start_velocity;
-    position.z -= 0.5 * rules.gravity * tau * tau;
+    const Gravity& gravity = rules.gravity;
+    position.z -= 0.5 * gravity.down * tau * tau;
+    if (gravity.is_inclined) [[unlikely]] {
+      position.x += 0.5 * gravity.along.x() * tau * tau;
+      position.y += 0.5 * gravity.along.y() * tau * tau;
+    }
     const Triple<D> director =
         flights.along.load<W>(l) + turn.cos * flights.across.load<W>(l) + turn.sin * flights.turned.load<W>(l);
     hits.position.store(l, position);
     hits.director.store(l, director);
 
     Triple<D> velocity = start_velocity;
-    velocity.z -= rules.gravity * tau;
+    velocity.z -= gravity.down * tau;
+    if (gravity.is_inclined) [[unlikely]] {
+      velocity.x += gravity.along.x() * tau;
+      velocity.y += gravity.along.y() * tau;
+    }
     const D spin = (1.0 - species.inertia_ratio) * lanes::load<W>(flights.spin + l);
     Triple<D> angular_velocity = flights.precession.load<W>(l) + spin * director;
 
@@ -246,16 +258,15 @@ struct PlateHitKernel {
       angular_velocity = {add(angular_velocity.x, turns.x), add(angular_velocity.y, turns.y),
                           add(angular_velocity.z, turns.z)};
     };
-    const Vec3 moving = rules.plates.velocity(plates);
-    if (rules.has_base) meet_plate({1.0, plates.base, moving, species.base}, hits.of_plate[0]);
-    if (rules.has_lid) meet_plate({-1.0, plates.lid, moving, species.lid}, hits.of_plate[1]);
+    if (rules.has_base) meet_plate({1.0, plates.base, rules.plates.velocity(plates), species.base}, hits.of_plate[0]);
+    if (rules.has_lid) meet_plate({-1.0, plates.lid, rules.plates.lid_velocity(plates), species.lid}, hits.of_plate[1]);
     hits.velocity.store(l, velocity);
     hits.angular_velocity.store(l, angular_velocity);
     lanes::store(hits.is_other + l, other);
   }
 };
 
-void PlateHits::count(int lane, const Vec3& plate_velocity, Counters& counters) const {
+void PlateHits::count(int lane, const Vec3& base_velocity, const Vec3& lid_velocity, Counters& counters) const {
   for (int plate = 0; plate < 2; ++plate) {
     if (!meets(lane, plate)) continue;
     const OfPlate& hit = of_plate[plate];
@@ -264,7 +275,7 @@ void PlateHits::count(int lane, const Vec3& plate_velocity, Counters& counters) 
     ++(plate == 0 ? counters.impulses_rod_base : counters.impulses_rod_lid);
     counters.ledger.lost_surfaces.add(hit.lost[lane]);
     const Vec3 impulse(hit.impulse.x[lane], hit.impulse.y[lane], hit.impulse.z[lane]);
-    counters.ledger.given.add(impulse.dot(plate_velocity));
+    counters.ledger.given.add(impulse.dot(plate == 0 ? base_velocity : lid_velocity));
     for (std::size_t c = 0; c < 3; ++c) counters.ledger.momentum[c].add(impulse[static_cast<Eigen::Index>(c)]);
   }
 }
@@ -331,7 +342,8 @@ LeftByLanes meet_plates_in_lanes(std::span<const int> rods, const std::vector<Fl
   for (PlateHits::OfPlate& of_plate : hits.of_plate) std::fill_n(of_plate.overlap, kDoubleLanes, 0.0);
   const SpeciesMechanics& species = rules.species_of(rods.front());
   const bool gives_impulses = are_usual(rules, species);
-  const Vec3 plate_velocity = rules.plates.velocity(plates);
+  const Vec3 base_velocity = rules.plates.velocity(plates);
+  const Vec3 lid_velocity = rules.plates.lid_velocity(plates);
   if (gives_impulses) {
     lanes::with_widest_doubles(PlateHitKernel<true>{species, rules, plates, in, since, n, hits});
   } else {
@@ -345,7 +357,7 @@ LeftByLanes meet_plates_in_lanes(std::span<const int> rods, const std::vector<Fl
       left.all |= 1U << lane;
     } else if (gives_impulses) {
       hits.get(lane, rod);
-      hits.count(lane, plate_velocity, counters);
+      hits.count(lane, base_velocity, lid_velocity, counters);
     } else {
       hits.get_before(lane, rod);
       if (!rod.has_motion) continue;

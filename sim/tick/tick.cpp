@@ -46,7 +46,7 @@ void set_contacts(const System& system, std::span<const std::uint8_t> species_of
 
 TickRules::TickRules(const World& world)
     : shape_of_rod(world.shape_of_rod),
-      gravity(world.system.gravity),
+      gravity(world.system.gravity_on_plates()),
       dt(world.system.dt),
       box(world.system.box()),
       impulse(impulse_function(world.system.law)),
@@ -63,7 +63,7 @@ TickRules::TickRules(const World& world)
   if (world.system.posts) posts.emplace(standing_posts(world.system), box, period_of(box, walls));
   set_contacts(world.system, world.species_of_shape, species);
   max_speed2 = max_speed(world) * max_speed(world);
-  if (world.system.lets_rods_rest()) rest = {0.5 * gravity * dt, kRiseRate};
+  if (world.system.lets_rods_rest()) rest = {0.5 * gravity.down * dt, kRiseRate};
 }
 
 NumericalTrouble motion_trouble(int index, const RodAtTick& rod, Tick now, const TickRules& rules) {

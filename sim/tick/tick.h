@@ -64,7 +64,7 @@ struct TickRules {
 
   std::vector<SpeciesMechanics> species;   ///< (n_shapes) each size of each species
   std::vector<std::uint8_t> shape_of_rod;  ///< (n_rods)
-  double gravity;
+  Gravity gravity;
   double dt;
   Box box;                  ///< sides along x and y [mm]
   ImpulseFunction impulse;  ///< of contacts with friction
@@ -112,9 +112,7 @@ inline RodAtTick rod_at_tick(const Flight& flight, Tick now, const TickRules& ru
 
 /// Velocity of the rod's centre at the tick [mm/s].
 inline Vec3 velocity_at(const Flight& flight, Tick now, const TickRules& rules) {
-  Vec3 velocity = flight.velocity;
-  velocity.z() -= rules.gravity * (static_cast<double>(now - flight.since) * rules.dt);
-  return velocity;
+  return velocity_after(flight, static_cast<double>(now - flight.since) * rules.dt, rules.gravity);
 }
 
 /// Makes the rod's motion at the tick available.

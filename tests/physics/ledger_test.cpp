@@ -55,6 +55,19 @@ INSTANTIATE_TEST_SUITE_P(
                            s.horizontal_phase = 70;
                            s.horizontal_angle = 30;
                          }},
+                    Case{"SecondVibration",
+                         [](System& s) {
+                           s.second = SecondVibration{0.02, 317.0, 40.0};
+                         }},
+                    Case{"LidByItself",
+                         [](System& s) {
+                           s.lid_motion = LidMotion{0.06, 120.0};
+                         }},
+                    Case{"Inclined",
+                         [](System& s) {
+                           s.inclination = 20;
+                           s.inclination_angle = 30;
+                         }},
                     Case{"AtInstant", [](System& s) { s.impacts = ImpactTime::kAtInstant; }},
                     Case{"EnergeticLaw",
                          [](System& s) {

@@ -263,6 +263,55 @@ INSTANTIATE_TEST_SUITE_P(
                            s.law = ImpulseLaw::kEnergetic;
                            s.impacts = ImpactTime::kAtInstant;
                          }},
+                    Case{"SecondVibration",
+                         [](System& s) {
+                           s.second = SecondVibration{0.02, 317.0, 40.0};
+                         }},
+                    Case{"SecondVibrationAtInstant",
+                         [](System& s) {
+                           s.second = SecondVibration{0.03, 400.0, 90.0};
+                           s.impacts = ImpactTime::kAtInstant;
+                         }},
+                    Case{"LidAtRest", [](System& s) { s.lid_motion = LidMotion{}; }},
+                    Case{"LidByItselfAtInstant",
+                         [](System& s) {
+                           s.lid_motion = LidMotion{0.08, 150.0};
+                           s.second = SecondVibration{0.01, 317.0, 0.0};
+                           s.rotational_noise = 0.1;
+                           s.impacts = ImpactTime::kAtInstant;
+                         }},
+                    Case{"LidAloneMoves",
+                         [](System& s) {
+                           s.amplitude = 0;
+                           s.lid_motion = LidMotion{0.1, 0.0};
+                         },
+                         0.5, 3000},
+                    Case{"Inclined",
+                         [](System& s) {
+                           s.inclination = 3;
+                           s.inclination_angle = 40;
+                         }},
+                    Case{"SteepInAChannelWithPosts",
+                         [](System& s) {
+                           s.inclination = 60;
+                           s.walls = SideWalls{.arena = Arena::kChannel, .size = 11, .contact = {0.1, 0.5}};
+                           s.posts = Posts{.diameter = 2.0, .columns = 4, .rows = 2, .contact = {0.1, 0.5}};
+                           s.box_aspect = 0.75;
+                           s.n_rods = 30;
+                         }},
+                    Case{"SteepInADiscAtInstant",
+                         [](System& s) {
+                           s.inclination = 90;
+                           s.inclination_angle = -70;
+                           s.walls = SideWalls{Arena::kDisc, 14.0};
+                           s.n_rods = 30;
+                           s.impacts = ImpactTime::kAtInstant;
+                         }},
+                    Case{"SteepWithoutFriction",
+                         [](System& s) {
+                           s.inclination = 45;
+                           s.rod_base.friction = s.rod_lid.friction = 0;
+                         }},
                     Case{"RestitutionOfSpeed",
                          [](System& s) {
                            s.rod_rod.restitution_speed = 20;
@@ -353,6 +402,16 @@ System draw_mix() {
     system.horizontal_amplitude = 0.02 * *rc::gen::inRange(1, 10);
     system.horizontal_phase = *rc::gen::inRange(-180, 180);
     system.horizontal_angle = *rc::gen::inRange(-180, 180);
+  }
+  if (*rc::gen::inRange(0, 3) == 0) {
+    system.second = SecondVibration{0.002 * *rc::gen::inRange(1, 20), 10.0 * *rc::gen::inRange(1, 80),
+                                    1.0 * *rc::gen::inRange(-180, 180)};
+  }
+  if (*rc::gen::inRange(0, 3) == 0)
+    system.lid_motion = LidMotion{0.01 * *rc::gen::inRange(0, 10), 1.0 * *rc::gen::inRange(-180, 180)};
+  if (*rc::gen::inRange(0, 3) == 0) {
+    system.inclination = *rc::gen::inRange(1, 91);
+    system.inclination_angle = *rc::gen::inRange(-180, 180);
   }
   if (maybe()) system.rotational_noise = 0.05;
   if (maybe()) system.rod_base.friction = system.rod_lid.friction = 0;

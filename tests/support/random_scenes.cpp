@@ -275,6 +275,25 @@ void draw_horizontal_vibration(std::uint64_t seed, Json& scene) {
   scene["plates"]["horizontal_angle"] = draw.plain(-180, 180);
 }
 
+/// Plates that do more than one vibration, and inclined ones, by numbers of their own.
+void draw_plate_motion(std::uint64_t seed, Json& scene) {
+  SceneDraw draw(seed + 8'000'000'023);
+  const double frequency = scene["plates"]["frequency"].get<double>();
+  if (draw.chance(0.1)) {
+    scene["plates"]["second"] = {{"amplitude", draw.by_size(1e-4, 0.05)},
+                                 {"frequency", to_digits(frequency * draw.plain(0.1, 1.0), 6)},
+                                 {"phase", draw.plain(-180, 180)}};
+  }
+  if (draw.chance(0.1) && scene["plates"].value("lid", true)) {
+    scene["plates"]["lid_motion"] = {{"amplitude", draw.chance(0.3) ? 0.0 : draw.by_size(1e-3, 0.1)},
+                                     {"phase", draw.plain(-180, 180)}};
+  }
+  if (draw.chance(0.1)) {
+    scene["plates"]["inclination"] = draw.chance(0.5) ? draw.plain(0.1, 5) : draw.plain(5, 90);
+    scene["plates"]["inclination_angle"] = draw.plain(-180, 180);
+  }
+}
+
 /// Rods that differ in size, by numbers of their own.
 void draw_spread(std::uint64_t seed, Json& scene) {
   SceneDraw draw(seed + 7'000'000'021);
@@ -354,6 +373,7 @@ SceneCase draw_scene_case(std::uint64_t seed) {
   draw_posts(seed, scene);
   draw_contacts(seed, scene);
   draw_horizontal_vibration(seed, scene);
+  draw_plate_motion(seed, scene);
   draw_spread(seed, scene);
   return one;
 }

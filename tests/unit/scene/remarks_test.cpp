@@ -34,6 +34,28 @@ TEST(Remarks, AreOfWhatIsHardlyMeant) {
               IsEmpty());
 }
 
+// The angle of friction 0.01 is 0.573 degrees.
+TEST(Remarks, NameSlopesThatRodsMaySlideDown) {
+  EXPECT_THAT(
+      remarks(plan_of(R"({"plates": {"inclination": 1}})")),
+      ElementsAre("plates.inclination 1 degrees is steeper than the friction of the plates, whose angle is 0.573 "
+                  "degrees: without walls rods may slide down faster and faster"));
+  for (const char* scene : {R"({"plates": {"inclination": 0.5}})", R"({"plates": {"inclination": 5}, "walls": {}})",
+                            R"({"plates": {"inclination": 5}, "contacts": {"rod_base": {"friction": 0.1}}})"})
+    EXPECT_THAT(remarks(plan_of(scene)), IsEmpty()) << scene;
+}
+
+// Rods come to rest where all that moves the base together is weaker than gravity across it.
+TEST(Remarks, CountBothVibrationsAgainstGravityAcrossThePlates) {
+  EXPECT_THAT(remarks(plan_of(R"({"plates": {"gamma": 0.9, "second": {"amplitude": "10 um", "frequency": 400}}})")),
+              IsEmpty());
+  EXPECT_THAT(remarks(plan_of(R"({"plates": {"gamma": 0.9, "inclination": 30}, "walls": {}})")), IsEmpty());
+  EXPECT_THAT(
+      remarks(plan_of(R"({"plates": {"gamma": 0.4, "inclination": 60}, "walls": {}})")),
+      ElementsAre("the largest acceleration of the base over that of gravity across it is 0.8: below 1 the base "
+                  "never falls faster than the rods, which come to rest on it"));
+}
+
 // Of 40 mm four posts of 9.3 mm leave 0.7 mm between each two, and rods are 0.8 mm thick.
 TEST(Remarks, NamePostsThatNoRodGetsBetween) {
   EXPECT_THAT(remarks(plan_of(R"({"box": {"side": 40}, "posts": {"diameter": 9.3}, "rods": {"count": 4}})")),

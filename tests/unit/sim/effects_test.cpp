@@ -31,6 +31,9 @@ System everything_on() {
   system.rod_lid.own[Contacts::place(0, 2)].restitution_speed = 20.0;
   system.rod_rod.restitution_speed = 50;
   system.horizontal_amplitude = 0.02;
+  system.second = SecondVibration{0.01, 340.0, 50.0};
+  system.lid_motion = LidMotion{0.03, 100.0};
+  system.inclination = 2;
   system.rotational_noise = 0.05;
   system.impacts = ImpactTime::kAtInstant;
   return system;
@@ -65,6 +68,9 @@ const std::map<std::string_view, void (*)(System&)>& neutral_by_hand() {
       {"gravity", [](System& s) { s.gravity = 0.0; }},
       {"vibration", [](System& s) { s.amplitude = 0.0; }},
       {"horizontal_vibration", [](System& s) { s.horizontal_amplitude = 0.0; }},
+      {"second_vibration", [](System& s) { s.second = std::nullopt; }},
+      {"lid_motion", [](System& s) { s.lid_motion = std::nullopt; }},
+      {"inclination", [](System& s) { s.inclination = 0.0; }},
       {"tilt",
        [](System& s) {
          s.base = s.lid = false;

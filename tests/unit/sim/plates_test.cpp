@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace shaken {
 namespace {
@@ -84,13 +86,81 @@ TEST(PlateMotion, WasBeforeWhatItWasAtAnEarlierTick) {
     const PlateMotion plates(amplitude, 137.0, 1.2, dt, {.amplitude = 0.07, .phase = 0.8, .angle = 0.4});
     for (const Tick ago : {0, 1, 50}) {
       const PlateState then = plates.at(4321 - ago);
-      const PlateState found = plates.before(plates.at(4321), static_cast<double>(ago) * dt);
+      const PlateState found = plates.before(4321, static_cast<double>(ago) * dt);
       EXPECT_NEAR(found.base, then.base, 1e-12);
       EXPECT_NEAR(found.velocity, then.velocity, 1e-9);
       EXPECT_NEAR(found.shift, then.shift, 1e-12);
       EXPECT_NEAR(found.slide, then.slide, 1e-9);
     }
   }
+}
+
+/// Plates with a second vibration and, if it is given, a lid that moves by itself.
+System with_two_vibrations(double second_frequency, std::optional<LidMotion> lid) {
+  System system;
+  system.amplitude = 0.05;
+  system.frequency = 125.0;  // 2,000 ticks
+  system.dt = 4e-6;
+  system.second = SecondVibration{0.02, second_frequency, 40.0};
+  system.lid_motion = lid;
+  return system;
+}
+
+// The law in closed form; 250 Hz has a whole number of ticks, 317 Hz has none.
+TEST(PlateMotion, HasASecondVibrationAndALidOfItsOwn) {
+  const double degree = kPi / 180;
+  for (const double f2 : {250.0, 317.0}) {
+    for (const std::optional<LidMotion>& lid :
+         {std::optional<LidMotion>{}, std::optional(LidMotion{0.08, 120.0}), std::optional(LidMotion{0.0, 0.0})}) {
+      const System system = with_two_vibrations(f2, lid);
+      const PlateMotion plates(system);
+      double highest = 0, highest_lid = 0, nearest = INFINITY, lowest = INFINITY, fastest = 0;
+      for (Tick k = 0; k < 20000; k += 7) {
+        const double t = static_cast<double>(k) * system.dt, w = 2 * kPi * 125, w2 = 2 * kPi * f2;
+        const double second = 0.02 * std::cos(w2 * t + 40 * degree),
+                     rate2 = -0.02 * w2 * std::sin(w2 * t + 40 * degree);
+        const double base = 0.05 * (1 + std::cos(w * t)) + 0.02 + second;
+        const double velocity = -0.05 * w * std::sin(w * t) + rate2;
+        const PlateState now = plates.at(k);
+        ASSERT_NEAR(now.base, base, 1e-12) << k;
+        ASSERT_NEAR(now.velocity, velocity, 1e-9) << k;
+        const double angle = lid ? w * t + lid->phase * degree : 0.0;
+        ASSERT_NEAR(now.lid, lid ? 0.05 + 0.02 + system.gap + lid->amplitude * std::cos(angle) : base + system.gap,
+                    1e-12);
+        ASSERT_NEAR(now.lid_velocity, lid ? -lid->amplitude * w * std::sin(angle) : velocity, 1e-9) << k;
+        EXPECT_EQ(plates.lid_velocity(now), Vec3(0, 0, now.lid_velocity));
+        const PlateState later = plates.before(k, -3e-6);  // by a chord
+        ASSERT_NEAR((later.base - now.base) / 3e-6, 0.5 * (later.velocity + now.velocity), 1e-3);
+        ASSERT_NEAR((later.lid - now.lid) / 3e-6, 0.5 * (later.lid_velocity + now.lid_velocity), 1e-3);
+        lowest = std::min(lowest, now.base);
+        highest = std::max(highest, now.base);
+        highest_lid = std::max(highest_lid, now.lid);
+        nearest = std::min(nearest, now.lid - now.base);
+        fastest = std::max({fastest, std::abs(now.velocity), std::abs(now.lid_velocity)});
+        ASSERT_LE(std::abs(later.velocity - now.velocity) / 3e-6, plates.peak_acceleration());
+        ASSERT_LE(std::abs(later.lid_velocity - now.lid_velocity) / 3e-6, plates.peak_lid_acceleration() + 1e-6);
+      }
+      EXPECT_GE(lowest, 0);
+      EXPECT_LE(highest, plates.highest_base());
+      EXPECT_LE(highest_lid, plates.highest_lid() + 1e-12);
+      EXPECT_GT(highest_lid, plates.highest_lid() - 0.01);
+      EXPECT_GE(nearest, plates.least_gap() - 1e-12);
+      EXPECT_LT(nearest, plates.least_gap() + 0.03);  // with 250 Hz the two are not at their worst at once
+      EXPECT_LE(fastest, plates.peak_speed());
+      const PlatesAtStart start = plates_at_start(system);
+      EXPECT_EQ(start.base, plates.at(0).base);
+      EXPECT_NEAR(start.gap, plates.at(0).lid - plates.at(0).base, 1e-12);
+    }
+  }
+}
+
+// A lid that is said to move as the base does is no lid of its own.
+TEST(PlateMotion, OfALidThatMovesWithTheBaseIsThatOfBoth) {
+  System system;
+  system.lid_motion = LidMotion{system.amplitude, 0.0};
+  EXPECT_FALSE(system.has_lid_motion());
+  const PlateMotion plates(system), plain(System{});
+  for (const Tick k : {0, 17, 999}) EXPECT_EQ(plates.at(k).lid, plain.at(k).lid);
 }
 
 TEST(PlateMotion, StandsStillWithoutVibration) {

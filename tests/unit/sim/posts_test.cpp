@@ -125,6 +125,7 @@ struct RodAmongPosts {
   Vec2 period;
   Species species;
   Flight flight;
+  Gravity gravity{kG};  ///< for a part of the rods on inclined plates
   double horizon;
 
   RodAmongPosts(test::Draw& draw, double gap)
@@ -143,6 +144,9 @@ struct RodAmongPosts {
     const double turning = draw.integer(0, 4) ? 0.5 * speed : 0.0;
     begin_flight(flight, 0, pose, {draw.integer(0, 9) ? draw.vector(speed) : Vec3(Vec3::Zero()), draw.vector(turning)},
                  box, species.inertia_par / species.inertia_perp);
+    if (draw.integer(0, 3)) return;
+    gravity.is_inclined = true;
+    gravity.along = draw.vector(0.3 * speed / horizon).head<2>();
   }
 
   /// Of the deepest bead, negative if all are free: every bead and every image is looked at [mm].
@@ -160,10 +164,12 @@ struct RodAmongPosts {
     }
     return most;
   }
-  double overlap_after(double t) const { return overlap(pose_after(flight, t, kG)); }
+  double overlap_after(double t) const { return overlap(pose_after(flight, t, gravity)); }
   Pose pose() const { return {flight.position, flight.director}; }
   PostGrid grid() const { return {posts, box, period}; }
-  double safe_time() const { return post_safe_time(grid(), box, species, pose(), flight, horizon); }
+  double safe_time() const {
+    return post_safe_time(grid(), box, species, pose(), flight, horizon, gravity.along_size());
+  }
 };
 
 TEST(PostSafeTime, NoBeadBeginsToTouchAPostBeforeItsBound) {

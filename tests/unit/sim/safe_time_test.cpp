@@ -627,7 +627,14 @@ struct FlyingRods {
     const double gamma = draw.integer(0, 5) == 0 ? 0.0 : draw.uniform(0, 15);
     const double frequency = draw.integer(0, 1) ? 200 : draw.uniform(50, 300);
     const double omega = 2 * kPi * frequency;
-    plates = PlateMotion(gamma * kG / (omega * omega), frequency, draw.uniform(1.0, 1.6), dt);
+    System system;
+    system.amplitude = gamma * kG / (omega * omega);
+    system.frequency = frequency;
+    system.gap = draw.uniform(1.0, 1.6);
+    system.dt = dt;
+    if (draw.integer(0, 3) == 0) system.second = SecondVibration{draw.uniform(0, 0.03), draw.uniform(50, 400), 30.0};
+    if (draw.integer(0, 3) == 0) system.lid_motion = LidMotion{draw.uniform(0, 0.05), draw.uniform(-180, 180)};
+    plates = PlateMotion(system);
     start = draw.integer(0, 1000000);
     const PlateState now = plates.at(start);
     flights.resize(draw.integer(1, kLanes));
@@ -659,10 +666,9 @@ struct FlyingRods {
     const PlateState plate = plates.at(k);
     for (const int b : {0, species.n_beads() / 2, species.n_beads() - 1}) {
       const double z = pose.position.z() + species.bead_offset[b] * pose.director.z();
-      const double v = motion.velocity.z() + species.bead_offset[b] * motion.angular_velocity.cross(pose.director).z() -
-                       plate.velocity;
-      if (z - species.bead_radius[b] < plate.base && v < 0) return true;
-      if (z + species.bead_radius[b] > plate.lid && v > 0) return true;
+      const double v = motion.velocity.z() + species.bead_offset[b] * motion.angular_velocity.cross(pose.director).z();
+      if (z - species.bead_radius[b] < plate.base && v < plate.velocity) return true;
+      if (z + species.bead_radius[b] > plate.lid && v > plate.lid_velocity) return true;
     }
     return false;
   }

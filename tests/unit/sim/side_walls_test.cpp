@@ -38,6 +38,7 @@ struct RodByWall {
   double box_side;
   Species species;
   Flight flight;
+  Gravity gravity{kG};  ///< for a part of the rods on inclined plates
   double horizon;
 
   RodByWall(test::Draw& draw, double gap) : species(random_species(draw)) {
@@ -68,6 +69,9 @@ struct RodByWall {
     const double turning = draw.integer(0, 4) ? 0.5 * speed : 0.0;
     begin_flight(flight, 0, pose, {draw.integer(0, 9) ? draw.vector(speed) : Vec3(Vec3::Zero()), draw.vector(turning)},
                  box_side, ratio);
+    if (draw.integer(0, 3)) return;
+    gravity.is_inclined = true;
+    gravity.along = draw.vector(0.3 * speed / horizon).head<2>();
   }
 
   /// Of the deepest bead, negative if all are free: every bead is looked at [mm].
@@ -79,9 +83,11 @@ struct RodByWall {
     }
     return most;
   }
-  double overlap_after(double t) const { return overlap(pose_after(flight, t, kG)); }
+  double overlap_after(double t) const { return overlap(pose_after(flight, t, gravity)); }
   Pose pose() const { return {flight.position, flight.director}; }
-  double safe_time() const { return wall_safe_time(walls, box_side, species, pose(), flight, horizon); }
+  double safe_time() const {
+    return wall_safe_time(walls, box_side, species, pose(), flight, horizon, gravity.along_size());
+  }
 };
 
 void expect_wall(const SideWalls& walls, const Box& box, const Vec2& point, double distance, const Vec2& normal) {

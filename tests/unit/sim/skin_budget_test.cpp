@@ -5,6 +5,8 @@
 
 #include <array>
 
+#include "sim/motion/flight.h"
+
 namespace shaken {
 namespace {
 
@@ -43,6 +45,44 @@ TEST(SkinBudget, CountsDownWhatARodCreeps) {
   for (const double speed : {1e-4, 3e-4, 1e-3, 1e-2}) {
     creep(speed, false);
     creep(speed, true);
+  }
+}
+
+// On inclined plates a rod becomes faster while it counts down. It is looked at where it has to be, and in between.
+TEST(SkinBudget, CountsDownWhatARodSlidesDownASlope) {
+  constexpr double kDt = 4e-6;
+  const std::array species{make_species({})};
+  const std::array<std::uint8_t, 1> kinds{0};
+  const double half_length = species[0].half_length;
+  for (const double speed : {0.0, 5.0, -3.0}) {
+    NeighborList list(species, kinds, 30, NeighborList::kSkin);
+    Gravity gravity(9810);
+    gravity.is_inclined = true;
+    gravity.along = Vec2(600, 0);
+    Flight flight;
+    flight.position = {15, 15, 0.5};
+    flight.velocity = {speed, 0, 0};
+    flight.director = {0, 1, 0};
+    flight.prepare();
+    const std::array poses{Pose{flight.position, flight.director}};
+    list.build(poses);
+    SkinBudget reserve;
+    reserve.measure(list, 0, poses[0], 0);
+    int n_looked = 0;
+    for (Tick now = 1; reserve.left(now, kDt) > SkinBudget::kLeast && n_looked < 10000; ++n_looked) {
+      const auto pose_at = [&](Tick k) { return pose_after(flight, static_cast<double>(k) * kDt, gravity); };
+      const Tick covered = reserve.covered_ticks(list, 0, flight, pose_at(now), half_length, now, kDt, 4000, 600);
+      for (const Tick k : {now, now + covered / 2, now + covered, now + covered + 1}) {
+        const double slack = list.slack(0, pose_at(k));
+        ASSERT_LE(static_cast<double>(reserve.left(k, kDt)), slack) << speed << " mm/s, tick " << k;
+        if (k <= now + covered) {
+          ASSERT_GE(slack, 0) << speed << " mm/s, tick " << k;
+        }
+      }
+      now += covered + 1;
+    }
+    EXPECT_GT(n_looked, 0);
+    EXPECT_LT(n_looked, 10000);
   }
 }
 
