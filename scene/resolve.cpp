@@ -26,6 +26,7 @@ std::optional<RunPlan> resolve(const Draft& draft, std::vector<Problem>& problem
   check_gap(scene);
   check_base(scene);
   check_horizontal_vibration(scene);
+  check_inclination(scene);
   check_lid_motion(scene);
   resolve_contacts(scene);
   if (scene.ok({"time.step"})) {

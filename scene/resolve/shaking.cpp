@@ -8,6 +8,10 @@ namespace shaken::scene {
 
 namespace {
 
+/// Rods pile up at what stands upright. In a square of 42 mm the deepest overlap within 10 s is 8 um at one degree and
+/// 16 us, against 5 um on level plates; at ten degrees rods are pressed into the lid within 0.15 s. [degrees]
+constexpr double kMostInclinationWithWalls = 1.0;
+
 void with_weight(Resolution& scene) {
   System& system = scene.plan.system;
   const double gamma = scene.number("plates.gamma");
@@ -81,6 +85,20 @@ void check_horizontal_vibration(Resolution& scene) {
                  fmt::format("{0} would move through the plane with the plates, and the simulator knows {0} that only "
                              "rise and fall: remove {1}, or set plates.horizontal_amplitude to 0",
                              what, block));
+  };
+  if (system.walls) refuse("walls", "side walls");
+  if (system.posts) refuse("posts", "posts");
+}
+
+void check_inclination(Resolution& scene) {
+  const System& system = scene.plan.system;
+  if (!(system.inclination > kMostInclinationWithWalls) || !scene.ok({"plates.inclination"})) return;
+  const auto refuse = [&](const char* block, const char* what) {
+    scene.report(
+        {"plates.inclination", block},
+        fmt::format("on a slope of {:.4g} degrees rods would lie on {} and on each other, and impacts alone do not "
+                    "keep those apart: at most {} degree with {}, or none of these",
+                    system.inclination, what, kMostInclinationWithWalls, what));
   };
   if (system.walls) refuse("walls", "side walls");
   if (system.posts) refuse("posts", "posts");

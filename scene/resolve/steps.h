@@ -21,6 +21,7 @@ bool resolve_shaking(Resolution& scene);
 void check_base(Resolution& scene);
 /// Side walls and posts do not follow the plates through the plane.
 void check_horizontal_vibration(Resolution& scene);
+void check_inclination(Resolution& scene);
 void check_lid_motion(Resolution& scene);
 
 // contacts.cpp

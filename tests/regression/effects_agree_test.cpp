@@ -293,7 +293,7 @@ INSTANTIATE_TEST_SUITE_P(
                          }},
                     Case{"SteepInAChannelWithPosts",
                          [](System& s) {
-                           s.inclination = 60;
+                           s.inclination = 60;  // steeper than a scene may have it, and so harder
                            s.walls = SideWalls{.arena = Arena::kChannel, .size = 11, .contact = {0.1, 0.5}};
                            s.posts = Posts{.diameter = 2.0, .columns = 4, .rows = 2, .contact = {0.1, 0.5}};
                            s.box_aspect = 0.75;

@@ -32,11 +32,12 @@ std::string name_for_test(std::string name) {
 class HardScene : public testing::TestWithParam<std::string> {};
 TEST_P(HardScene, IsTheSameByBothSteppers) {
   const scene::RunPlan plan = read_hard_scene(kFolder, GetParam());
-  auto world = make_world(plan.system);
-  ASSERT_TRUE(static_cast<bool>(world)) << world.error().message;
+  const auto started = Simulation::start(plan.system);
+  ASSERT_TRUE(static_cast<bool>(started)) << started.error().message;
+  const World& world = started->world();
   const auto whole = static_cast<Tick>(plan.total_time() / plan.system.dt);
-  const Tick ticks = stretch(*world, whole);
-  EXPECT_EQ(test::problem(test::compare(*world, ticks, ticks / 3)), "");
+  const Tick ticks = stretch(world, whole);
+  EXPECT_EQ(test::problem(test::compare(world, ticks, ticks / 3)), "");
 }
 std::vector<std::string> scene_names() {
   std::vector<std::string> names{"order-sorted", "order-reversed", "order-shuffled"};

@@ -289,7 +289,8 @@ void draw_plate_motion(std::uint64_t seed, Json& scene) {
                                      {"phase", draw.plain(-180, 180)}};
   }
   if (draw.chance(0.1)) {
-    scene["plates"]["inclination"] = draw.chance(0.5) ? draw.plain(0.1, 5) : draw.plain(5, 90);
+    const bool is_flat = scene.contains("walls") || scene.contains("posts") || draw.chance(0.5);
+    scene["plates"]["inclination"] = is_flat ? draw.plain(0.01, 1) : draw.plain(1, 90);
     scene["plates"]["inclination_angle"] = draw.plain(-180, 180);
   }
 }

@@ -48,6 +48,17 @@ TEST(Problems, WallsAndPostsOnPlatesThatVibrateInThePlane) {
   EXPECT_EQ(plan_of(R"({"plates": {"horizontal_amplitude": "50 um"}})").system.horizontal_amplitude, 0.05);
 }
 
+TEST(Problems, SlopesOnWhichRodsWouldPileUp) {
+  EXPECT_EQ(
+      problem_of(R"({"plates": {"inclination": 5}, "walls": {}})"),
+      "run.json:1:28: /plates/inclination: on a slope of 5 degrees rods would lie on side walls and on each other, "
+      "and impacts alone do not keep those apart: at most 1 degree with side walls, or none of these");
+  EXPECT_THAT(problem_of(R"({"plates": {"inclination": 5}, "posts": {"columns": 2, "rows": 2}})"),
+              testing::HasSubstr("rods would lie on posts"));
+  EXPECT_EQ(plan_of(R"({"plates": {"inclination": 1}, "walls": {}})").system.inclination, 1);
+  EXPECT_EQ(plan_of(R"({"plates": {"inclination": 90}})").system.inclination, 90);
+}
+
 TEST(Problems, PlatesThatMoveApart) {
   EXPECT_EQ(problem_of(R"({"plates": {"lid": false, "lid_motion": {}}})"),
             "run.json:1:28: /plates/lid_motion: there is no lid that could move: remove plates.lid_motion, or set "

@@ -40,7 +40,7 @@ TEST(Remarks, NameSlopesThatRodsMaySlideDown) {
       remarks(plan_of(R"({"plates": {"inclination": 1}})")),
       ElementsAre("plates.inclination 1 degrees is steeper than the friction of the plates, whose angle is 0.573 "
                   "degrees: without walls rods may slide down faster and faster"));
-  for (const char* scene : {R"({"plates": {"inclination": 0.5}})", R"({"plates": {"inclination": 5}, "walls": {}})",
+  for (const char* scene : {R"({"plates": {"inclination": 0.5}})", R"({"plates": {"inclination": 1}, "walls": {}})",
                             R"({"plates": {"inclination": 5}, "contacts": {"rod_base": {"friction": 0.1}}})"})
     EXPECT_THAT(remarks(plan_of(scene)), IsEmpty()) << scene;
 }
@@ -49,9 +49,11 @@ TEST(Remarks, NameSlopesThatRodsMaySlideDown) {
 TEST(Remarks, CountBothVibrationsAgainstGravityAcrossThePlates) {
   EXPECT_THAT(remarks(plan_of(R"({"plates": {"gamma": 0.9, "second": {"amplitude": "10 um", "frequency": 400}}})")),
               IsEmpty());
-  EXPECT_THAT(remarks(plan_of(R"({"plates": {"gamma": 0.9, "inclination": 30}, "walls": {}})")), IsEmpty());
   EXPECT_THAT(
-      remarks(plan_of(R"({"plates": {"gamma": 0.4, "inclination": 60}, "walls": {}})")),
+      remarks(plan_of(R"({"plates": {"gamma": 0.9, "inclination": 30}, "contacts": {"rod_base": {"friction": 1}}})")),
+      IsEmpty());
+  EXPECT_THAT(
+      remarks(plan_of(R"({"plates": {"gamma": 0.4, "inclination": 60}, "contacts": {"rod_base": {"friction": 9}}})")),
       ElementsAre("the largest acceleration of the base over that of gravity across it is 0.8: below 1 the base "
                   "never falls faster than the rods, which come to rest on it"));
 }
