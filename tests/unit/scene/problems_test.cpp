@@ -61,14 +61,15 @@ TEST(Problems, SlopesOnWhichRodsWouldPileUp) {
 
 TEST(Problems, PlatesThatMoveApart) {
   EXPECT_EQ(problem_of(R"({"plates": {"lid": false, "lid_motion": {}}})"),
-            "run.json:1:28: /plates/lid_motion: there is no lid that could move: remove plates.lid_motion, or set "
+            "run.json:1:41: /plates/lid_motion: there is no lid that could move: remove plates.lid_motion, or set "
             "plates.lid to true");
   EXPECT_EQ(
       problem_of(R"({"box": {"gap": 0.9}, "plates": {"lid_motion": {"amplitude": "60 um", "phase": 180}}})"),
-      "run.json:1:17: /box/gap: a gap of 0.9 mm, of which the plates leave 0.796514 mm where they are nearest, is "
+      "run.json:1:17: /box/gap: a gap of 0.9 mm, of which the plates leave 0.7965142145 mm where they are nearest, is "
       "too small for rods 0.8 mm thick");
-  EXPECT_EQ(problem_of(R"({"plates": {"second": {"frequency": "20 kHz"}}})"),
-            "run.json:1:36: /plates/second/frequency: a step of 4 us is too long for plates at 20 kHz: at most 2.5 us");
+  EXPECT_EQ(
+      problem_of(R"({"plates": {"second": {"frequency": "20 kHz"}}})"),
+      "run.json:1:37: /plates/second/frequency: a step of 4 us is too long for plates at 20000 Hz: at most 2.5 us");
   EXPECT_THAT(problem_of(R"({"plates": {"second": {"amplitude": "10 mm", "frequency": "2 kHz"}}})"),
               testing::HasSubstr("plates as fast as 1.257e+05 mm/s move further in a step"));
   const System system =
