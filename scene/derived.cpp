@@ -6,7 +6,6 @@
 #include <numeric>
 #include <vector>
 
-#include "sim/motion/plates.h"
 #include "sim/rod/sizes.h"
 
 namespace shaken::scene {
@@ -29,10 +28,6 @@ double amplitude_for(double gamma, double frequency, double gravity) {
 double frequency_for(double gamma, double amplitude, double gravity) {
   return std::sqrt(gamma * gravity / amplitude) / (2 * kPi);
 }
-
-double peak_speed_of(const System& scene) { return PlateMotion::without_ticks(scene).peak_speed(); }
-
-double least_gap_of(const System& scene) { return PlateMotion::without_ticks(scene).least_gap(); }
 
 Species species_of(const RodShape& rod) {
   struct Kept {

@@ -24,12 +24,6 @@ double amplitude_for(double gamma, double frequency, double gravity);
 /// f from Gamma, a and g [Hz].
 double frequency_for(double gamma, double amplitude, double gravity);
 
-/// 2 pi f a, of the plates [mm/s].
-double peak_speed_of(const System& scene);
-
-/// The least height between base and lid [mm].
-double least_gap_of(const System& scene);
-
 /// make_species(rod), kept from the last few calls: the points of a sweep ask for the same shapes over and over, and
 /// integrating one takes as long as much else that a point needs.
 Species species_of(const RodShape& rod);

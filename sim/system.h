@@ -259,6 +259,9 @@ struct System {
     const bool moves = amplitude > 0 || horizontal_amplitude > 0 || (has_lid_motion() && lid_motion->amplitude > 0);
     return (moves && frequency > 0 && (base || lid)) || has_second_vibration();
   }
+  /// The least height between base and lid [mm], and the largest speed of either [mm/s].
+  double least_gap() const;
+  double peak_plate_speed() const;
   /// The largest acceleration of the base along z; of two vibrations that of both at once [mm/s^2].
   double peak_acceleration() const {
     const auto peak = [](double a, double f) { return a * (2.0 * kPi * f) * (2.0 * kPi * f); };

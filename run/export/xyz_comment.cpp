@@ -6,9 +6,6 @@
 #include <cctype>
 #include <nlohmann/json.hpp>
 
-#include "scene/load.h"
-#include "sim/motion/plates.h"
-
 namespace shaken::run {
 namespace {
 
@@ -21,8 +18,15 @@ std::string pbc_of(const Cell& cell) {
 }  // namespace
 
 double swept_height(const TrajectoryHeader& header) {
-  const auto plan = scene::load_scene(header.scene_json, "the scene");
-  return plan ? PlateMotion::without_ticks(plan->system).highest_lid() : header.cell.gap;
+  const auto scene = nlohmann::json::parse(header.scene_json, nullptr, false);
+  const auto amplitude = [&](const char* path) -> std::optional<double> {
+    const nlohmann::json::json_pointer at(path);
+    if (scene.is_discarded() || !scene.contains(at) || !scene[at].is_number()) return std::nullopt;
+    return scene[at].get<double>();
+  };
+  const double base = amplitude("/plates/amplitude").value_or(0) + amplitude("/plates/second/amplitude").value_or(0);
+  const double lid = amplitude("/plates/lid_motion/amplitude").value_or(base);
+  return header.cell.gap + (base + lid);  // from the base's lowest height, 0, to the lid's highest
 }
 
 XyzComment::XyzComment(const TrajectoryHeader& header, const std::string& properties)

@@ -124,7 +124,7 @@ void check_box(Resolution& scene) {
 
 void check_gap(Resolution& scene) {
   System& system = scene.plan.system;
-  const double gap = least_gap_of(system);
+  const double gap = system.least_gap();
   for (const RodGroup& group : rod_groups(system)) {
     const Paths diameters{group.path("mid_diameter"), group.path("end_diameter"), group.path("bead_diameters"),
                           group.path("length_spread"), group.path("end_diameter_spread")};

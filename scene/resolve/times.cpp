@@ -66,7 +66,7 @@ bool check_step(Resolution& scene) {
 void check_plates_in_a_tick(Resolution& scene) {
   System& system = scene.plan.system;
   if (!system.base && !system.lid) return;
-  const double speed = peak_speed_of(system);
+  const double speed = system.peak_plate_speed();
   double thinnest = INFINITY;
   for (const RodGroup& group : rod_groups(system)) {
     for (const Species& size : sizes_of_species(group.rod))

@@ -179,6 +179,10 @@ PlateState PlateMotion::before(Tick k, double seconds) const {
   return state;
 }
 
+double System::least_gap() const { return PlateMotion::without_ticks(*this).least_gap(); }
+
+double System::peak_plate_speed() const { return PlateMotion::without_ticks(*this).peak_speed(); }
+
 PlatesAtStart plates_at_start(const System& system) {
   const PlateState first = PlateMotion::without_ticks(system).at(0);
   return {first.base, system.has_lid_motion() ? first.lid - first.base : system.gap};

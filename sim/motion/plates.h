@@ -28,7 +28,7 @@ struct HorizontalMotion {
 };
 
 /// Phases f dt k of an oscillation at whole ticks k, in cycles. Numerics: where the period is a whole number of ticks
-/// they repeat themselves exactly; otherwise they are kept modulo 1 in 128-bit fixed point. Neither loses digits with k.
+/// they repeat themselves exactly; otherwise they are kept modulo 1 in 128-bit fixed point. Neither loses digits.
 class TickPhases {
  public:
   TickPhases(double frequency, double dt);
