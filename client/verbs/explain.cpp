@@ -162,6 +162,17 @@ class Explain : public Verb {
                         gamma ? fmt::format("Gamma = {}, ", number_text(*gamma)) : "", number_text(s.amplitude),
                         keys::format_quantity(s.frequency, Dimension::kFrequency),
                         keys::format_quantity(s.gravity, Dimension::kAcceleration));
+    if (s.has_second_vibration()) {
+      text += fmt::format("          with a second vibration of {} at {}\n", length(s.second->amplitude),
+                          keys::format_quantity(s.second->frequency, Dimension::kFrequency));
+    }
+    if (s.has_lid_motion()) {
+      text += s.lid_motion->amplitude > 0
+                  ? fmt::format("          under a lid that vibrates by {}, {} degrees ahead of the base\n",
+                                length(s.lid_motion->amplitude), number_text(s.lid_motion->phase))
+                  : std::string("          under a lid at rest\n");
+    }
+    if (s.has_inclination()) text += fmt::format("          inclined by {} degrees\n", number_text(s.inclination));
     const scene::AccuracyLevel* known = scene::accuracy_level(s);
     const std::string level = known ? fmt::format(" (\"{}\")", known->name) : "";
     text += fmt::format("  time    {} in {} steps of {}{}; steady state {}\n",

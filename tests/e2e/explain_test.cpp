@@ -12,6 +12,7 @@ namespace shaken::test {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using Json = nlohmann::json;
@@ -55,6 +56,23 @@ TEST_F(Explain, SaysWhatMeasurementsTakeInMemoryAndTheDiskAtTheEnd) {
                                      HasSubstr("room for trajectory.part and trajectory.h5 together")));
   EXPECT_THAT(shaken({"explain", scene, "--cpu", "0.1", "-s", "trajectory=null", "-s", "movie=null"}).output,
               Not(HasSubstr("trajectory.part")));
+}
+
+TEST_F(Explain, SaysHowThePlatesMove) {
+  const std::string scene = write("scene.json", kScene);
+  EXPECT_THAT(shaken({"explain", scene, "--no-probe"}).output,
+              Not(AnyOf(HasSubstr("second vibration of"), HasSubstr("under a lid"), HasSubstr("inclined by"))));
+  const std::vector<std::string> words{"explain",
+                                       scene,
+                                       "--no-probe",
+                                       "-s",
+                                       "plates.second.amplitude=12um",
+                                       "-s",
+                                       "plates.lid_motion={}",
+                                       "-s",
+                                       "plates.inclination=0.5"};
+  EXPECT_THAT(shaken(words).output, AllOf(HasSubstr("with a second vibration of 12 um at 400 Hz"),
+                                          HasSubstr("under a lid at rest"), HasSubstr("inclined by 0.5 degrees")));
 }
 
 TEST_F(Explain, WhatNoMachineHasMemoryForIsRefusedByEveryVerb) {

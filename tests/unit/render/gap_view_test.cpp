@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "render/colours.h"
@@ -91,8 +92,13 @@ TEST(GapView, ATiltedRodHasItsHeadUp) {
 
 TEST(GapView, ThePlatesAreDrawnWhereTheyAre) {
   RodPicture picture = empty_picture(kBox);
-  for (const double base : {0.0, 0.087}) {
+  struct Heights {
+    double base;
+    std::optional<double> lid;
+  };
+  for (const auto& [base, lid] : {Heights{0.0, {}}, {0.087, {}}, {0.05, 1.0}, {0.0, 1.4}}) {
     picture.frame.base = base;
+    picture.frame.lid = lid;
     const Image image = look(picture);
     // From the middle of the gap down to the cut edge of the base, and up to that of the lid.
     const auto is_ink = [&](int y) { return image.pixel(kWidth / 4, y)[0] < 120; };
@@ -100,7 +106,7 @@ TEST(GapView, ThePlatesAreDrawnWhereTheyAre) {
     while (down < kHeight - 1 && !is_ink(down)) ++down;
     while (up > 0 && !is_ink(up)) --up;
     EXPECT_NEAR(down, pixel_of(picture, Vec3(0, kBox / 2, base)).y(), 2);
-    EXPECT_NEAR(up, pixel_of(picture, Vec3(0, kBox / 2, base + picture.cell.gap)).y(), 2);
+    EXPECT_NEAR(up, pixel_of(picture, Vec3(0, kBox / 2, lid.value_or(base + picture.cell.gap))).y(), 2);
   }
   picture.frame.has_lid = false;
   const Image open = look(picture);

@@ -127,6 +127,15 @@ TEST(Xyz, ADamagedRunIdEndsNeitherTheLineNorItsQuotes) {
               HasSubstr(" source=\"Shaken run 0123x seed 7\"\nA1 "));
 }
 
+TEST(Xyz, TheBoxIsAsHighAsPlatesGetThatMoveApart) {
+  TrajectoryHeader header = two_species();
+  header.scene_json =
+      R"({"plates": {"amplitude": 0.25, "second": {"amplitude": 0.05}, "lid_motion": {"amplitude": 0.1}}})";
+  EXPECT_THAT(text_of(*make_beads_xyz(header), {frame_of_two()}), HasSubstr("0 0 0 1.9\" "));
+  header.scene_json = R"({"plates": {"amplitude": 0.25, "second": {"amplitude": 0.05}}})";
+  EXPECT_THAT(text_of(*make_beads_xyz(header), {frame_of_two()}), HasSubstr("0 0 0 2.1\" "));
+}
+
 TEST(Xyz, WithoutAnAmplitudeTheBoxIsAsHighAsTheGap) {
   TrajectoryHeader header = two_species();
   for (const char* scene : {"", "no JSON", "{}", R"({"plates": {"amplitude": "much"}})"}) {
