@@ -2,6 +2,7 @@
 #include "analysis/region.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -71,6 +72,30 @@ double in_ring(double inner, double outer, double distance, double r) {
   return 2 * half;
 }
 
+/// Where f, of which f(low) and f(high) differ in sign, is 0: by false position, where an end that stays counts half
+/// (the Illinois method; Dowell & Jarratt, BIT 11, 168, 1971). It ends with a step below `precision`.
+template <class Function>
+double root_of(const Function& f, double low, double high, double precision) {
+  double at_low = f(low), at_high = f(high);
+  double root = high;
+  for (int step = 0; step < 60 && at_high != 0; ++step) {
+    const double next = (low * at_high - high * at_low) / (at_high - at_low);
+    const double at_next = f(next);
+    const bool is_done = std::abs(next - root) < precision;
+    root = next;
+    if (is_done || at_next == 0) break;
+    if ((at_next > 0) == (at_high > 0)) {
+      at_low *= 0.5;
+    } else {
+      low = high;
+      at_low = at_high;
+    }
+    high = next;
+    at_high = at_next;
+  }
+  return root;
+}
+
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// What a place at the origin has within a convex border that is given piece by piece, counter-clockwise, and within a
@@ -106,6 +131,40 @@ class InConvex {
     }
   }
 
+  /// All of an ellipse with half axes a and b, a >= b, along x and y; `place`, above 0 in both, is that of the origin
+  /// from its centre.
+  void add_ellipse(const Vec2& place, double a, double b) {
+    const auto point = [&](double angle) { return Vec2(Vec2(a * std::cos(angle), b * std::sin(angle)) - place); };
+    const auto beyond = [&](double angle) { return point(angle).squaredNorm() - r_ * r_; };
+    const auto rises = [&](double angle) {  // how fast that does, halved
+      const double c = std::cos(angle), s = std::sin(angle);
+      return (b * b - a * a) * s * c + a * place.x() * s - b * place.y() * c;
+    };
+    // In each quarter the distance has one extremum at most, but for the last: there `rises` over sine and cosine is
+    // convex, least at `between`, and has no zero or one on either side.
+    const double between = 2 * kPi - std::atan(std::cbrt(b * place.y() / (a * place.x())));
+    const std::array ends{kPi / 2, kPi, 1.5 * kPi, between, 2 * kPi};
+    double last = 0;
+    bool was_within = beyond(last) <= 0;
+    const auto add_up_to = [&](double angle) {  // monotonic from the last one on
+      const bool is_within = beyond(angle) <= 0;
+      const double crossing = is_within == was_within ? angle : root_of(beyond, last, angle, 1e-13);
+      const double begin = was_within ? last : crossing, end = is_within ? angle : crossing;
+      if ((was_within || is_within) && begin < end)
+        add_piece(point(begin), point(end), a * b * (end - begin - std::sin(end - begin)));
+      last = angle;
+      was_within = is_within;
+    };
+    double before = rises(0);
+    for (const double end : ends) {
+      const double after = rises(end);
+      // so near to an extremum two crossings cut off next to nothing
+      if (before * after < 0) add_up_to(root_of(rises, last, end, 1e-6));
+      add_up_to(end);
+      before = after;
+    }
+  }
+
   double area() const { return 0.5 * (twice_ + r_ * r_ * std::max(0.0, angle_)); }
 
  private:
@@ -129,6 +188,25 @@ double in_stadium(double end, double radius, const Vec2& place, double r) {
   sum.add_line(Vec2(end, radius) - place, Vec2(-end, radius) - place);
   sum.add_half_circle(Vec2(-end, 0) - place, radius, kPi / 2);
   sum.add_line(Vec2(-end, -radius) - place, Vec2(end, -radius) - place);
+  return sum.area();
+}
+
+/// Within an ellipse of such half axes, of a place that is not outside of it.
+double in_ellipse(double a, double b, const Vec2& place, double r) {
+  InConvex sum(r);
+  sum.add_ellipse(place.cwiseAbs().cwiseMax(1e-12 * b), a, b);
+  return sum.area();
+}
+
+/// Within a wedge, of a place that is not outside of it.
+double in_wedge(const SideWalls& walls, const Vec2& place, double r) {
+  const double end = walls.length / 2, wide = walls.size / 2, narrow = walls.narrow / 2;
+  const std::array corners{Vec2(-end, -wide), Vec2(end, -narrow), Vec2(end, narrow), Vec2(-end, wide)};
+  const Vec2 within = (1 - 1e-13) * place;  // not in a corner, round which the border would not go
+  InConvex sum(r);
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    sum.add_line(corners[k] - within, corners[(k + 1) % corners.size()] - within);
+  }
   return sum.area();
 }
 
@@ -171,6 +249,11 @@ double Region::area_in_sight(const Vec2& place, double radius) const {
       return in_rectangle(Vec2(std::numeric_limits<double>::infinity(), half), Vec2(0, from_centre.y()), radius);
     case Arena::kStadium:
       return in_stadium(walls_->length / 2, half, from_centre, radius);
+    case Arena::kEllipse:
+      if (distance_to_walls(*walls_, box_, Vec3(place.x(), place.y(), 0)) >= radius) return kPi * radius * radius;
+      return in_ellipse(walls_->length / 2, half, from_centre, radius);
+    case Arena::kWedge:
+      return in_wedge(*walls_, from_centre, radius);
     case Arena::kDisc:
     case Arena::kAnnulus:
       break;

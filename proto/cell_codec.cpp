@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "proto/cell_codec.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <charconv>
 #include <span>
+#include <string_view>
 
 namespace shaken::proto {
 
@@ -10,8 +14,28 @@ namespace {
 
 /// What an arena has beside its size, which goes by the name that it had when an annulus alone had any [mm].
 double second_length(const SideWalls& walls) {
-  if (walls.arena == Arena::kStadium) return walls.length;
+  if (walls.has_length()) return walls.length;
   return walls.arena == Arena::kAnnulus ? walls.inner : 0;
+}
+
+/// The name of an arena; of a wedge with its third length, for which messages have no field. What is read gives these
+/// numbers back.
+std::string arena_text(const SideWalls& walls) {
+  const std::string name = name_of(walls.arena);
+  return walls.arena == Arena::kWedge ? fmt::format("{} {}", name, walls.narrow) : name;
+}
+
+std::optional<SideWalls> decode_walls(const frame_static_t& message) {
+  const std::string_view text = message.arena, name = text.substr(0, text.find(' '));
+  const std::optional<Arena> arena = arena_of(name);
+  if (!arena) return std::nullopt;
+  SideWalls walls{.arena = *arena, .size = message.arena_size_mm, .inner = 0};
+  (walls.has_length() ? walls.length : walls.inner) = message.arena_inner_mm;
+  if (name == text) return walls;
+  const std::string_view number = text.substr(name.size() + 1);
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), walls.narrow);
+  const bool is_all = error == std::errc() && end == number.data() + number.size();
+  return is_all && *arena == Arena::kWedge ? std::optional(walls) : std::nullopt;
 }
 
 }  // namespace
@@ -32,7 +56,7 @@ frame_static_t encode_cell(const Cell& cell, std::size_t n_rods, const std::stri
   message.rod_species = cell.shape_of_rod;
   message.n_rod_species = static_cast<std::int32_t>(message.rod_species.size());
   if (cell.walls) {
-    message.arena = name_of(cell.walls->arena);
+    message.arena = arena_text(*cell.walls);
     message.arena_size_mm = cell.walls->size;
     message.arena_inner_mm = second_length(*cell.walls);
   }
@@ -54,10 +78,7 @@ std::optional<Cell> decode_cell(const frame_static_t& message) {
     radii = radii.subspan(n);
   }
   if (!offsets.empty() || !radii.empty()) return std::nullopt;
-  if (const std::optional<Arena> arena = arena_of(message.arena)) {
-    cell.walls = SideWalls{.arena = *arena, .size = message.arena_size_mm, .inner = 0};
-    (*arena == Arena::kStadium ? cell.walls->length : cell.walls->inner) = message.arena_inner_mm;
-  }
+  cell.walls = decode_walls(message);
   return cell;
 }
 

@@ -95,7 +95,7 @@ Notes settings_of(const RodPicture& picture) {
   if (cell.walls) {
     const SideWalls& walls = *cell.walls;
     std::string size = fmt::format("{:.4g}", walls.size);
-    if (walls.arena == Arena::kStadium) size = fmt::format("{:.4g} \u00d7 {}", walls.size + walls.length, size);
+    if (walls.has_length()) size = fmt::format("{:.4g} \u00d7 {}", walls.extent().x(), size);
     if (walls.arena == Arena::kChannel) settings.emplace_back("L", fmt::format("{:.4g} mm", cell.box.x()));
     settings.emplace_back("", fmt::format("{} of {} mm", name_of(walls.arena), size));
   }

@@ -91,8 +91,25 @@ void arena_path(cairo_t* cr, const Plane& plane, const SideWalls& walls, const B
     cairo_rectangle(cr, plane.box().x - reach, middle.y() - reach, plane.box().width + 2 * reach, 2 * reach);
     return;
   }
-  const double end = walls.arena == Arena::kStadium ? walls.length / 2 * plane.scale() : 0.0;
+  const double end = walls.has_length() ? walls.length / 2 * plane.scale() : 0.0;
   cairo_new_sub_path(cr);
+  if (walls.arena == Arena::kWedge) {
+    const double narrow = walls.narrow / 2 * plane.scale();
+    cairo_move_to(cr, middle.x() - end, middle.y() - reach);
+    cairo_line_to(cr, middle.x() + end, middle.y() - narrow);
+    cairo_line_to(cr, middle.x() + end, middle.y() + narrow);
+    cairo_line_to(cr, middle.x() - end, middle.y() + reach);
+    cairo_close_path(cr);
+    return;
+  }
+  if (walls.arena == Arena::kEllipse) {
+    cairo_save(cr);
+    cairo_translate(cr, middle.x(), middle.y());
+    cairo_scale(cr, end, reach);
+    cairo_arc(cr, 0, 0, 1, 0, 2 * kPi);
+    cairo_restore(cr);
+    return;
+  }
   cairo_arc(cr, middle.x() + end, middle.y(), reach, -kPi / 2, kPi / 2);
   cairo_arc(cr, middle.x() - end, middle.y(), reach, kPi / 2, 3 * kPi / 2);
   cairo_close_path(cr);

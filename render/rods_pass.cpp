@@ -137,10 +137,13 @@ void set_scene(GLuint program, const Cell& cell, const Frame& frame, const Pictu
   number("line", std::max(1.0, height / 480.0) * camera.pixel(height));
   const Arena arena = cell.walls ? cell.walls->arena : Arena::kSquare;
   const bool is_channel = arena == Arena::kChannel;  // which ends where the plates do
-  const Box size = is_channel ? Box(plate.x(), cell.walls->size) : cell.walls ? Box(cell.walls->size) : cell.box;
-  glUniform1i(at("is_round"), arena == Arena::kSquare || is_channel ? 0 : 1);
+  const bool is_long = arena == Arena::kEllipse || arena == Arena::kWedge;
+  const double width = cell.walls ? cell.walls->size : cell.box.y();
+  const double length = is_channel ? plate.x() : is_long ? cell.walls->length : cell.walls ? width : cell.box.x();
+  glUniform1i(at("is_round"), arena == Arena::kSquare || arena == Arena::kWedge || is_channel ? 0 : 1);
   pair("middle", cell.box.x() / 2 - camera.eye.x(), cell.box.y() / 2 - camera.eye.y());
-  pair("size", size.x(), size.y());
+  pair("size", length, width);
+  number("narrow", arena == Arena::kWedge ? cell.walls->narrow : width);
   number("inner", arena == Arena::kAnnulus ? cell.walls->inner : 0);
   number("between", arena == Arena::kStadium ? cell.walls->length : 0);
   const PageColours colours = ground_colours(style);

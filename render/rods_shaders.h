@@ -22,25 +22,33 @@ vec2 corner() { return vec2(gl_VertexID & 1, gl_VertexID >> 1); }
 
 /// What fragment shaders know of the floor: where it ends (ENDS), and how all fades with depth (FADES).
 inline constexpr const char* kFloor = R"(#version 330 core
-uniform bool is_round;   // the arena's ends; or it is a rectangle
+uniform bool is_round;   // the arena's ends; or it is a trapezoid
 uniform vec2 middle;     // of the arena
-uniform vec2 size;       // diameter of the ends, or sides of the rectangle
+uniform vec2 size;       // diameters of the ends along x and y, or sides of the trapezoid's rectangle
+uniform float narrow;    // side of the trapezoid at larger x, along y
 uniform float inner;     // diameter of the inner wall; 0: there is none
 uniform float between;   // distance of the ends' centres, along x
 uniform vec2 fade;       // depths where fading into the page begins and ends
 uniform vec3 page;
 uniform vec3 floor_colour;
 
-// How far a point of the floor lies beyond the arena's edge.
+// How far a point of the floor lies beyond the arena's edge: of an ellipse exact only at the edge.
 float beyond(vec2 at) {
 #ifndef ENDS
   return -1.0;
 #endif
   vec2 from_middle = at - middle;
-  vec2 past_sides = abs(from_middle) - 0.5 * size;
-  if (!is_round) return max(past_sides.x, past_sides.y);
-  float r = length(vec2(max(abs(from_middle.x) - 0.5 * between, 0.0), from_middle.y));
-  return max(r - 0.5 * size.x, 0.5 * inner - r);
+  if (!is_round) {
+    float slope = 0.5 * (size.y - narrow) / size.x;
+    float past_slant = abs(from_middle.y) - 0.25 * (size.y + narrow) + slope * from_middle.x;
+    return max(abs(from_middle.x) - 0.5 * size.x, past_slant * inversesqrt(1.0 + slope * slope));
+  }
+  vec2 from_end = vec2(max(abs(from_middle.x) - 0.5 * between, 0.0), from_middle.y);
+  float r = length(from_end);
+  vec2 squeezed = 2.0 * from_end / size;
+  float part = length(squeezed);  // of the way to the edge
+  float past_end = size.x == size.y ? r - 0.5 * size.x : (part - 1.0) * part / max(length(2.0 * squeezed / size), 1e-9);
+  return max(past_end, 0.5 * inner - r);
 }
 vec3 faded(vec3 colour, float depth) {
 #ifndef FADES

@@ -39,7 +39,11 @@ Result<void> check_cell(const Cell& cell, std::size_t n_rods) {
   if (cell.walls) {
     hold("arena", cell.walls->size, "walls.size");
     if (cell.walls->arena == Arena::kAnnulus) hold("inner wall", cell.walls->inner, "walls.inner");
-    if (cell.walls->arena == Arena::kStadium) hold("straight wall", cell.walls->length, "walls.length");
+    if (cell.walls->has_length()) hold("length of an arena", cell.walls->length, "walls.length");
+    if (cell.walls->arena == Arena::kWedge) hold("narrow end", cell.walls->narrow, "walls.narrow");
+    const bool is_thin = cell.walls->arena == Arena::kWedge && !(cell.walls->length > 0);
+    const bool is_upright = cell.walls->arena == Arena::kEllipse && !(cell.walls->length >= cell.walls->size);
+    if (is_thin || is_upright) wrong = "an arena that is too short";
   }
   if (!cell.posts.centres.empty()) hold("post", cell.posts.diameter, "posts.diameter");
   if (cell.posts.centres.size() > kMostPosts) return Error{"more posts than a scene can have"};

@@ -65,12 +65,21 @@ Field inner_wall() {
   return field;
 }
 
-Field straight_walls() {
-  Field field = derived(quantity("walls.length", sys<&System::walls, &SideWalls::length>, kLength, 0, 2000,
-                                 "Length of a stadium's straight walls, along x."),
-                        "that of walls.size");
+Field length_of_arena() {
+  Field field =
+      derived(quantity("walls.length", sys<&System::walls, &SideWalls::length>, kLength, 0, 2000,
+                       "Length along x: of a stadium's straight walls, or of an ellipse or a wedge from end to end."),
+              "so that the arena is twice as long as wide");
+  field.fetch = [](const RunPlan& p) { return p.system.walls->has_length() ? Value(p.system.walls->length) : Value(); };
+  return field;
+}
+
+Field narrow_end() {
+  Field field = quantity("walls.narrow", sys<&System::walls, &SideWalls::narrow>, kLength, 0, 2000,
+                         "Width of a wedge at its narrow end, at larger x; 0: a triangle.");
+  field.fallback = SideWalls{}.narrow;
   field.fetch = [](const RunPlan& p) {
-    return p.system.walls->arena == Arena::kStadium ? Value(p.system.walls->length) : Value();
+    return p.system.walls->arena == Arena::kWedge ? Value(p.system.walls->narrow) : Value();
   };
   return field;
 }
@@ -417,10 +426,11 @@ std::vector<std::vector<Field>> groups() {
     choice("walls.arena", sys<&System::walls, &SideWalls::arena>, kArenaNames, "Shape of the arena."),
     derived(quantity("walls.size", sys<&System::walls, &SideWalls::size>, kLength, 1, 2000,
                      "Diameter of the disc, of the outer wall or of a stadium's round ends, side of the square, or "
-                     "width of the channel."),
+                     "width along y of the channel, of the ellipse or of the wedge's wide end."),
             "as large as the box allows"),
     inner_wall(),
-    straight_walls(),
+    length_of_arena(),
+    narrow_end(),
     },
     surface_contact<&System::walls, &SideWalls::contact>("walls", "wall"), {
     block("posts", sys<&System::posts>, false,

@@ -85,7 +85,8 @@ void each_scene_key(Archive&& visit, const System& system) {
     visit(static_cast<std::int64_t>(system.walls->arena));
     visit(system.walls->size);
     visit(system.walls->inner);
-    if (system.walls->arena == Arena::kStadium) visit(system.walls->length);
+    if (system.walls->has_length()) visit(system.walls->length);
+    if (system.walls->arena == Arena::kWedge) visit(system.walls->narrow);
   }
   if (system.posts) {
     const StandingPosts posts = standing_posts(system);

@@ -146,8 +146,11 @@ Vec3 site_position(const Lattice& lattice, const Box& box, int site) {
 std::vector<int> usable_sites(const Lattice& lattice, const Placement& rods) {
   const Box box = rods.system.box();
   const double reach = 0.5 * rods.rod_extent() + kClearance;  // beyond it no bead is near a wall, however the rod lies
+  const Vec2 most = 0.5 * rectangle_round(box, rods.system.walls);
   const auto is_clear = [&](const Vec3& position) {
-    const bool is_near = rods.posts || distance_to_walls(*rods.system.walls, box, position) < reach;
+    const Vec2 off = (position.head<2>() - 0.5 * box.sides()).cwiseAbs();
+    if (off.x() > most.x() || off.y() > most.y()) return false;  // soon known
+    const bool is_near = rods.posts || distance_to_walls(*rods.system.walls, box, position, reach) < reach;
     return !is_near || std::ranges::all_of(rods.species, [&](const Species& kind) {
       return rods.is_clear(kind, {position, Vec3(1, 0, 0)}) && rods.is_clear(kind, {position, Vec3(-1, 0, 0)});
     });
@@ -493,8 +496,8 @@ std::string start_mismatch(const System& system, const System& other) {
     if (!is_same) all += std::string(all.empty() ? "" : ", ") + what;
   };
   const auto arena_of = [](const System& one) {
-    return one.walls ? std::tuple(true, one.walls->arena, one.walls->size, one.walls->inner, one.walls->length)
-                     : std::tuple(false, Arena::kDisc, 0.0, 0.0, 0.0);
+    const SideWalls walls = one.walls.value_or(SideWalls{});
+    return std::tuple(one.walls.has_value(), walls.arena, walls.size, walls.inner, walls.length, walls.narrow);
   };
   compare(system.rod == other.rod && system.added == other.added, "the rods");
   compare(system.n_rods == other.n_rods, "their number");

@@ -9,8 +9,7 @@ double StandingPosts::area() const { return static_cast<double>(centres.size()) 
 
 Vec2 rectangle_round(const Box& box, const std::optional<SideWalls>& walls) {
   if (!walls) return box.sides();
-  const double along = walls->arena == Arena::kStadium ? walls->length : 0.0;
-  return {walls->arena == Arena::kChannel ? box.x() : walls->size + along, walls->size};
+  return walls->arena == Arena::kChannel ? Vec2(box.x(), walls->size) : walls->extent();
 }
 
 bool stands_within(const Vec2& centre, double diameter, const Box& box, const std::optional<SideWalls>& walls) {

@@ -134,11 +134,12 @@ enum class Start {
 /// Whether the rods are compressed into their box (sim/compression.h).
 constexpr bool is_compressed(Start start) { return start != Start::kAligned && start != Start::kRandom; }
 
-enum class Arena { kDisc, kSquare, kAnnulus, kStadium, kChannel };
+enum class Arena { kDisc, kSquare, kAnnulus, kStadium, kChannel, kEllipse, kWedge };
 /// What scenes, files and messages call them.
-inline constexpr std::array kArenaNames{std::pair{"disc", Arena::kDisc}, std::pair{"square", Arena::kSquare},
+inline constexpr std::array kArenaNames{std::pair{"disc", Arena::kDisc},       std::pair{"square", Arena::kSquare},
                                         std::pair{"annulus", Arena::kAnnulus}, std::pair{"stadium", Arena::kStadium},
-                                        std::pair{"channel", Arena::kChannel}};
+                                        std::pair{"channel", Arena::kChannel}, std::pair{"ellipse", Arena::kEllipse},
+                                        std::pair{"wedge", Arena::kWedge}};
 constexpr const char* name_of(Arena arena) { return kArenaNames[static_cast<std::size_t>(arena)].first; }
 constexpr std::optional<Arena> arena_of(std::string_view name) {
   for (const auto& [known, arena] : kArenaNames) {
@@ -147,21 +148,36 @@ constexpr std::optional<Arena> arena_of(std::string_view name) {
   return std::nullopt;
 }
 /// Walls that stand upright on the base and move with it, round an arena in the middle of the box. A stadium is two
-/// half discs joined by straight walls along x; a channel has straight walls along x only, and is periodic along it.
+/// half discs joined by straight walls along x; a channel has straight walls along x only, and is periodic along it; an
+/// ellipse has its long axis along x; a wedge is a trapezoid, or a triangle, that narrows evenly towards larger x.
 struct SideWalls {
   Arena arena = Arena::kDisc;
-  double size = 40.0;   ///< diameter of disc, half discs or the annulus' outer wall; side of the square; width [mm]
+  double size = 40.0;   ///< diameter of disc, half discs or the annulus' outer wall; else along y, greatest [mm]
   double inner = 10.0;  ///< diameter of the annulus' inner wall [mm]
   Contacts contact{0.01, 0.3};
-  double length = 40.0;  ///< of the stadium's straight walls [mm]
+  double length = 40.0;  ///< of the stadium's straight walls; of ellipse and wedge along x [mm]
+  double narrow = 0.0;   ///< extent of the wedge along y at its narrow end; 0: it is a triangle [mm]
+
+  bool has_length() const { return arena == Arena::kStadium || is_as_long_as_its_length(); }
+  /// Extents along x and y; a channel has no end along x, and 0 there [mm].
+  Vec2 extent() const {
+    if (arena == Arena::kChannel) return {0.0, size};
+    if (is_as_long_as_its_length()) return {length, size};
+    return {arena == Arena::kStadium ? size + length : size, size};
+  }
   /// Area that the rods have to share, in the middle of such a box [mm^2].
   double area(const Box& box) const {
     if (arena == Arena::kChannel) return box.x() * size;
     if (arena == Arena::kSquare) return size * size;
+    if (arena == Arena::kEllipse) return 0.25 * kPi * size * length;
+    if (arena == Arena::kWedge) return 0.5 * (size + narrow) * length;
     const double between = arena == Arena::kStadium ? length * size : 0.0;
     return between + 0.25 * kPi * (size * size - (arena == Arena::kAnnulus ? inner * inner : 0.0));
   }
   friend bool operator==(const SideWalls&, const SideWalls&) = default;
+
+ private:
+  bool is_as_long_as_its_length() const { return arena == Arena::kEllipse || arena == Arena::kWedge; }
 };
 
 /// Round posts that stand upright on the base and move with it, all of one diameter: at the sites of a lattice, or at

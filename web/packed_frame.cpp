@@ -35,7 +35,8 @@ nlohmann::ordered_json head_of(const client::RodFrame& frame) {
     walls = {{"arena", name_of(frame.cell.walls->arena)},
              {"size_mm", frame.cell.walls->size},
              {"inner_mm", frame.cell.walls->inner}};
-    if (frame.cell.walls->arena == Arena::kStadium) walls["length_mm"] = frame.cell.walls->length;
+    if (frame.cell.walls->has_length()) walls["length_mm"] = frame.cell.walls->length;
+    if (frame.cell.walls->arena == Arena::kWedge) walls["narrow_mm"] = frame.cell.walls->narrow;
   }
   nlohmann::ordered_json posts;
   if (!frame.cell.posts.centres.empty()) {

@@ -146,9 +146,12 @@ class Explain : public Verb {
       if (added) text += "          " + rods(added->rod, added->count);
     }
     if (s.walls) {
-      std::string more;
+      std::string size = length(s.walls->size), more;
       if (s.walls->arena == Arena::kAnnulus) more = fmt::format(", {} inside", length(s.walls->inner));
       if (s.walls->arena == Arena::kStadium) more = fmt::format(", {} between its round ends", length(s.walls->length));
+      if (s.walls->arena == Arena::kEllipse) size = fmt::format("{} by {}", length(s.walls->length), size);
+      if (s.walls->arena == Arena::kWedge)
+        more = fmt::format(" to {} over {}", length(s.walls->narrow), length(s.walls->length));
       if (s.walls->arena == Arena::kChannel) more = fmt::format(", periodic after {}", length(s.box_side));
       text += fmt::format("  arena   {} of {}{} between side walls; plates {} apart\n", name_of(s.walls->arena),
                           length(s.walls->size), more, length(s.gap));

@@ -44,8 +44,9 @@ XyzComment::XyzComment(const TrajectoryHeader& header, const std::string& proper
   after_time_ += fmt::format(" arena={} arena_size={}", name_of(header.cell.walls->arena), header.cell.walls->size);
   if (header.cell.walls->arena == Arena::kAnnulus)
     after_time_ += fmt::format(" arena_inner={}", header.cell.walls->inner);
-  if (header.cell.walls->arena == Arena::kStadium)
-    after_time_ += fmt::format(" arena_length={}", header.cell.walls->length);
+  if (header.cell.walls->has_length()) after_time_ += fmt::format(" arena_length={}", header.cell.walls->length);
+  if (header.cell.walls->arena == Arena::kWedge)
+    after_time_ += fmt::format(" arena_narrow={}", header.cell.walls->narrow);
 }
 
 std::string XyzComment::of(const RecordedFrame& frame) const {

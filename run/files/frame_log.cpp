@@ -91,7 +91,8 @@ Json json_of(const TrajectoryHeader& header) {
                      {"inner_mm", cell.walls->inner},
                      {"friction", cell.walls->contact.friction},
                      {"restitution", cell.walls->contact.restitution}};
-    if (cell.walls->arena == Arena::kStadium) json["walls"]["length_mm"] = cell.walls->length;
+    if (cell.walls->has_length()) json["walls"]["length_mm"] = cell.walls->length;
+    if (cell.walls->arena == Arena::kWedge) json["walls"]["narrow_mm"] = cell.walls->narrow;
   }
   if (!cell.posts.centres.empty()) {
     json["posts"] = {{"diameter_mm", cell.posts.diameter}, {"centres_mm", Json::array()}};
@@ -123,7 +124,8 @@ TrajectoryHeader header_of(const Json& json) {
                                   .size = from.at("size_mm"),
                                   .inner = from.at("inner_mm"),
                                   .contact = {from.at("friction"), from.at("restitution")}};
-    if (header.cell.walls->arena == Arena::kStadium) header.cell.walls->length = from.at("length_mm");
+    if (header.cell.walls->has_length()) header.cell.walls->length = from.at("length_mm");
+    if (header.cell.walls->arena == Arena::kWedge) header.cell.walls->narrow = from.at("narrow_mm");
   }
   if (json.contains("posts")) {
     header.cell.posts.diameter = json.at("posts").at("diameter_mm");

@@ -25,7 +25,8 @@ SideWalls read_walls(hid_t file) {
   walls.arena = *known;
   hdf5::read_attribute(group, "size_mm", H5T_NATIVE_DOUBLE, &walls.size);
   if (walls.arena == Arena::kAnnulus) hdf5::read_attribute(group, "inner_mm", H5T_NATIVE_DOUBLE, &walls.inner);
-  if (walls.arena == Arena::kStadium) hdf5::read_attribute(group, "length_mm", H5T_NATIVE_DOUBLE, &walls.length);
+  if (walls.has_length()) hdf5::read_attribute(group, "length_mm", H5T_NATIVE_DOUBLE, &walls.length);
+  if (walls.arena == Arena::kWedge) hdf5::read_attribute(group, "narrow_mm", H5T_NATIVE_DOUBLE, &walls.narrow);
   hdf5::read_attribute(group, "friction", H5T_NATIVE_DOUBLE, &walls.contact.friction);
   hdf5::read_attribute(group, "restitution", H5T_NATIVE_DOUBLE, &walls.contact.restitution);
   return walls;

@@ -43,9 +43,8 @@ void write_walls(hid_t file, const SideWalls& walls) {
   hdf5::write_attribute(group, "arena", name_of(walls.arena));
   hdf5::write_attribute(group, "size_mm", H5T_NATIVE_DOUBLE, {}, &walls.size);
   if (walls.arena == Arena::kAnnulus) hdf5::write_attribute(group, "inner_mm", H5T_NATIVE_DOUBLE, {}, &walls.inner);
-  if (walls.arena == Arena::kStadium) {
-    hdf5::write_attribute(group, "length_mm", H5T_NATIVE_DOUBLE, {}, &walls.length);
-  }
+  if (walls.has_length()) hdf5::write_attribute(group, "length_mm", H5T_NATIVE_DOUBLE, {}, &walls.length);
+  if (walls.arena == Arena::kWedge) hdf5::write_attribute(group, "narrow_mm", H5T_NATIVE_DOUBLE, {}, &walls.narrow);
   hdf5::write_attribute(group, "friction", H5T_NATIVE_DOUBLE, {}, &walls.contact.friction);
   hdf5::write_attribute(group, "restitution", H5T_NATIVE_DOUBLE, {}, &walls.contact.restitution);
 }

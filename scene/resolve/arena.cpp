@@ -27,9 +27,14 @@ void check_kind(Resolution& scene) {
                                               "walls.arena to \"annulus\"",
                                               is));
   }
-  if (scene.given("walls.length") && arena != Arena::kStadium) {
-    scene.report({"walls.length"}, fmt::format("only a stadium has straight walls of a given length, and {}; remove "
-                                               "walls.length, or set walls.arena to \"stadium\"",
+  if (scene.given("walls.length") && !scene.plan.system.walls->has_length()) {
+    scene.report({"walls.length"}, fmt::format("only a stadium, an ellipse and a wedge have a length, and {}; remove "
+                                               "walls.length, or set walls.arena to one of them",
+                                               is));
+  }
+  if (scene.given("walls.narrow") && arena != Arena::kWedge) {
+    scene.report({"walls.narrow"}, fmt::format("only a wedge has a narrow end, and {}; remove walls.narrow, or set "
+                                               "walls.arena to \"wedge\"",
                                                is));
   }
 }
@@ -42,7 +47,7 @@ std::optional<double> area_wanted(const Resolution& scene) {
   return system.n_rods * mean_area_of(system.rod) / scene.number("rods.area_fraction");
 }
 
-/// The size at which the arena has so much area; of a stadium without a given length, one that is as long as wide.
+/// The size at which the arena has so much area; without a given length, the arena is twice as long as wide.
 double size_for(const SideWalls& walls, double area, bool has_length) {
   switch (walls.arena) {
     case Arena::kSquare:
@@ -52,6 +57,11 @@ double size_for(const SideWalls& walls, double area, bool has_length) {
     case Arena::kStadium:
       if (!has_length) return std::sqrt(area / (1.0 + 0.25 * kPi));
       return 2.0 * area / (walls.length + std::sqrt(walls.length * walls.length + kPi * area));
+    case Arena::kEllipse:
+      return has_length ? 4.0 * area / (kPi * walls.length) : std::sqrt(2.0 * area / kPi);
+    case Arena::kWedge:
+      if (!has_length) return 2.0 * area / (walls.narrow + std::sqrt(walls.narrow * walls.narrow + 4.0 * area));
+      return 2.0 * area / walls.length - walls.narrow;
     case Arena::kDisc:
     case Arena::kChannel:
       break;
@@ -59,26 +69,33 @@ double size_for(const SideWalls& walls, double area, bool has_length) {
   return std::sqrt(4.0 * area / kPi);
 }
 
+/// The size of the largest arena that a square of side `most` has room for.
+double size_within(const SideWalls& walls, double most, bool has_length) {
+  if (!walls.has_length()) return most;
+  if (!has_length) return most / 2;
+  if (walls.arena == Arena::kStadium) return most - walls.length;
+  return walls.arena == Arena::kEllipse ? std::min(most, walls.length) : most;
+}
+
 /// Size and length of the walls, and the side of the square box round them, which is `room` larger.
 void resolve_lengths(Resolution& scene, double room) {
   System& system = scene.plan.system;
   SideWalls& walls = *system.walls;
-  const bool is_stadium = walls.arena == Arena::kStadium, has_length = scene.given("walls.length");
+  const bool has_length = scene.given("walls.length");
   const std::optional<double> area = area_wanted(scene);
   if (!scene.given("walls.size")) {
     if (area && !scene.given("box.side")) {
       walls.size = size_for(walls, *area, has_length);
       scene.check_derived("walls.size", {"rods.count", "rods.area_fraction"});
     } else {
-      const double most = system.box_side - room;
-      walls.size = !is_stadium ? most : has_length ? most - walls.length : most / 2;
+      walls.size = size_within(walls, system.box_side - room, has_length);
       scene.check_derived("walls.size", {"box.side"});
     }
   }
-  if (is_stadium && !has_length) walls.length = walls.size;
+  if (walls.has_length() && !has_length) walls.length = (walls.arena == Arena::kStadium ? 1.0 : 2.0) * walls.size;
   if (!scene.given("box.side")) {
-    system.box_side = walls.size + (is_stadium ? walls.length : 0.0) + room;
-    scene.check_derived("box.side", {"walls.size"});
+    system.box_side = walls.extent().maxCoeff() + room;
+    scene.check_derived("box.side", {"walls.size", "walls.length"});
   }
 }
 
@@ -115,20 +132,69 @@ void resolve_channel(Resolution& scene, double room) {
   scene.check_derived("box.aspect", {"walls.size", "box.side"});
 }
 
+/// "a stadium of 20 mm and 10 mm", "an ellipse of 40 mm by 20 mm".
+std::string text_of(const SideWalls& walls) {
+  const std::string size = length_text(walls.size), length = length_text(walls.length);
+  switch (walls.arena) {
+    case Arena::kStadium:
+      if (walls.length > 0) return fmt::format("a stadium of {} and {}", size, length);
+      break;
+    case Arena::kEllipse:
+      return fmt::format("an ellipse of {} by {}", length, size);
+    case Arena::kWedge:
+      return fmt::format("a wedge of {} by {}", length, size);
+    case Arena::kChannel:
+      return "a channel of " + size;
+    case Arena::kDisc:
+    case Arena::kSquare:
+    case Arena::kAnnulus:
+      break;
+  }
+  return "an arena of " + size;
+}
+
+/// That an ellipse is not wider than long, and its tips are no sharper than the thickest bead is round.
+void check_ellipse(Resolution& scene, const SideWalls& walls, double thickest) {
+  const double tip = 0.5 * walls.size * walls.size / walls.length;  // radius of curvature
+  if (walls.length < walls.size * (1 - 1e-12)) {
+    scene.report(
+        {"walls.length", "walls.size"},
+        fmt::format("{} is wider than long: its long axis lies along x, so give the greater of the two lengths "
+                    "to walls.length",
+                    text_of(walls)));
+  } else if (tip < 0.5 * thickest) {
+    scene.report(
+        {"walls.size", "walls.length"},
+        fmt::format("the ends of {} have a radius of curvature of {}, and rods {} thick do not fit into them: "
+                    "make walls.size at least {}, or walls.length at most {}",
+                    text_of(walls), length_text(tip), length_text(thickest),
+                    length_text(std::sqrt(thickest * walls.length)), length_text(walls.size * walls.size / thickest)));
+  }
+}
+
+void check_wedge(Resolution& scene, const SideWalls& walls) {
+  const double least = field_at("walls.size").low;
+  if (walls.length < least) {
+    scene.report({"walls.length"},
+                 fmt::format("a wedge of {} is too short: at least {}", length_text(walls.length), length_text(least)));
+  } else if (walls.narrow > walls.size) {
+    scene.report({"walls.narrow", "walls.size"},
+                 fmt::format("a narrow end of {} is wider than the wide end of {}, walls.size",
+                             length_text(walls.narrow), length_text(walls.size)));
+  }
+}
+
 /// That the box has room for the arena, and the arena for its inner wall.
 void check_fits(Resolution& scene, double room, double longest) {
   const System& system = scene.plan.system;
   const SideWalls& walls = *system.walls;
-  const double along = walls.arena == Arena::kStadium ? walls.length : 0.0, high = system.box().y();
-  if (high < walls.size + along + room - 1e-12 * high) {
-    const bool is_channel = walls.arena == Arena::kChannel;
-    const std::string arena =
-        along > 0 ? fmt::format("a stadium of {} and {}", length_text(walls.size), length_text(walls.length))
-                  : fmt::format("{} of {}", is_channel ? "a channel" : "an arena", length_text(walls.size));
-    scene.report(
-        {"walls.size", "walls.length", "box.side", "box.aspect"},
-        fmt::format("{} does not fit into a box of {}: at most {}{}; or leave {} out", arena, length_text(high),
-                    length_text(high - room), along > 0 ? " in all" : "", is_channel ? "box.aspect" : "box.side"));
+  const double high = system.box().y();
+  if (high < walls.extent().maxCoeff() + room - 1e-12 * high) {
+    scene.report({"walls.size", "walls.length", "box.side", "box.aspect"},
+                 fmt::format("{} does not fit into a box of {}: at most {}{}; or leave {} out", text_of(walls),
+                             length_text(high), length_text(high - room),
+                             walls.arena == Arena::kStadium && walls.length > 0 ? " in all" : "",
+                             walls.arena == Arena::kChannel ? "box.aspect" : "box.side"));
   } else if (walls.arena == Arena::kAnnulus && walls.inner >= walls.size) {
     scene.report(
         {"walls.inner", "walls.size"},
@@ -146,7 +212,8 @@ void check_fits(Resolution& scene, double room, double longest) {
 
 bool resolve_arena(Resolution& scene) {
   System& system = scene.plan.system;
-  if (!scene.ok({"walls.size", "walls.inner", "walls.length", "walls.arena", "box.side", "box.aspect"})) return false;
+  if (!scene.ok({"walls.size", "walls.inner", "walls.length", "walls.narrow", "walls.arena", "box.side", "box.aspect"}))
+    return false;
   if (!system.walls) return true;
   const bool is_channel = system.walls->arena == Arena::kChannel;
   if (system.box_aspect != 1 && !is_channel) {
@@ -166,6 +233,8 @@ bool resolve_arena(Resolution& scene) {
   if (area_wanted(scene) && !scene.ok({"rods.count", "rods.area_fraction"})) return false;
   is_channel ? resolve_channel(scene, room) : resolve_lengths(scene, room);
   check_fits(scene, room, longest);
+  if (system.walls->arena == Arena::kEllipse) check_ellipse(scene, *system.walls, thickest);
+  if (system.walls->arena == Arena::kWedge) check_wedge(scene, *system.walls);
   return scene.problems.size() == n_before;
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/motion/ellipse.h"
+
 namespace shaken {
 namespace {
 
@@ -32,6 +34,24 @@ struct Axis {
 Vec2 from_centre_line(const SideWalls& walls, const Vec2& point) {
   const double end = 0.5 * walls.length;
   return {point.x() - std::clamp(point.x(), -end, end), point.y()};
+}
+
+Ellipse ellipse_of(const SideWalls& walls) { return {0.5 * walls.length, 0.5 * walls.size}; }
+
+/// A straight wall; what is said of points is as seen from the middle of the arena.
+struct StraightWall {
+  Vec2 normal;    ///< into the arena
+  double offset;  ///< distance of the middle
+  double distance(const Vec2& point) const { return offset + normal.dot(point); }
+};
+
+/// Of a wedge: its wide end, its narrow end, which may be a corner, and those that slant, above and below.
+std::array<StraightWall, 4> walls_of_wedge(const SideWalls& walls) {
+  const double slope = 0.5 * (walls.size - walls.narrow) / walls.length;
+  const double along = 1.0 / std::sqrt(1.0 + slope * slope);
+  const double end = 0.5 * walls.length, middle = 0.25 * (walls.size + walls.narrow) * along;
+  return {StraightWall{Vec2(1, 0), end}, StraightWall{Vec2(-1, 0), end},
+          StraightWall{Vec2(-slope * along, -along), middle}, StraightWall{Vec2(-slope * along, along), middle}};
 }
 
 /// Where a bead goes in the plane: at time t it is within bend t^2 of point + velocity t.
@@ -77,8 +97,17 @@ double time_to_round_end(const BeadPath& path, double way, double end, double ra
   return std::max(to_end, time_to_round_wall(from_end, radius, time));
 }
 
-/// The first time that a bead may reach an outer wall, `radius` away from the middle or middle line; at most `time`.
-double time_to_outer_wall(const SideWalls& walls, const BeadPath& path, double radius, double time) {
+/// The first time that a bead of the given reach may touch an ellipse; at most `time`.
+double time_to_ellipse(const Ellipse& ellipse, const BeadPath& path, double reach, double time) {
+  Ellipse::Disc disc = ellipse.disc_round(path.point);
+  if (!(disc.depth(path.point) > reach))
+    disc = ellipse.disc_at(std::copysign(ellipse.nearest(path.point), path.point.x()));
+  return time_to_round_wall({path.point - Vec2(disc.centre, 0), path.velocity, path.bend}, disc.radius - reach, time);
+}
+
+/// The first time that a bead may come as near to an outer wall as it reaches; at most `time`.
+double time_to_outer_wall(const SideWalls& walls, const BeadPath& path, double reach, double time) {
+  const double radius = 0.5 * walls.size - reach;  // in which it is free, round the middle or middle line
   switch (walls.arena) {
     case Arena::kSquare:
       return time_to_two_walls(path, 1, radius, time_to_two_walls(path, 0, radius, time));
@@ -88,6 +117,14 @@ double time_to_outer_wall(const SideWalls& walls, const BeadPath& path, double r
       time = time_to_two_walls(path, 1, radius, time);
       time = time_to_round_end(path, 1.0, 0.5 * walls.length, radius, time);
       return time_to_round_end(path, -1.0, 0.5 * walls.length, radius, time);
+    case Arena::kEllipse:
+      return time_to_ellipse(ellipse_of(walls), path, reach, time);
+    case Arena::kWedge:
+      for (const StraightWall& wall : walls_of_wedge(walls)) {
+        const double speed = -wall.normal.dot(path.velocity);
+        time = time_to_straight_wall(wall.distance(path.point) - reach, speed, path.bend, time);
+      }
+      return time;
     case Arena::kDisc:
     case Arena::kAnnulus:
       break;
@@ -95,10 +132,18 @@ double time_to_outer_wall(const SideWalls& walls, const BeadPath& path, double r
   return time_to_round_wall(path, radius, time);
 }
 
-/// Whether a point seen from the middle is nearer to it, or to a stadium's or channel's middle line, than `most`.
-bool is_clear_of_outer_wall(const SideWalls& walls, const Vec2& point, double most) {
+/// Whether a point, as seen from the middle, is further from all outer walls than `reach`.
+bool is_clear_of_outer_wall(const SideWalls& walls, const Vec2& point, double reach) {
+  const double most = 0.5 * walls.size - reach;
   if (walls.arena == Arena::kSquare) return std::max(std::abs(point.x()), std::abs(point.y())) < most;
   if (walls.arena == Arena::kChannel) return std::abs(point.y()) < most;
+  if (walls.arena == Arena::kEllipse) {
+    const Ellipse ellipse = ellipse_of(walls);
+    return ellipse.disc_round(point).depth(point) > reach || ellipse.see(point).distance > reach;
+  }
+  if (walls.arena == Arena::kWedge) {
+    return std::ranges::all_of(walls_of_wedge(walls), [&](const auto& wall) { return wall.distance(point) > reach; });
+  }
   const Vec2 off = walls.arena == Arena::kStadium ? from_centre_line(walls, point) : point;
   return most > 0 && off.squaredNorm() < most * most;
 }
@@ -111,7 +156,7 @@ double time_to_inner_wall(const BeadPath& path, double radius, double time) {
 
 }  // namespace
 
-WallsSeen see_walls(const SideWalls& walls, const Box& box, const Vec3& point) {
+WallsSeen see_walls(const SideWalls& walls, const Box& box, const Vec3& point, double reach) {
   const double x = point.x() - 0.5 * box.x();
   const double y = point.y() - 0.5 * box.y();
   const double half = 0.5 * walls.size;
@@ -121,23 +166,38 @@ WallsSeen see_walls(const SideWalls& walls, const Box& box, const Vec3& point) {
     return {{WallSeen{half - std::abs(x), from_x}, WallSeen{half - std::abs(y), from_y}}, 2};
   }
   if (walls.arena == Arena::kChannel) return {{WallSeen{half - std::abs(y), Vec3(0, y > 0 ? -1.0 : 1.0, 0)}}, 1};
+  if (walls.arena == Arena::kEllipse) {
+    const Ellipse ellipse = ellipse_of(walls);
+    if (ellipse.disc_round({x, y}).depth({x, y}) > reach) return {};
+    const auto [distance, normal] = ellipse.see({x, y});
+    return {{WallSeen{distance, Vec3(normal.x(), normal.y(), 0)}}, 1};
+  }
+  if (walls.arena == Arena::kWedge) {
+    const auto [wide, narrow, above, below] = walls_of_wedge(walls);
+    const auto seen = [&](const StraightWall& wall) {
+      return WallSeen{wall.distance({x, y}), Vec3(wall.normal.x(), wall.normal.y(), 0)};
+    };
+    return {{seen(x > 0 ? narrow : wide), seen(above), seen(below)}, 3};
+  }
   const double along = walls.arena == Arena::kStadium ? from_centre_line(walls, {x, y}).x() : x;
   const double r = std::sqrt(along * along + y * y);
   const Vec3 inwards = r > 0 ? Vec3(-along / r, -y / r, 0) : Vec3(1, 0, 0);
   const WallSeen outer{half - r, inwards};
-  if (walls.arena != Arena::kAnnulus) return {{outer, WallSeen{}}, 1};
+  if (walls.arena != Arena::kAnnulus) return {{outer}, 1};
   return {{outer, WallSeen{r - 0.5 * walls.inner, -inwards}}, 2};
 }
 
-double distance_to_walls(const SideWalls& walls, const Box& box, const Vec3& point) {
-  const WallsSeen seen = see_walls(walls, box, point);
-  return seen.n == 1 ? seen.walls[0].distance : std::min(seen.walls[0].distance, seen.walls[1].distance);
+double distance_to_walls(const SideWalls& walls, const Box& box, const Vec3& point, double reach) {
+  const WallsSeen seen = see_walls(walls, box, point, reach);
+  double least = INFINITY;
+  for (int w = 0; w < seen.n; ++w) least = std::min(least, seen.walls[static_cast<std::size_t>(w)].distance);
+  return least;
 }
 
 bool is_within(const SideWalls& walls, const Box& box, const Species& species, const Pose& pose) {
   for (int b = 0; b < species.n_beads(); ++b) {
     const Vec3 center = pose.position + species.bead_offset[b] * pose.director;
-    if (distance_to_walls(walls, box, center) < species.bead_radius[b]) return false;
+    if (distance_to_walls(walls, box, center, species.bead_radius[b]) < species.bead_radius[b]) return false;
   }
   return true;
 }
@@ -146,9 +206,7 @@ bool may_touch_walls(const SideWalls& walls, const Box& box, const Species& spec
   const Axis axis(box, pose);
   const double margin = margin_for_rounding(box);
   for (const int b : species.outer_beads) {
-    const Vec2 point = axis.at(species.bead_offset[b]);
-    const double most = 0.5 * walls.size - species.bead_radius[b] - margin;
-    if (!is_clear_of_outer_wall(walls, point, most)) return true;
+    if (!is_clear_of_outer_wall(walls, axis.at(species.bead_offset[b]), species.bead_radius[b] + margin)) return true;
   }
   if (walls.arena != Arena::kAnnulus) return false;
   const double least = 0.5 * walls.inner + species.max_radius + margin;
@@ -160,10 +218,11 @@ double wall_safe_time(const SideWalls& walls, const Box& box, const Species& spe
   const double margin = margin_for_rounding(box);
   const Vec2 velocity(flight.velocity.x(), flight.velocity.y());
   const double fastest = velocity.norm() + pull * horizon + species.half_length * flight.rate;  // of its beads
-  const double gap = distance_to_walls(walls, box, pose.position) - species.half_length - species.max_radius;
-  if (gap - margin > fastest * horizon) return horizon;
-
   const Axis axis(box, pose);
+  const double room = walls.arena == Arena::kEllipse ? ellipse_of(walls).disc_round(axis.center).depth(axis.center)
+                                                     : distance_to_walls(walls, box, pose.position);
+  if (room - species.half_length - species.max_radius - margin > fastest * horizon) return horizon;
+
   const Vec3 turning = flight.precession.cross(pose.director);
   const auto path_of = [&](int bead) {
     const double offset = species.bead_offset[bead];
@@ -172,8 +231,7 @@ double wall_safe_time(const SideWalls& walls, const Box& box, const Species& spe
   };
   double time = horizon;
   for (const int b : species.outer_beads) {
-    const double most = 0.5 * walls.size - species.bead_radius[b] - margin;
-    time = time_to_outer_wall(walls, path_of(b), most, time);
+    time = time_to_outer_wall(walls, path_of(b), species.bead_radius[b] + margin, time);
   }
   if (walls.arena != Arena::kAnnulus) return time;
   const double inner = 0.5 * walls.inner + margin;

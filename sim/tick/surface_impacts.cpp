@@ -291,11 +291,11 @@ std::optional<NumericalTrouble> meet_side_walls(UprightVisit& visit) {
   const SideWalls& walls = *visit.rules.walls;
   const Box& box = visit.rules.box;
   if (!may_touch_walls(walls, box, visit.species, visit.rod.pose)) return {};
-  const auto see = [&](const Vec3& center, double, const auto& note) {
-    const WallsSeen seen = see_walls(walls, box, center);
+  const auto see = [&](const Vec3& center, double radius, const auto& note) {
+    const WallsSeen seen = see_walls(walls, box, center, radius);
     for (int w = 0; w < seen.n; ++w) note(w, seen.walls[static_cast<std::size_t>(w)]);
   };
-  return visit.meet(2, see, INFINITY, visit.species.wall, "side wall", visit.counters.impulses_rod_wall);
+  return visit.meet(WallsSeen::kMost, see, INFINITY, visit.species.wall, "side wall", visit.counters.impulses_rod_wall);
 }
 
 std::optional<NumericalTrouble> meet_posts(UprightVisit& visit) {

@@ -569,8 +569,11 @@ ORBIT = """
     const frame = {n_rods: 2, box_mm: [20, 40], gap_mm: 2, x: [0, -16384], y: [16384, 0], heading: [16384, 0], walls: null};
     const places = [null, [-32767, 0]].map((z) => Array.from(placesOf({...frame, z})));
     const posts = edgesOf({...frame, posts: {diameter_mm: 4, centres_mm: [[3, 30], [7, 8]]}});
+    const [ellipse, wedge] = ["ellipse", "wedge"].map((arena) =>
+      edgesOf({...frame, walls: {arena, size_mm: 8, inner_mm: 0, length_mm: 16, narrow_mm: 2}}));
     done([eyes.map(({eye}) => eye), eyes[2].up, [[-30, 35], [77, 1], [200, 90]].map(outermost), places,
-          [posts.length, posts[1].map(([x, y]) => Math.hypot(x - 3, y - 30))]]);
+          [posts.length, posts[1].map(([x, y]) => Math.hypot(x - 3, y - 30))],
+          [ellipse[0].map(([x, y]) => Math.hypot((x - 10) / 8, (y - 20) / 4)), wedge]]);
   });"""
 
 
@@ -585,10 +588,12 @@ def from_the_side(page, pictures):
     def drawn():
         return page.execute_script("return document.getElementById('rods').toDataURL()")
 
-    (front, right, above), up, reach, places, (n_edges, radii) = page.execute_async_script(ORBIT)
+    (front, right, above), up, reach, places, (n_edges, radii), (ellipse, wedge) = page.execute_async_script(ORBIT)
     check(places[0] == [10, 30, 1, 0.5, 5, 20, 1, 0], f"rods are where they are in the box, half way up: {places[0]}")
     check(places[1][2::4] == [-1, 1], f"or at their heights: {places[1]}")
     check(n_edges == 3 and all(abs(radius - 2) < 1e-9 for radius in radii), f"posts are edges beside the box's: {radii}")
+    check(len(ellipse) > 60 and all(abs(part - 1) < 1e-9 for part in ellipse), f"so is an ellipse: {ellipse}")
+    check(wedge == [[[2, 16], [18, 19], [18, 21], [2, 24]]], f"and a wedge: {wedge}")
     check(front[1] < 0 and abs(front[0] - 5) < 1e-9 and right[0] > 10 and abs(right[1] - 5) < 1e-9,
           "azimuth 0 is from below the picture from above, 90 from its right")
     check(abs(above[0] - 5) + abs(above[1] - 5) < 1e-9 and abs(up[1] - 1) < 1e-9, "elevation 90 is from above")

@@ -172,6 +172,33 @@ INSTANTIATE_TEST_SUITE_P(
                            s.start = Start::kRandom;
                            s.impacts = ImpactTime::kAtInstant;
                          }},
+                    Case{"Ellipse",
+                         [](System& s) {
+                           s.walls = SideWalls{.arena = Arena::kEllipse, .size = 10, .contact = {0.3, 0.5}};
+                           s.walls->length = 14;
+                           s.n_rods = 35;
+                         }},
+                    Case{"PolarInAnEllipse",
+                         [](System& s) {
+                           s.walls = SideWalls{.arena = Arena::kEllipse, .size = 7, .length = 14.5};
+                           s.rod = kPolarRod;
+                           s.n_rods = 12;
+                           s.start = Start::kRandom;
+                           s.impacts = ImpactTime::kAtInstant;
+                         }},
+                    Case{"Wedge",
+                         [](System& s) {
+                           s.walls = SideWalls{.arena = Arena::kWedge, .size = 14, .contact = {0.3, 0.5}, .length = 14};
+                           s.n_rods = 25;
+                         }},
+                    Case{"PolarInABluntWedge",
+                         [](System& s) {
+                           s.walls = SideWalls{.arena = Arena::kWedge, .size = 9, .length = 14, .narrow = 1};
+                           s.rod = kPolarRod;
+                           s.n_rods = 12;
+                           s.start = Start::kRandom;
+                           s.impacts = ImpactTime::kAtInstant;
+                         }},
                     Case{"Channel",
                          [](System& s) {
                            s.walls = SideWalls{.arena = Arena::kChannel, .size = 11, .contact = {0.3, 0.5}};
@@ -391,6 +418,13 @@ System draw_mix() {
     system.walls->arena = maybe() ? Arena::kStadium : Arena::kChannel;
     system.walls->length = 0.5 * *rc::gen::inRange(0, 10);
     system.walls->size = 14.5 - system.walls->length;
+  }
+  if (system.walls && *rc::gen::inRange(0, 3) == 0) {
+    system.walls->arena = maybe() ? Arena::kEllipse : Arena::kWedge;
+    system.walls->length = 14.5;
+    system.walls->size = 0.5 * *rc::gen::inRange(14, 30);
+    system.walls->narrow = *rc::gen::inRange(0, 7);
+    system.n_rods /= 2;
   }
   if (*rc::gen::inRange(0, 4) == 0) {
     system.posts = Posts{.diameter = 0.3 * *rc::gen::inRange(1, 8), .contact = {0.1 * *rc::gen::inRange(0, 5), 0.5}};

@@ -61,6 +61,8 @@ TEST(GoldenHash, TrajectoriesAreWhatTheyWere) {
       {"several species among posts in a disc, impacts at their instant", mixed(Arena::kDisc), 30000,
        0x48307e86766668d0},
       {"rods that differ in length and taper, compressed", scene_of(3.5, 18, 80), 10000, 0x6e71f0697403ca28},
+      {"several species in an ellipse", mixed(Arena::kEllipse), 30000, 0x606a561f75ac60b6},
+      {"several species in a wedge, impacts at their instant", mixed(Arena::kWedge), 30000, 0x2417e5970633078f},
   };
   cases[1].system.start = Start::kRandom;
   cases[2].system.rod = {.length = 0.8, .mid_diameter = 0.8, .end_diameter = 0.8, .n_beads = 1};
@@ -99,6 +101,11 @@ TEST(GoldenHash, TrajectoriesAreWhatTheyWere) {
   cases[20].system.n_rods = 10;
   cases[21].system.rod.spread = {.length = 0.1, .end_diameter = 0.2};
   cases[21].system.start = Start::kCompressed;
+  cases[22].system.n_rods = cases[23].system.n_rods = 8;
+  cases[22].system.walls->size = cases[23].system.walls->size = 9;
+  cases[22].system.walls->length = cases[23].system.walls->length = 13;
+  cases[23].system.walls->narrow = 3;
+  cases[23].system.impacts = ImpactTime::kAtInstant;
   for (const Golden& golden : cases) {
     auto simulation = Simulation::start(golden.system);
     ASSERT_TRUE(static_cast<bool>(simulation)) << simulation.error().message;

@@ -218,6 +218,20 @@ void draw_long_arena(std::uint64_t seed, Json& scene) {
   if (draw.chance(0.7)) walls["length"] = draw.chance(0.1) ? 0.0 : draw.by_size(0.1, 20);
 }
 
+/// Ellipses and wedges, where there would be a box without walls; by numbers of their own.
+void draw_narrowing_arena(std::uint64_t seed, Json& scene) {
+  SceneDraw draw(seed + 8'000'000'011);
+  if (!draw.chance(0.12) || scene.contains("walls")) return;
+  const std::string start = scene["rods"].value("start", "aligned");
+  if ((start != "aligned" && start != "random") || scene["rods"].contains("start_angle")) return;
+  const bool is_wedge = draw.chance(0.5);
+  Json& walls = scene["walls"] = draw_contact(draw);
+  walls["arena"] = is_wedge ? "wedge" : "ellipse";
+  scene["box"].erase("aspect");
+  if (draw.chance(0.3)) walls["length"] = draw.by_size(4, 30);
+  if (is_wedge && draw.chance(0.6)) walls["narrow"] = draw.by_size(0.1, 10);
+}
+
 /// Lattices of posts, and some at places of their own, by numbers of their own. Rods that do not fit among them are
 /// drawn again.
 void draw_posts(std::uint64_t seed, Json& scene) {
@@ -371,6 +385,7 @@ SceneCase draw_scene_case(std::uint64_t seed) {
   draw_box(seed, scene);
   draw_start_pattern(seed, scene);
   draw_long_arena(seed, scene);
+  draw_narrowing_arena(seed, scene);
   draw_posts(seed, scene);
   draw_contacts(seed, scene);
   draw_horizontal_vibration(seed, scene);

@@ -104,7 +104,14 @@ function outerEdgesOf({box_mm: [width, height], walls}) {
   if (!walls) return [rectangle(width, height)];
   if (walls.arena === "square") return [rectangle(walls.size_mm, walls.size_mm)];
   if (walls.arena === "channel") return [rectangle(width, walls.size_mm)];
-  const {size_mm, inner_mm, length_mm = 0, arena} = walls, turned = (k) => (k + 0.5) * Math.PI / 36;
+  const {size_mm, inner_mm, length_mm = 0, narrow_mm = 0, arena} = walls, turned = (k) => (k + 0.5) * Math.PI / 36;
+  if (arena === "wedge") {
+    return [[[-1, -size_mm], [1, -narrow_mm], [1, narrow_mm], [-1, size_mm]].map(([x, y]) => [(width + x * length_mm) / 2, (height + y) / 2])];
+  }
+  if (arena === "ellipse") {
+    return [Array.from({length: 72}, (_, k) =>
+      [(width + length_mm * Math.cos(turned(k))) / 2, (height + size_mm * Math.sin(turned(k))) / 2])];
+  }
   const round = (size, length) => Array.from({length: 72}, (_, k) =>
     [(width + size * Math.cos(turned(k)) + length * Math.sign(Math.cos(turned(k)))) / 2, (height + size * Math.sin(turned(k))) / 2]);
   return [round(size_mm, length_mm), ...(arena === "annulus" ? [round(inner_mm, 0)] : [])];

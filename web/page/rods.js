@@ -139,8 +139,8 @@ export class RodCanvas {
   }
 
   /** Round the middle of the arena, at (x, y) in pixels. */
-  drawWalls(context, {arena, size_mm, inner_mm, length_mm = 0}, [x, y], perMm, size) {
-    const radius = size_mm * perMm / 2, end = length_mm * perMm / 2, quarter = Math.PI / 2;
+  drawWalls(context, {arena, size_mm, inner_mm, length_mm = 0, narrow_mm = 0}, [x, y], perMm, size) {
+    const [radius, end, narrow] = [size_mm, length_mm, narrow_mm].map((mm) => mm * perMm / 2), quarter = Math.PI / 2;
     context.strokeStyle = cssColour("edge");
     context.lineWidth = 2;
     context.beginPath();
@@ -148,6 +148,11 @@ export class RodCanvas {
       context.rect(x - radius, y - radius, 2 * radius, 2 * radius);
     } else if (arena === "channel") {
       context.rect(-radius, y - radius, size + 2 * radius, 2 * radius);  // its ends are out of sight
+    } else if (arena === "ellipse") {
+      context.ellipse(x, y, end, radius, 0, 0, 2 * Math.PI);
+    } else if (arena === "wedge") {
+      for (const [dx, dy] of [[-end, -radius], [end, -narrow], [end, narrow], [-end, radius]]) context.lineTo(x + dx, y + dy);
+      context.closePath();
     } else {
       context.arc(x + end, y, radius, -quarter, quarter);
       context.arc(x - end, y, radius, quarter, 3 * quarter);

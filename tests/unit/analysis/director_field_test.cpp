@@ -113,7 +113,9 @@ TEST(DirectorField, IsUndefinedInTheVoidAndBeyondWalls) {
   for (const Region& region :
        {Region(kBox), Region(kBox, SideWalls{Arena::kDisc, 39}), Region(kBox, SideWalls{Arena::kAnnulus, 39, 15}),
         Region(kBox, SideWalls{Arena::kSquare, 39}),
-        Region(kBox, SideWalls{.arena = Arena::kStadium, .size = 25, .length = 14})}) {
+        Region(kBox, SideWalls{.arena = Arena::kStadium, .size = 25, .length = 14}),
+        Region(kBox, SideWalls{.arena = Arena::kEllipse, .size = 28, .length = 39}),
+        Region(kBox, SideWalls{.arena = Arena::kWedge, .size = 39, .length = 39, .narrow = 12})}) {
     std::vector<Vec3> positions;
     for (const Vec3& p : random_places(draw, 1500, kBox)) {
       if (region.contains(p.head<2>()) && p.x() < kBox / 2) positions.push_back(p);

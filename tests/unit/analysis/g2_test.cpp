@@ -177,7 +177,9 @@ TEST(OrientationCorrelation, PairDistributionOfAGasInAnArenaIsOne) {
   Draw draw(66);
   for (const SideWalls& walls :
        {SideWalls{Arena::kDisc, 40}, SideWalls{Arena::kSquare, 40}, SideWalls{Arena::kAnnulus, 40, 20},
-        SideWalls{.arena = Arena::kStadium, .size = 25, .length = 15}, SideWalls{Arena::kChannel, 30}}) {
+        SideWalls{.arena = Arena::kStadium, .size = 25, .length = 15}, SideWalls{Arena::kChannel, 30},
+        SideWalls{.arena = Arena::kEllipse, .size = 20, .length = 40},
+        SideWalls{.arena = Arena::kWedge, .size = 36, .length = 40}}) {
     const Region region(kBox, walls);
     OrientationCorrelation g2(20, 21);
     constexpr int kSamples = 20;

@@ -17,6 +17,12 @@ Region annulus(double inner = 20) { return {kBox, SideWalls{Arena::kAnnulus, 40,
 Region stadium(double size = 16, double length = 20) {
   return {kBox, SideWalls{.arena = Arena::kStadium, .size = size, .length = length}};
 }
+Region ellipse(double size = 20, double length = 40) {
+  return {kBox, SideWalls{.arena = Arena::kEllipse, .size = size, .length = length}};
+}
+Region wedge(double narrow = 0, double size = 24, double length = 32) {
+  return {kBox, SideWalls{.arena = Arena::kWedge, .size = size, .length = length, .narrow = narrow}};
+}
 Region channel() { return {Box(130, kBox), SideWalls{Arena::kChannel, 40}}; }
 
 /// The slow twin: along each of many rays as far as the region goes, in small steps.
@@ -36,8 +42,9 @@ double slow_area(const Region& region, const Vec2& place, double radius) {
 
 TEST(Region, AreaInSightIsThatOfRaysUpToTheWalls) {
   Draw draw(21);
-  for (const Region& region : {disc(), square(), annulus(), annulus(2), annulus(34), stadium(), stadium(30, 10),
-                               stadium(40, 0), stadium(4, 36), channel()}) {
+  for (const Region& region :
+       {disc(), square(), annulus(), annulus(2), annulus(34), stadium(), stadium(30, 10), stadium(40, 0),
+        stadium(4, 36), channel(), ellipse(), ellipse(40, 40), ellipse(6, 40), wedge(), wedge(8), wedge(0, 40, 10)}) {
     for (int k = 0; k < 6; ++k) {
       Vec2 place;
       do place = Vec2{draw.uniform(0, kBox), draw.uniform(0, kBox)};
@@ -69,6 +76,25 @@ TEST(Region, KnownAreasInSight) {
   EXPECT_NEAR(stadium().area_in_sight(Vec2(31, 21), 8), 64 * kPi, 1e-9);
   EXPECT_NEAR(stadium().area_in_sight(Vec2(21, 29), 10), 50 * kPi, 1e-9);
   EXPECT_NEAR(stadium(40, 0).area_in_sight(Vec2(41, 21), 20), 400 * (2 * kPi / 3 - std::sqrt(3.0) / 2), 1e-9);
+  // All of an ellipse, from anywhere; and up to its co-vertices from its centre; of a round one as of a disc; of a flat
+  // one, a place on its long axis from which the nearest points are above and below.
+  for (const Vec2& place : {centre, Vec2(1, 21), Vec2(21, 31), Vec2(30, 26)}) {
+    EXPECT_NEAR(ellipse().area_in_sight(place, 41), 200 * kPi, 1e-9);
+  }
+  EXPECT_NEAR(ellipse().area_in_sight(centre, 10), 100 * kPi, 1e-9);
+  EXPECT_NEAR(ellipse().area_in_sight(centre, 20 - 1e-9), 200 * kPi, 1e-6);
+  EXPECT_NEAR(ellipse(40, 40).area_in_sight(Vec2(41, 21), 20), 400 * (2 * kPi / 3 - std::sqrt(3.0) / 2), 1e-7);
+  // From a focus at (c, 0) the ellipse is a - e x away, so a circle of radius a reaches beyond it for x > 0. There a
+  // ray from the focus sweeps the area a b pi / 2 - b c along the ellipse, by Kepler's equation.
+  const double focus = std::sqrt(300), e = focus / 20;
+  const double seen = 200 * (kPi / 2) - 10 * focus, angle = std::atan2(10, -focus);
+  EXPECT_NEAR(ellipse().area_in_sight(Vec2(21 + focus, 21), 20), seen + 400 * (kPi - angle), 1e-9);
+  EXPECT_NEAR(ellipse().area_in_sight(Vec2(21 + focus, 21), 20 * (1 - e)), kPi * std::pow(20 * (1 - e), 2), 1e-9);
+  // Of a triangle: all from its tip; half a disc at its wide end; from the tip the sector between its slanting walls.
+  EXPECT_NEAR(wedge().area_in_sight(Vec2(37, 21), 40), 384, 1e-9);
+  EXPECT_NEAR(wedge().area_in_sight(Vec2(5, 21), 5), 12.5 * kPi, 1e-9);
+  EXPECT_NEAR(wedge().area_in_sight(Vec2(37, 21), 30), 900 * std::atan(12.0 / 32), 1e-9);
+  EXPECT_NEAR(wedge(24).area_in_sight(Vec2(21, 9), 10), 50 * kPi, 1e-9);
   // Of a channel, a strip of a disc: less two segments of it.
   EXPECT_NEAR(channel().area_in_sight(Vec2(3, 21), 20), 400 * kPi, 1e-9);
   EXPECT_NEAR(channel().area_in_sight(Vec2(3, 21), 40), 1600 * (kPi / 3 + std::sqrt(3.0) / 2), 1e-9);
@@ -88,6 +114,13 @@ TEST(Region, ContainsWhatIsWithinItsWalls) {
   EXPECT_TRUE(stadium().contains({38.9, 21}));
   EXPECT_TRUE(stadium().contains({31, 28.9}));
   EXPECT_FALSE(stadium().contains({38, 26}));
+  EXPECT_TRUE(ellipse().contains({40.9, 21}));
+  EXPECT_TRUE(ellipse().contains({33, 28.9}));
+  EXPECT_FALSE(ellipse().contains({33, 29.1}));
+  EXPECT_TRUE(wedge().contains({5.1, 32.8}));
+  EXPECT_FALSE(wedge().contains({4.9, 21}));
+  EXPECT_TRUE(wedge().contains({21, 26.9}));
+  EXPECT_FALSE(wedge().contains({21, 27.1}));
   EXPECT_TRUE(channel().contains({0, 40.9}));
   EXPECT_FALSE(channel().contains({65, 0.9}));
   EXPECT_EQ(annulus().hidden_radius(), 10);
@@ -102,6 +135,8 @@ TEST(Region, WaysGoThroughTheBorderOnlyWhereThereAreNoWalls) {
   EXPECT_NEAR(annulus().area(), kPi * 300, 1e-9);
   EXPECT_NEAR(stadium().area(), 320 + 64 * kPi, 1e-9);
   EXPECT_EQ(channel().area(), 130 * 40);
+  EXPECT_NEAR(ellipse().area(), 200 * kPi, 1e-9);
+  EXPECT_EQ(wedge(8).area(), 16 * 32);
   EXPECT_EQ(Region(kBox).area(), kBox * kBox);
 }
 

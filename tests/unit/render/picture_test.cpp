@@ -77,8 +77,10 @@ TEST(RodPicture, AreaFractionIsOfAllKindsAndPerArena) {
                                     {Arena::kSquare, 900.0},
                                     {Arena::kAnnulus, kPi * 200},
                                     {Arena::kStadium, kPi * 225 + 150},
-                                    {Arena::kChannel, 1200.0}}) {
-    picture.cell.walls = SideWalls{.arena = arena, .size = 30, .inner = 10, .length = 5};
+                                    {Arena::kChannel, 1200.0},
+                                    {Arena::kEllipse, kPi * 37.5},
+                                    {Arena::kWedge, 80.0}}) {
+    picture.cell.walls = SideWalls{.arena = arena, .size = 30, .inner = 10, .length = 5, .narrow = 2};
     EXPECT_NEAR(picture.area_fraction(), discs / area, 1e-12);
   }
 }
@@ -183,6 +185,9 @@ TEST(Measure, FindsNoDefectsBeyondTheWalls) {
     if (arena == Arena::kChannel) return std::abs(from_middle.y()) < 20;
     if (arena == Arena::kStadium)
       return Vec2(std::max(0.0, std::abs(from_middle.x()) - 8), from_middle.y()).norm() < 20;
+    if (arena == Arena::kEllipse) return Vec2(from_middle.x() / 28, from_middle.y() / 20).norm() < 1;
+    if (arena == Arena::kWedge)
+      return std::abs(from_middle.x()) < 28 && std::abs(from_middle.y()) < 10 * (1 - from_middle.x() / 28);
     return from_middle.norm() < 20 && (arena == Arena::kDisc || from_middle.norm() > 8);
   };
   const auto rods_within = [&](const std::optional<SideWalls>& walls) {
@@ -197,7 +202,8 @@ TEST(Measure, FindsNoDefectsBeyondTheWalls) {
   };
   const std::vector<analysis::Defect> everywhere = rods_within({}).found.defects;
   for (const auto& [name, arena] : kArenaNames) {
-    const RodPicture picture = rods_within(SideWalls{.arena = arena, .size = 40, .inner = 16, .length = 16});
+    const double length = arena == Arena::kStadium ? 16 : 56;
+    const RodPicture picture = rods_within(SideWalls{.arena = arena, .size = 40, .inner = 16, .length = length});
     EXPECT_FALSE(picture.found.defects.empty());
     EXPECT_LT(picture.found.defects.size(), everywhere.size());
     for (const analysis::Defect& defect : picture.found.defects) {

@@ -482,6 +482,37 @@ TEST(RodsPass, AStadiumAndAChannelEndAtTheirWalls) {
   EXPECT_TRUE(is(colour_at(channel, 9.98, 6.6), colours.floor));
 }
 
+// Half axes of 4 and 2 mm; and 4 mm wide on the left, 1 mm on the right, 8 mm from each other.
+TEST(RodsPass, AnEllipseAndAWedgeEndAtTheirWalls) {
+  const PageColours colours = page_colours(Theme::kLight);
+  RodPicture picture = empty_picture(kBox);
+  picture.cell.walls = SideWalls{.arena = Arena::kEllipse, .size = 4, .length = 8, .narrow = 1};
+  const Image ellipse = draw(picture);
+  picture.cell.walls->arena = Arena::kWedge;
+  const Image wedge = draw(picture);
+  const auto ends_at = [&](const Image& image, const Vec2& edge, const Vec2& outwards) {
+    const auto colour = [&](double off) {
+      const Vec2 place = edge + off * outwards.normalized();
+      return colour_at(image, place.x(), place.y());
+    };
+    EXPECT_TRUE(is(colour(-0.05), colours.floor)) << edge.transpose();
+    EXPECT_TRUE(is(colour(0.0104), colours.ink)) << edge.transpose();  // half of the line's thickness
+    EXPECT_TRUE(is(colour(0.1), colours.walls)) << edge.transpose();
+  };
+  for (const double angle : {0.0, 0.2, 0.9, 1.57, 3.14, 4.0, 5.5}) {
+    const Vec2 from_middle(4 * std::cos(angle), 2 * std::sin(angle));
+    ends_at(ellipse, Vec2(5, 5) + from_middle, {from_middle.x() / 16, from_middle.y() / 4});
+  }
+  EXPECT_TRUE(is(colour_at(ellipse, 5, 5), colours.floor));
+  ends_at(wedge, {1, 5}, {-1, 0});
+  ends_at(wedge, {1, 6.5}, {-1, 0});
+  ends_at(wedge, {9, 5}, {1, 0});
+  for (const double way : {1.0, -1.0}) {
+    ends_at(wedge, {3, 5 + way * 1.625}, {0.1875, way});
+    ends_at(wedge, {8, 5 + way * 0.6875}, {0.1875, way});
+  }
+}
+
 TEST(RodsPass, AChannelGoesOnAlongItself) {
   RodPicture picture = second_kind({{0}, {0.5}}, 0);
   picture.cell.walls = SideWalls{.arena = Arena::kChannel, .size = 8};

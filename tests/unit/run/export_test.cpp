@@ -114,6 +114,12 @@ TEST(Xyz, WallsAreNamedAndNothingIsPeriodicWithinThem) {
   header.cell.walls = SideWalls{.arena = Arena::kStadium, .size = 6, .length = 2.5};
   EXPECT_THAT(text_of(*make_beads_xyz(header), {frame_of_two()}),
               HasSubstr(" pbc=\"F F F\" Time=2 Step=8 units=\"mm s\" arena=stadium arena_size=6 arena_length=2.5\n"));
+  header.cell.walls = SideWalls{.arena = Arena::kWedge, .size = 6, .length = 2.5, .narrow = 1.5};
+  EXPECT_THAT(text_of(*make_beads_xyz(header), {frame_of_two()}),
+              HasSubstr(" arena=wedge arena_size=6 arena_length=2.5 arena_narrow=1.5\n"));
+  header.cell.walls->arena = Arena::kEllipse;
+  EXPECT_THAT(text_of(*make_beads_xyz(header), {frame_of_two()}),
+              HasSubstr(" arena=ellipse arena_size=6 arena_length=2.5\n"));
   header.cell.walls->arena = Arena::kChannel;
   EXPECT_THAT(text_of(*make_beads_xyz(header), {frame_of_two()}), HasSubstr(" pbc=\"T F F\""));
   header.cell.walls->arena = Arena::kDisc;

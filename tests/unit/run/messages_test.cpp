@@ -127,12 +127,24 @@ TEST(Messages, AnArenaComesBackWithItsLengths) {
   Cell cell = small_world().cell();
   for (const SideWalls& walls : {SideWalls{.arena = Arena::kAnnulus, .size = 9, .inner = 4},
                                  SideWalls{.arena = Arena::kStadium, .size = 5, .inner = 0, .length = 4.5},
-                                 SideWalls{.arena = Arena::kChannel, .size = 9, .inner = 0}}) {
+                                 SideWalls{.arena = Arena::kChannel, .size = 9, .inner = 0},
+                                 SideWalls{.arena = Arena::kEllipse, .size = 3, .inner = 0, .length = 4.5},
+                                 SideWalls{.arena = Arena::kWedge, .size = 3, .inner = 0, .length = 4.5},
+                                 SideWalls{Arena::kWedge, 3, 0, Contacts{0.01, 0.3}, 4.5, 1.0 / 3}}) {
     cell.walls = walls;
     const auto sent = proto::decode<frame_static_t>(proto::encode(proto::encode_cell(cell, 6, "")));
     ASSERT_TRUE(sent);
-    EXPECT_EQ(sent->arena, name_of(walls.arena));
+    if (walls.narrow == 0) {
+      EXPECT_EQ(sent->arena, std::string(name_of(walls.arena)) + (walls.arena == Arena::kWedge ? " 0" : ""));
+    }
     EXPECT_EQ(proto::decode_cell(*sent), cell);
+  }
+  frame_static_t other = proto::encode_cell(cell, 6, "");
+  for (const char* unknown : {"wedge x", "wedge 1 mm", "wedge ", "disc 3", "hexagon", " "}) {
+    other.arena = unknown;
+    const auto read = proto::decode_cell(other);
+    ASSERT_TRUE(read) << unknown;
+    EXPECT_FALSE(read->walls) << unknown;
   }
 }
 

@@ -65,7 +65,10 @@ nlohmann::json random_scene() {
     scene["walls"] = {{"arena", "disc"}};
     if (maybe()) scene["walls"]["size"] = between(40, 120);
     if (maybe()) scene["walls"]["arena"] = maybe() ? "stadium" : "channel";
+    if (maybe()) scene["walls"]["arena"] = maybe() ? "ellipse" : "wedge";
     if (maybe() && scene["walls"]["arena"] == "stadium") scene["walls"]["length"] = between(0, 120);
+    if (maybe() && scene["walls"]["arena"] == "ellipse") scene["walls"]["length"] = between(120, 240);
+    if (maybe() && scene["walls"]["arena"] == "wedge") scene["walls"]["narrow"] = between(0, 20);
     if (maybe() && scene["walls"]["arena"] == "channel") scene["box"]["aspect"] = between(0.3, 3);
   }
   if (maybe()) scene["plates"]["noise"] = between(0, 1);

@@ -151,8 +151,64 @@ TEST(Packing, AStadiumIsTwiceAsLongAsWideUnlessItsLengthIsGiven) {
       "run.json:1:40: /walls/size: a stadium of 30 mm and 30 mm does not fit into a box of 60 mm: at most 59 mm in "
       "all; or leave box.side out");
   EXPECT_EQ(problem_of(R"({"walls": {"length": 30}})"),
-            "run.json:1:22: /walls/length: only a stadium has straight walls of a given length, and walls.arena is "
-            "\"disc\"; remove walls.length, or set walls.arena to \"stadium\"");
+            "run.json:1:22: /walls/length: only a stadium, an ellipse and a wedge have a length, and walls.arena is "
+            "\"disc\"; remove walls.length, or set walls.arena to one of them");
+}
+
+TEST(Packing, AnEllipseOrAWedgeIsTwiceAsLongAsWideUnlessItsLengthIsGiven) {
+  for (const std::string arena : {"ellipse", "wedge"}) {
+    const auto plan = [&](const std::string& walls, const std::string& rest = "") {
+      return plan_of(R"({"walls": {"arena": ")" + arena + "\"" + walls + "}" + rest + "}").system;
+    };
+    const System whole = plan("");
+    EXPECT_EQ(whole.box_side, 83.73);
+    EXPECT_DOUBLE_EQ(whole.walls->size, 82.73 / 2);
+    EXPECT_DOUBLE_EQ(whole.walls->length, 82.73);
+    EXPECT_EQ(whole.walls->narrow, 0);
+    const System by_size = plan(R"(, "size": 20)");
+    EXPECT_EQ(by_size.walls->length, 40);
+    EXPECT_DOUBLE_EQ(by_size.box_side, 41);
+    const System by_both = plan(R"(, "size": 20, "length": 25)");
+    EXPECT_EQ(by_both.walls->length, 25);
+    EXPECT_DOUBLE_EQ(by_both.box_side, 26);
+    EXPECT_DOUBLE_EQ(plan(R"(, "length": 60)").walls->size, arena == "ellipse" ? 60 : 82.73);
+    for (const char* length : {"", R"(, "length": 50)"}) {
+      const System by_count = plan(length, R"(, "rods": {"count": 300, "area_fraction": 0.5})");
+      EXPECT_NEAR(area_fraction_of(by_count), 0.5, 1e-12);
+      EXPECT_EQ(by_count.walls->length, *length ? 50 : 2 * by_count.walls->size);
+    }
+  }
+  for (const char* length : {"", R"(, "length": 30)"}) {
+    const System blunt = plan_of(std::string(R"({"walls": {"arena": "wedge", "narrow": 5)") + length +
+                                 R"(}, "rods": {"count": 300, "area_fraction": 0.5}})")
+                             .system;
+    EXPECT_EQ(blunt.walls->narrow, 5);
+    EXPECT_NEAR(area_fraction_of(blunt), 0.5, 1e-12);
+  }
+  EXPECT_EQ(plan_of(R"({"walls": {"arena": "wedge", "size": 30, "length": 8}})").system.box_side, 31)
+      << "wider than long";
+}
+
+TEST(Packing, ImpossibleEllipsesAndWedgesAreRefused) {
+  EXPECT_EQ(problem_of(R"({"walls": {"arena": "ellipse", "size": 30, "length": 70}, "box": {"side": 60}})"),
+            "run.json:1:40: /walls/size: an ellipse of 70 mm by 30 mm does not fit into a box of 60 mm: at most 59 mm; "
+            "or leave box.side out");
+  EXPECT_EQ(
+      problem_of(R"({"walls": {"arena": "ellipse", "size": 30, "length": 20}})"),
+      "run.json:1:54: /walls/length: an ellipse of 20 mm by 30 mm is wider than long: its long axis lies along x, so "
+      "give the greater of the two lengths to walls.length");
+  EXPECT_EQ(
+      problem_of(R"({"walls": {"arena": "ellipse", "size": 6, "length": 72}})"),
+      "run.json:1:40: /walls/size: the ends of an ellipse of 72 mm by 6 mm have a radius of curvature of 0.25 mm, "
+      "and rods 0.8 mm thick do not fit into them: make walls.size at least 7.589466384 mm, or walls.length at "
+      "most 45 mm");
+  EXPECT_EQ(problem_of(R"({"walls": {"arena": "wedge", "size": 30, "length": 0.5}})"),
+            "run.json:1:52: /walls/length: a wedge of 0.5 mm is too short: at least 1 mm");
+  EXPECT_EQ(problem_of(R"({"walls": {"arena": "wedge", "size": 30, "narrow": 31}})"),
+            "run.json:1:52: /walls/narrow: a narrow end of 31 mm is wider than the wide end of 30 mm, walls.size");
+  EXPECT_EQ(problem_of(R"({"walls": {"arena": "ellipse", "narrow": 3}})"),
+            "run.json:1:42: /walls/narrow: only a wedge has a narrow end, and walls.arena is \"ellipse\"; remove "
+            "walls.narrow, or set walls.arena to \"wedge\"");
 }
 
 TEST(Packing, AChannelLiesAlongABoxOfAnyShape) {

@@ -193,8 +193,9 @@ TEST(InitialFlights, TheMostThatIsPromisedCanBePlacedAndNotOneMore) {
   for (const auto& [name, arena] : kArenaNames) {
     for (double size = 13.26; size < 34; size += 1.3) {
       System system = scene_at(4.5, 0.5, size + 1);
-      const double length = arena == Arena::kStadium ? 0.4 * size : 0.0;
-      system.walls = SideWalls{arena, size - length, 4.0, {}, length};
+      system.walls = SideWalls{arena, size, 4.0, {}, 0.4 * size, 0.2 * size};
+      if (system.walls->has_length()) system.walls->size = 0.6 * size;
+      if (arena == Arena::kEllipse || arena == Arena::kWedge) system.walls->length = size;
       SCOPED_TRACE(testing::Message() << name << " of " << size << " mm");
       system.n_rods = 1000;
       const int most = promised(system);

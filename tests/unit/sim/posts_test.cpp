@@ -346,6 +346,7 @@ std::vector<std::pair<const char*, System>> systems_with_posts() {
   system.posts->places.clear();
   for (const auto& [name, arena] : kArenaNames) {
     system.walls = SideWalls{.arena = arena, .size = 20, .inner = 4, .contact = {0.1, 0.7}, .length = 8};
+    if (arena == Arena::kEllipse || arena == Arena::kWedge) system.walls->length = 28;
     system.box_side = 30;
     all.emplace_back(name, system);
   }

@@ -42,19 +42,21 @@ struct RodByWall {
   double horizon;
 
   RodByWall(test::Draw& draw, double gap) : species(random_species(draw)) {
-    walls.arena = static_cast<Arena>(draw.integer(0, 4));
+    walls.arena = static_cast<Arena>(draw.integer(0, kArenaNames.size() - 1));
     const double middle = walls.arena == Arena::kAnnulus ? draw.uniform(0.1, 12) : 0.0;
     walls.inner = middle;
     walls.size = middle + (draw.integer(0, 3) ? 4.4 : 30.0) * species.reach();
-    const bool is_long = walls.arena == Arena::kStadium && draw.integer(0, 3);  // or it is a disc
-    walls.length = is_long ? draw.uniform(0, 2) * walls.size : 0.0;
+    const bool is_long = walls.has_length() && draw.integer(0, 3);  // or as long as wide, and the stadium is a disc
+    const double least = walls.arena == Arena::kStadium ? 0.0 : walls.size;
+    walls.length = is_long ? least + draw.uniform(0, 2) * walls.size : least;
+    walls.narrow = draw.integer(0, 2) * 0.5 * walls.size;
     box_side = walls.size + walls.length + draw.uniform(1, 3);
     // from where it is free on to the nearest wall that way
     const double angle = draw.uniform(0, 2 * kPi);
     const Vec3 outwards(std::cos(angle), std::sin(angle), 0);
     const double start = walls.arena == Arena::kAnnulus ? 0.25 * (walls.size + walls.inner) : 0.0;
     const Vec3 way = draw.integer(0, 1) ? outwards : Vec3(-outwards);
-    const double beside = 0.5 * walls.length * draw.uniform(-1, 1);
+    const double beside = 0.5 * (walls.extent().x() - walls.size) * draw.uniform(-1, 1);
     const Vec3 middle_of_box(0.5 * box_side + beside, 0.5 * box_side, 0);
     Pose pose{middle_of_box + start * outwards, draw.flat_direction(draw.integer(0, 3) ? 0.38 : 1)};
     for (int step = 0; step < 60; ++step) {
@@ -109,6 +111,58 @@ TEST(SeeWalls, OfAStadium) {
   EXPECT_EQ(distance_to_walls(walls, 40, {20, 20, 0}), 10);
 }
 
+// A triangle whose slanting walls rise by 3 on 4, with corners at (0, -12), (0, 12) and (16, 0) from (12, 20).
+TEST(SeeWalls, OfAWedge) {
+  const SideWalls walls{.arena = Arena::kWedge, .size = 24, .length = 16};
+  const auto expect = [&](const Vec2& point, const std::array<double, 3>& distances, double end) {
+    const WallsSeen seen = see_walls(walls, 40, {point.x() + 12, point.y() + 20, 0.3});
+    ASSERT_EQ(seen.n, 3);
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(seen.walls[k].distance, distances[k], 1e-12) << k;
+    EXPECT_EQ(seen.walls[0].normal, Vec3(end, 0, 0));
+    EXPECT_LT((seen.walls[1].normal - Vec3(-0.6, -0.8, 0)).norm(), 1e-12);
+    EXPECT_LT((seen.walls[2].normal - Vec3(-0.6, 0.8, 0)).norm(), 1e-12);
+    EXPECT_NEAR(distance_to_walls(walls, 40, {point.x() + 12, point.y() + 20, 0}), *std::ranges::min_element(distances),
+                1e-12);
+  };
+  expect({2, 0}, {2, 8.4, 8.4}, 1);
+  expect({11, 0}, {5, 3, 3}, -1);
+  expect({4, 9}, {4, 0, 14.4}, 1);
+  expect({7, -8}, {7, 11.8, -1}, 1);
+  const SideWalls blunt{.arena = Arena::kWedge, .size = 24, .length = 8, .narrow = 12};  // the left half of it
+  EXPECT_NEAR(distance_to_walls(blunt, 40, {23.5, 20, 0}), 0.5, 1e-12);
+  const SideWalls rectangle{.arena = Arena::kWedge, .size = 10, .length = 20, .narrow = 10};
+  EXPECT_EQ(distance_to_walls(rectangle, 40, {26, 23, 0}), 2);
+  EXPECT_EQ(distance_to_walls(rectangle, 40, {29, 21, 0}), 1);
+}
+
+TEST(SeeWalls, OfAnEllipse) {
+  const SideWalls walls{.arena = Arena::kEllipse, .size = 6, .length = 10};
+  expect_wall(walls, 20, {10, 11}, 2, {0, -1});
+  expect_wall(walls, 20, {5.5, 10}, 0.5, {1, 0});
+  expect_wall(walls, 20, {16, 10}, -1, {-1, 0});
+}
+
+TEST(SeeWalls, WithinItsReachAnEllipseIsTheSame) {
+  test::Draw draw(45);
+  const SideWalls walls{.arena = Arena::kEllipse, .size = 12, .length = 30};
+  int n_left_out = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    const Vec3 point(draw.uniform(4, 36), draw.uniform(13, 27), 0);
+    const double reach = draw.uniform(0, 2);
+    const WallsSeen all = see_walls(walls, 40, point), near = see_walls(walls, 40, point, reach);
+    ASSERT_EQ(all.n, 1);
+    if (near.n == 0) {
+      ++n_left_out;
+      ASSERT_GT(all.walls[0].distance, reach);
+      ASSERT_GT(distance_to_walls(walls, 40, point, reach), reach);
+    } else {
+      ASSERT_EQ(near.walls[0].distance, all.walls[0].distance);
+      ASSERT_EQ(near.walls[0].normal, all.walls[0].normal);
+    }
+  }
+  EXPECT_GT(n_left_out, 500);
+}
+
 TEST(SeeWalls, OfAChannel) {
   const SideWalls walls{.arena = Arena::kChannel, .size = 20};
   const Box box(40, 30);
@@ -122,7 +176,8 @@ TEST(SideWalls, AreaIsWhatLiesWithin) {
   constexpr double kBox = 41.3;
   constexpr int kGrid = 700;
   for (const auto& [name, arena] : kArenaNames) {
-    const SideWalls walls{.arena = arena, .size = 23, .inner = 9, .length = 14};
+    const double length = arena == Arena::kStadium ? 14 : 37.7;
+    const SideWalls walls{.arena = arena, .size = 23, .inner = 9, .length = length, .narrow = 7};
     int within = 0;
     for (int i = 0; i < kGrid * kGrid; ++i) {
       const Vec3 point((i % kGrid + 0.5) * kBox / kGrid, (i / kGrid + 0.5) * kBox / kGrid, 0);
@@ -132,6 +187,9 @@ TEST(SideWalls, AreaIsWhatLiesWithin) {
   }
   EXPECT_DOUBLE_EQ((SideWalls{.arena = Arena::kStadium, .size = 20, .length = 10}.area(50)), 200 + 100 * kPi);
   EXPECT_EQ((SideWalls{.arena = Arena::kChannel, .size = 20}.area(Box(40, 30))), 800);
+  EXPECT_DOUBLE_EQ((SideWalls{.arena = Arena::kEllipse, .size = 20, .length = 40}.area(50)), 200 * kPi);
+  EXPECT_EQ((SideWalls{.arena = Arena::kWedge, .size = 20, .length = 30}.area(50)), 300);
+  EXPECT_EQ((SideWalls{.arena = Arena::kWedge, .size = 20, .length = 30, .narrow = 10}.area(50)), 450);
 }
 
 TEST(WallSafeTime, NoBeadBeginsToTouchAWallBeforeItsBound) {
@@ -176,7 +234,7 @@ TEST(WallSafeTime, OfARodThatFliesStraightAtAWall) {
     for (const auto& [name, arena] : kArenaNames) {
       for (const double way : {1.0, -1.0}) {  // in an annulus these are its two walls
         const bool is_stadium = arena == Arena::kStadium;
-        const SideWalls walls{arena, is_stadium ? 20.0 : 30.0, 6, {}, 10};
+        const SideWalls walls{arena, is_stadium ? 20.0 : 30.0, 6, {}, is_stadium ? 10.0 : 30.0, 24};
         const double head = species.bead_offset.back() + species.bead_radius.back();
         const double wall = arena != Arena::kAnnulus ? way * 15 : way > 0 ? 15.0 : 3.0;
         const Vec3 towards = arena == Arena::kChannel ? Vec3(0, way, 0) : Vec3(way, 0, 0);
@@ -233,8 +291,9 @@ TEST(MayTouchWalls, IsNeverDeniedOfARodThatDoes) {
 TEST(MayTouchWalls, OfARodThatADiscHasNoRoomFor) {
   const Species sphere = make_species({.length = 1.2, .mid_diameter = 1.2, .end_diameter = 1.2, .n_beads = 1});
   const Pose pose{Vec3(1.5, 1.5, 0.6), Vec3::UnitX()};
-  for (const Arena arena : {Arena::kDisc, Arena::kSquare, Arena::kStadium, Arena::kChannel}) {
-    const SideWalls walls{arena, 1.0, 0.1, {}, 0.5};
+  for (const auto& [name, arena] : kArenaNames) {
+    if (arena == Arena::kAnnulus) continue;
+    const SideWalls walls{arena, 1.0, 0.1, {}, arena == Arena::kStadium ? 0.5 : 1.0};
     Flight flight;
     flight.position = pose.position;
     EXPECT_TRUE(may_touch_walls(walls, 3, sphere, pose));
@@ -248,6 +307,7 @@ TEST(SideWalls, NoBeadIsEverFurtherOutsideThanATickTakesIt) {
     System system;
     system.rod = {.length = 3.0, .n_beads = 9, .profile = Profile::kPolar};
     system.walls = SideWalls{.arena = arena, .size = 14, .inner = 4, .contact = {0.1, 0.7}, .length = 6};
+    if (arena == Arena::kEllipse || arena == Arena::kWedge) system.walls->length = 20;
     system.box_side = 22;
     system.n_rods = 30;
     system.start = Start::kRandom;
@@ -265,6 +325,75 @@ TEST(SideWalls, NoBeadIsEverFurtherOutsideThanATickTakesIt) {
       }
     }
     EXPECT_GT(simulation->world().counters.impulses_rod_wall, 30) << name;
+  }
+}
+
+/// One rod in weightless flight between walls that take nothing from it.
+System elastic_rod_within(const SideWalls& walls) {
+  System system;
+  system.walls = walls;
+  system.walls->contact = {0.0, 1.0};
+  system.box_side = 42;
+  system.n_rods = 1;
+  system.gravity = 0;
+  system.base = system.lid = false;
+  system.start = Start::kRandom;
+  system.impacts = ImpactTime::kAtInstant;
+  return system;
+}
+
+TEST(SideWalls, ARodThatBouncesWithoutLossKeepsItsEnergyAndStaysWithin) {
+  for (const auto& [name, arena] : kArenaNames) {
+    const double length = arena == Arena::kStadium ? 20 : 40;
+    System system = elastic_rod_within({.arena = arena, .size = 20, .inner = 4, .length = length, .narrow = 1});
+    system.rod = {.length = 3.0, .n_beads = 9, .profile = Profile::kPolar};
+    system.dt = 1e-5;
+    auto simulation = Simulation::start(system);
+    ASSERT_TRUE(static_cast<bool>(simulation)) << simulation.error().message;
+    World world = simulation->world();
+    world.rods[0].velocity = Vec3(70, 50, 0);
+    world.rods[0].precession = Vec3(0, 0, 30);
+    world.rods[0].prepare();
+    world.start = content(world);
+    Simulation flying = Simulation::start_from(world);
+    const double energy = content(world).energy;
+    const Species& rod = world.species[0];
+    for (int part = 1; part <= 500; ++part) {
+      ASSERT_FALSE(flying.advance_to(1000 * part).has_value());
+      const Snapshot now = flying.snapshot();
+      for (int b = 0; b < rod.n_beads(); ++b) {
+        const Vec3 bead = now.position[0] + rod.bead_offset[b] * now.director[0];
+        ASSERT_GT(distance_to_walls(*system.walls, 42, bead), rod.bead_radius[b] - 1e-6) << name << " " << part;
+      }
+      ASSERT_NEAR(content(flying.world()).energy / energy, 1, 1e-11) << name << " " << part;
+    }
+    EXPECT_GT(flying.world().counters.impulses_rod_wall, 10) << name;
+  }
+}
+
+// What leaves a focus of an ellipse passes through the other, whichever way it goes, and then through the first again.
+// The wall of the sphere's centre is no ellipse, but nearly one, for the sphere is small.
+TEST(SideWalls, AnEllipseSendsASmallSphereFromFocusToFocus) {
+  constexpr double kDiameter = 2e-2, kSpeed = 100;
+  System system = elastic_rod_within({.arena = Arena::kEllipse, .size = 24, .length = 40});
+  system.rod = {.length = kDiameter, .mid_diameter = kDiameter, .end_diameter = kDiameter, .n_beads = 1};
+  auto made = Simulation::start(system);
+  ASSERT_TRUE(static_cast<bool>(made)) << made.error().message;
+  const Vec3 middle(21, 21, 0.6), foci[] = {middle + Vec3(16, 0, 0), middle - Vec3(16, 0, 0)};
+  for (const double angle : {0.3, 1.2, 2.0, 3.0, 4.5}) {
+    World world = made->world();
+    world.rods[0].position = foci[0];
+    world.rods[0].velocity = kSpeed * Vec3(std::cos(angle), std::sin(angle), 0);
+    world.rods[0].precession = Vec3::Zero();
+    world.rods[0].prepare();
+    world.start = content(world);
+    Simulation simulation = Simulation::start_from(world);
+    for (int bounce = 1; bounce <= 2; ++bounce) {  // each way is as long as the long axis
+      ASSERT_FALSE(simulation.advance_to(static_cast<Tick>(bounce * 40 / kSpeed / system.dt)).has_value());
+      EXPECT_EQ(simulation.world().counters.impulses_rod_wall, bounce);
+      EXPECT_LT((simulation.snapshot().position[0] - foci[bounce % 2]).norm(), bounce == 1 ? 2 * kDiameter : 0.4)
+          << angle << " " << bounce;
+    }
   }
 }
 

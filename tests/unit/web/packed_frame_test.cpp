@@ -88,6 +88,10 @@ TEST(PackedFrame, SpeciesAndWallsAreThereWhereTheyAreInTheRun) {
   frame.cell.walls = SideWalls{.arena = Arena::kStadium, .size = 8, .length = 5};
   const std::string other = packed(frame);
   EXPECT_EQ(nlohmann::json::parse(other.substr(4, u16(other, 0)))["walls"]["length_mm"], 5);
+  frame.cell.walls = SideWalls{.arena = Arena::kWedge, .size = 8, .inner = 0, .length = 5, .narrow = 2};
+  const std::string wedge = packed(frame);
+  EXPECT_EQ(nlohmann::json::parse(wedge.substr(4, u16(wedge, 0)))["walls"],
+            nlohmann::json({{"arena", "wedge"}, {"size_mm", 8}, {"inner_mm", 0}, {"length_mm", 5}, {"narrow_mm", 2}}));
   EXPECT_EQ(head["walls"], nlohmann::json({{"arena", "annulus"}, {"size_mm", 18}, {"inner_mm", 6}}));
   EXPECT_EQ(bytes.substr(4 + size + 16), std::string("\x01\x00", 2));
   EXPECT_EQ(head["species_of_outline"], nlohmann::json::array());

@@ -92,6 +92,10 @@ TEST(RodCells, WallsAreDrawn) {
   const CellGrid grid = drawn(frame, kBlocks);
   EXPECT_EQ(grid.at(5, 2).back, ink_of(kFloorTone));
   EXPECT_NE(grid.at(1, 2), grid.at(5, 2)) << "4 mm left of the middle";
+  frame.cell.walls = SideWalls{.arena = Arena::kEllipse, .size = 4, .length = 8};
+  EXPECT_NE(drawn(frame, kBlocks).at(1, 2), grid.at(5, 2)) << "at a tip";
+  frame.cell.walls->arena = Arena::kWedge;
+  EXPECT_NE(drawn(frame, kBlocks).at(1, 2), grid.at(5, 2)) << "at the wide end";
 }
 
 TEST(RodCells, TheViewMovesRoundThePeriodicBox) {
