@@ -231,6 +231,7 @@ Field bead_diameters(const std::string& path, Access access) {
 
 constexpr double kMostSpread = 0.3;  // the shortest rods then have half of the mean length
 constexpr double kMostFriction = 1000;
+constexpr double kMostNoise = 10;              // [rad/mm]
 constexpr double kMostRestitutionSpeed = 1e6;  // [mm/s]
 
 /// Area fraction of the rods added as number k + 2.
@@ -341,6 +342,14 @@ std::vector<Field> rod_contact() {
   return rows;
 }
 
+/// The noise of the rods that are added as number k + 2.
+template <std::size_t k>
+Field own_noise(const std::string& name) {
+  return derived(quantity("plates." + name + ".noise", sys<&System::added_noise, k>, kPlain, 0, kMostNoise,
+                          "The rotational noise that `plates.noise` is, of `" + name + "`."),
+                 "that of plates.noise");
+}
+
 /// The blocks of all observables.
 std::vector<Field> measure() {
   std::vector<Field> rows{later(choice<MeasuredSpecies>(
@@ -416,9 +425,11 @@ std::vector<std::vector<Field>> groups() {
                    "Direction down the slope, in degrees to the x axis.")),
     later(on_or_off("plates.base", sys<&System::base>, "Whether there is a base.")),
     later(on_or_off("plates.lid", sys<&System::lid>, "Whether there is a lid.")),
-    later(quantity("plates.noise", sys<&System::rotational_noise>, kPlain, 0, 10,
+    later(quantity("plates.noise", sys<&System::rotational_noise>, kPlain, 0, kMostNoise,
                    "Rotational noise in rad/mm: each hit by a plate changes the rod's angular velocity about the "
                    "vertical by this much per speed of the hit, to either side at random.")),
+    own_noise<0>("rods_2"),
+    own_noise<1>("rods_3"),
 
     block("walls", sys<&System::walls>, false,
           "Side walls around an arena in the middle of the box, in place of periodic boundaries; a channel "

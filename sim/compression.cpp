@@ -167,6 +167,7 @@ class Compression {
     gas.rod_rod = gas.rod_base = gas.rod_lid = elastic;
     if (gas.posts) gas.posts->contact = elastic;
     gas.rotational_noise = 0;
+    gas.added_noise = {};
     gas.law = ImpulseLaw::kNewton;
     gas.solver_sweeps = 1;
     gas.order = ContactOrder::kSorted;

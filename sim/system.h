@@ -248,6 +248,8 @@ struct System {
   /// Roughness of the plates: each hit turns the rod about the vertical by this much per speed of the hit, to either
   /// side at random [rad/mm].
   double rotational_noise = 0.0;
+  /// That of rods_2 and rods_3, where it is not that of the first species [rad/mm].
+  std::array<std::optional<double>, 2> added_noise{};
 
   double dt = 4e-6;  ///< the tick [s]: the accuracy knob
   StepperKind stepper = StepperKind::kScheduled;
@@ -288,7 +290,16 @@ struct System {
   Gravity gravity_on_plates() const;
   /// The base is too weak to throw rods, which come to rest on it.
   bool lets_rods_rest() const { return base && peak_acceleration() < gravity_on_plates().down; }
-  bool has_rotational_noise() const { return rotational_noise > 0; }
+  /// Of rods of a species [rad/mm].
+  double noise_of(std::size_t number) const {
+    return number == 0 ? rotational_noise : added_noise[number - 1].value_or(rotational_noise);
+  }
+  bool has_rotational_noise() const {
+    for (std::size_t number = 0; number < kMostSpecies; ++number) {
+      if (has_species(number) && noise_of(number) > 0) return true;
+    }
+    return false;
+  }
   bool has_impacts_at_instant() const { return impacts == ImpactTime::kAtInstant; }
   Box box() const { return Box::of_aspect(box_side, box_aspect); }
   /// Area that the rods have to share: that of the box or the arena, less that of the posts [mm^2].

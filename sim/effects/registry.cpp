@@ -398,9 +398,18 @@ struct SpeciesContacts : OnContacts<SpeciesContacts> {
 
 struct RotationalNoise {
   static bool is_on(const System& system) { return system.has_rotational_noise(); }
-  static std::string why(const System& system) { return setting("plates.noise", system.rotational_noise, " rad/mm"); }
+  static std::string why(const System& system) {
+    for (std::size_t number = 1; number < kMostSpecies && !(system.rotational_noise > 0); ++number) {
+      if (system.has_species(number) && system.noise_of(number) > 0)
+        return setting("plates." + species_name(number) + ".noise", system.noise_of(number), " rad/mm");
+    }
+    return setting("plates.noise", system.rotational_noise, " rad/mm");
+  }
   static std::int64_t work(const World& world) { return world.counters.noise_kicks; }
-  static void switch_off(System& system) { system.rotational_noise = 0; }
+  static void switch_off(System& system) {
+    system.rotational_noise = 0;
+    system.added_noise = {};
+  }
 };
 
 struct ImpactsAtInstant {

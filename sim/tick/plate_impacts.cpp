@@ -313,7 +313,7 @@ bool are_usual(const TickRules& rules, const SpeciesMechanics& species) {
     return contact.has_friction() && !contact.has_restitution_speed();
   };
   return (!rules.has_base || is_usual(species.base)) && (!rules.has_lid || is_usual(species.lid)) &&
-         rules.impulse == &newton_coulomb_impulse && !rules.impacts_at_instant && !rules.has_rotational_noise &&
+         rules.impulse == &newton_coulomb_impulse && !rules.impacts_at_instant && !species.has_rotational_noise() &&
          !rules.rest.matters();
 }
 

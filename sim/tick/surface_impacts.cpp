@@ -164,14 +164,14 @@ struct PlateVisit {
     evaluate_motion(rod, flight, now, species, rules);
     counters.max_overlap_rod_plate = std::max(counters.max_overlap_rod_plate, overlap);
     double speed = 0;  // of the hit
-    if (rules.has_rotational_noise) {
+    if (species.has_rotational_noise()) {
       const Vec3 arm = species.bead_offset[bead] * rod.pose.director - species.bead_radius[bead] * side * Vec3::UnitZ();
       speed = std::abs(point_velocity(rod.motion, arm).z() - (side > 0 ? plates.velocity : plates.lid_velocity));
     }
     const ContactParameters& contact = side > 0 ? species.base : species.lid;
     if (!collide_with(Vec3(0, 0, side), bead, overlap, contact, rod, species, plates, now, rules, counters)) return;
     ++(side > 0 ? counters.impulses_rod_base : counters.impulses_rod_lid);
-    if (rules.has_rotational_noise) turn_at_random(index, n_hits, rod, species, speed, now, rules, counters);
+    if (species.has_rotational_noise()) turn_at_random(index, n_hits, rod, species, speed, now, rules, counters);
     ++n_hits;
   }
 

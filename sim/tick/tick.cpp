@@ -25,8 +25,8 @@ double max_speed(const World& world) {
 namespace {
 
 /// `species_of_shape` (n_shapes) does not count species that a scene leaves out.
-void set_contacts(const System& system, std::span<const std::uint8_t> species_of_shape,
-                  std::vector<SpeciesMechanics>& species) {
+void set_materials(const System& system, std::span<const std::uint8_t> species_of_shape,
+                   std::vector<SpeciesMechanics>& species) {
   std::vector<std::size_t> numbers;
   for (std::size_t number = 0; number < kMostSpecies; ++number) {
     if (system.has_species(number)) numbers.push_back(number);
@@ -36,6 +36,7 @@ void set_contacts(const System& system, std::span<const std::uint8_t> species_of
     species[k].number = number;
     species[k].base = system.rod_base.of(number);
     species[k].lid = system.rod_lid.of(number);
+    species[k].rotational_noise = system.noise_of(number);
     if (system.walls) species[k].wall = system.walls->contact.of(number);
     if (system.posts) species[k].post = system.posts->contact.of(number);
     for (const std::size_t other : numbers) species[k].rods[other] = system.rod_rod.of(number, other);
@@ -55,13 +56,11 @@ TickRules::TickRules(const World& world)
       has_lid(world.system.lid),
       walls(world.system.walls),
       has_horizontal_vibration(world.system.has_horizontal_vibration()),
-      has_rotational_noise(world.system.has_rotational_noise()),
-      rotational_noise(world.system.rotational_noise),
       seed(world.system.seed),
       plates(world.plates) {
   for (const Species& one : world.species) species.emplace_back(one);
   if (world.system.posts) posts.emplace(standing_posts(world.system), box, period_of(box, walls));
-  set_contacts(world.system, world.species_of_shape, species);
+  set_materials(world.system, world.species_of_shape, species);
   max_speed2 = max_speed(world) * max_speed(world);
   if (world.system.lets_rods_rest()) rest = {0.5 * gravity.down * dt, kRiseRate};
 }

@@ -42,6 +42,8 @@ struct SpeciesMechanics : Species {
   ContactParameters base{}, lid{}, wall{}, post{};
   std::array<ContactParameters, kMostSpecies> rods{};  ///< with each species
   std::size_t number = 0;                              ///< of the species, among those
+  double rotational_noise = 0;                         ///< [rad/mm]
+  bool has_rotational_noise() const { return rotational_noise > 0; }
 };
 
 /// Rate at which rods at rest on the base come out of it again [1/s].
@@ -74,8 +76,6 @@ struct TickRules {
   std::optional<PostGrid> posts;
   bool has_uprights() const { return walls || posts; }
   bool has_horizontal_vibration;
-  bool has_rotational_noise;
-  double rotational_noise;  ///< [rad/mm]
   std::uint64_t seed;
   PlateMotion plates;
   double max_speed2;  ///< [mm^2/s^2]

@@ -161,6 +161,8 @@ def shortened(command, job):
     if command.startswith("shaken submit configs/"):
         command = re.sub(r" (-s time\.\S+|--replicas \d+)", "", command)
         command += " --replicas 1 -s time.steady=0 -s time.measure=200ms -s trajectory.every=100ms"
+    if command.startswith("shaken calibrate"):
+        command = re.sub(r" -d \S+", "", command) + " -d 20 --precision 0.3 -s time.step=16us -s rods.length=2.5"
     if command.startswith("shaken run ") and not re.search("--out (full|mechanism)", command):  # others need these as they are
         command += " -s time.steady=0 -s time.measure=60ms -s trajectory.every=10ms"
     return command

@@ -269,6 +269,20 @@ INSTANTIATE_TEST_SUITE_P(
                            s.n_rods = 30;
                          }},
                     Case{"Noise", [](System& s) { s.rotational_noise = 0.1; }},
+                    Case{"NoiseOfSpecies",
+                         [](System& s) {
+                           s.n_rods = 20;
+                           s.added = {AddedRods{kPolarRod, 15}, AddedRods{kSphere, 12}};
+                           s.added_noise[0] = 0.2;  // the others go by lanes
+                         }},
+                    Case{"NoiseOfAllSpeciesButOneWithSizes",
+                         [](System& s) {
+                           s.n_rods = 25;
+                           s.rod.spread = {.length = 0.15, .end_diameter = 0.1};
+                           s.added = {std::nullopt, AddedRods{kPolarRod, 15}};
+                           s.rotational_noise = 0.1;
+                           s.added_noise[1] = 0.0;
+                         }},
                     Case{"NoiseFrictionlessAtInstant",
                          [](System& s) {
                            s.rotational_noise = 0.1;
@@ -392,6 +406,7 @@ INSTANTIATE_TEST_SUITE_P(
                            s.added = {AddedRods{kPolarRod, 8}, AddedRods{kSphere, 8}};
                            s.walls = SideWalls{Arena::kSquare, 15.0};
                            s.rotational_noise = 0.05;
+                           s.added_noise[0] = 0.1;
                            s.impacts = ImpactTime::kAtInstant;
                          }}),
     name_of);
@@ -448,6 +463,7 @@ System draw_mix() {
     system.inclination_angle = *rc::gen::inRange(-180, 180);
   }
   if (maybe()) system.rotational_noise = 0.05;
+  if (maybe()) system.added_noise[0] = 0.1 * *rc::gen::inRange(0, 3);
   if (maybe()) system.rod_base.friction = system.rod_lid.friction = 0;
   if (maybe()) system.rod_rod.friction = 0;
   if (maybe()) system.rod_rod.restitution_speed = *rc::gen::inRange(1, 100);

@@ -323,6 +323,15 @@ void draw_spread(std::uint64_t seed, Json& scene) {
   }
 }
 
+/// Species with noise of their own, by numbers of their own.
+void draw_species_noise(std::uint64_t seed, Json& scene) {
+  SceneDraw draw(seed + 8'000'000'033);
+  for (const char* name : {"rods_2", "rods_3"}) {
+    if (!scene.contains(name) || !draw.chance(0.25)) continue;
+    scene["plates"][name]["noise"] = draw.chance(0.3) ? 0.0 : draw.by_size(0.001, 10);
+  }
+}
+
 }  // namespace
 
 SceneCase draw_scene_case(std::uint64_t seed) {
@@ -391,6 +400,7 @@ SceneCase draw_scene_case(std::uint64_t seed) {
   draw_horizontal_vibration(seed, scene);
   draw_plate_motion(seed, scene);
   draw_spread(seed, scene);
+  draw_species_noise(seed, scene);
   return one;
 }
 

@@ -93,6 +93,8 @@ TEST(BadArguments, AreAllExitCodeTwo) {
                                                                      {"movie", "x", "--frame", "1", "--live"},
                                                                      {"picture", "x", "--frame", "1", "--time", "2"},
                                                                      {"picture", "s1", "--map", "--time", "2"},
+                                                                     {"calibrate", "no/such/scene.json", "-d", "40"},
+                                                                     {"calibrate", "-s", "rods.lenght=3", "-d", "40"},
                                                                      {"import"},
                                                                      {"import", "x"},
                                                                      {"import", "x", "--scene", "y", "--frame", "-1"},

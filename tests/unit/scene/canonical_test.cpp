@@ -72,6 +72,7 @@ nlohmann::json random_scene() {
     if (maybe() && scene["walls"]["arena"] == "channel") scene["box"]["aspect"] = between(0.3, 3);
   }
   if (maybe()) scene["plates"]["noise"] = between(0, 1);
+  if (scene.contains("rods_2") && maybe()) scene["plates"]["rods_2"]["noise"] = maybe() ? 0 : between(0, 1);
   if (maybe()) scene["plates"]["lid"] = false;
   if (maybe()) scene["time"]["impacts"] = "at_instant";
   if (maybe()) scene["until"] = {{"order_sem", between(0.001, 0.1)}, {"at_most", between(100, 1000)}};
@@ -158,6 +159,20 @@ TEST(Canonical, ContactsAsForAllRodsAreLeftOut) {
   EXPECT_EQ(run_id(plan_of(common)),
             run_id(plan_of(common, {"contacts.rod_lid.rods_2.friction=0.01", "contacts.rod_rod.restitution_speed=0"})));
   EXPECT_NE(run_id(plan_of(common)), run_id(plan_of(common, {"contacts.rod_lid.rods_2.friction=0.02"})));
+}
+
+// Noise of a species that is as for all rods is not its own: scenes keep the run ids that they had before.
+TEST(Canonical, NoiseAsForAllRodsIsLeftOut) {
+  const std::string two = R"({"rods_2": {"count": 9}, "plates": {"noise": 0.02}})";
+  const RunPlan own = plan_of(two, {"plates.rods_2.noise=0.03"});
+  EXPECT_EQ(to_json(own).at("plates").at("rods_2").dump(), R"({"noise":0.03})");
+  EXPECT_EQ(own.system.noise_of(0), 0.02);
+  EXPECT_EQ(own.system.noise_of(1), 0.03);
+  EXPECT_FALSE(to_json(plan_of(two)).at("plates").contains("rods_2"));
+  EXPECT_EQ(run_id(plan_of(two)), run_id(plan_of(two, {"plates.rods_2.noise=0.02"})));
+  EXPECT_NE(run_id(plan_of(two)), run_id(own));
+  EXPECT_EQ(plan_of(two).system.noise_of(1), 0.02);
+  EXPECT_EQ(plan_of(two, {"plates.noise=0", "plates.rods_2.noise=0"}), plan_of(R"({"rods_2": {"count": 9}})"));
 }
 
 }  // namespace

@@ -38,6 +38,14 @@ TEST(Problems, ContactsOfRodsThatAreNotThere) {
             "about rods_3, which the scene does not have; add rods_3 or remove the key");
 }
 
+TEST(Problems, NoiseOfRodsThatAreNotThere) {
+  EXPECT_EQ(problem_of(R"({"rods_3": {"count": 5}, "plates": {"rods_2": {"noise": 0.3}}})"),
+            "run.json:1:57: /plates/rods_2/noise: plates.rods_2.noise is about rods_2, which the scene does not have; "
+            "add rods_2 or remove the key");
+  EXPECT_EQ(problem_of(R"({"rods_2": {"count": 5}, "plates": {"rods_2": {"noise": -0.3}}})"),
+            "run.json:1:57: /plates/rods_2/noise: -0.3 is outside [0, 10]");
+}
+
 TEST(Problems, WallsAndPostsOnPlatesThatVibrateInThePlane) {
   EXPECT_EQ(problem_of(R"({"plates": {"horizontal_amplitude": 0.05}, "walls": {}})"),
             "run.json:1:37: /plates/horizontal_amplitude: side walls would move through the plane with the plates, and "

@@ -35,6 +35,7 @@ System everything_on() {
   system.lid_motion = LidMotion{0.03, 100.0};
   system.inclination = 2;
   system.rotational_noise = 0.05;
+  system.added_noise = {0.0, 0.1};
   system.impacts = ImpactTime::kAtInstant;
   return system;
 }
@@ -87,7 +88,11 @@ const std::map<std::string_view, void (*)(System&)>& neutral_by_hand() {
       {"side_wall_friction", [](System& s) { no_friction(s.walls->contact); }},
       {"posts", [](System& s) { s.posts = std::nullopt; }},
       {"post_friction", [](System& s) { no_friction(s.posts->contact); }},
-      {"rotational_noise", [](System& s) { s.rotational_noise = 0.0; }},
+      {"rotational_noise",
+       [](System& s) {
+         s.rotational_noise = 0.0;
+         s.added_noise = {};
+       }},
       {"impacts_at_instant", [](System& s) { s.impacts = ImpactTime::kTickEnd; }},
       {"taper",
        [](System& s) {
@@ -186,6 +191,23 @@ TEST(Effects, TellWhatSwitchesThem) {
   system.added = {AddedRods{}, AddedRods{}};
   EXPECT_EQ(effect_named("species_contacts").why(system), "contacts.rod_rod.rods_2_rods_3.friction = 0.25");
   EXPECT_EQ(effect_named("rod_rod_friction").why(system), "contacts.rod_rod.rods_2_rods_3.friction = 0.25");
+}
+
+TEST(Effects, NoiseIsOnWhereRodsOfAnySpeciesThatIsThereHaveIt) {
+  const Effect& noise = effect_named("rotational_noise");
+  System system;
+  system.added_noise[1] = 0.2;
+  EXPECT_FALSE(noise.is_on(system)) << "no rods_3";
+  EXPECT_EQ(noise.why(system), "plates.noise = 0 rad/mm");
+  system.added[1] = AddedRods{};
+  EXPECT_TRUE(noise.is_on(system));
+  EXPECT_EQ(noise.why(system), "plates.rods_3.noise = 0.2 rad/mm");
+  system.rotational_noise = 0.1;
+  EXPECT_EQ(noise.why(system), "plates.noise = 0.1 rad/mm");
+  EXPECT_EQ(system.noise_of(1), 0.1) << "as the first species";
+  system.rotational_noise = 0;
+  system.added_noise[1] = 0;
+  EXPECT_FALSE(noise.is_on(system));
 }
 
 TEST(Effects, FrictionlessRodsDoNotSpin) {

@@ -110,6 +110,10 @@ TEST(PlateImpacts, AreInLanesWhateverTheSceneAsksFor) {
   };
   EXPECT_TRUE(is_in_lanes([](System&) {}));
   EXPECT_TRUE(is_in_lanes([](System& system) { system.rotational_noise = 0.01; }));
+  EXPECT_TRUE(is_in_lanes([](System& system) {
+    system.added[0] = AddedRods{};
+    system.added_noise[0] = 0.01;
+  }));
   EXPECT_TRUE(is_in_lanes([](System& system) { system.horizontal_amplitude = 0.01; }));
   EXPECT_TRUE(is_in_lanes([](System& system) { system.impacts = ImpactTime::kAtInstant; }));
   EXPECT_TRUE(is_in_lanes([](System& system) { system.law = ImpulseLaw::kPoisson; }));

@@ -5,6 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "sim/initial.h"
+#include "sim/simulation.h"
+#include "tests/support/short_rods.h"
 
 namespace shaken {
 namespace {
@@ -99,6 +105,75 @@ TEST(RotationalNoise, SidesAreDrawnEquallyOftenAndAnewForEverySeedRodTickAndHit)
     // a hit and the next one come twice each: the variance is at most doubled
     EXPECT_LT(std::abs(product), 4.5 * std::sqrt(2 * n / 10)) << product / (n / 10);
   }
+}
+
+// Shapes are counted through all sizes of all species that are there; noise is of the scene's species.
+TEST(RotationalNoise, IsThatOfTheSpeciesWhateverItsSizes) {
+  System system = test::short_rods(20, 30);
+  system.rod.spread.length = 0.1;
+  system.added[1] = AddedRods{{.length = 2.0, .n_beads = 7, .spread = {.length = 0.1}}, 10};
+  system.rotational_noise = 0.03;
+  system.added_noise = {0.5, 0.07};  // the first of them of rods that are not there
+  const World world = empty_world(system);
+  const TickRules rules(world);
+  const Cell cell = world.cell();
+  EXPECT_GT(rules.species.size(), 4u);
+  for (int i = 0; i < system.n_all_rods(); ++i) {
+    const bool is_third = cell.species_of(static_cast<std::size_t>(i)) == 1;
+    EXPECT_EQ(rules.species_of(i).rotational_noise, is_third ? 0.07 : 0.03) << i;
+    RodAtTick rod = rod_at(Vec3::UnitX());
+    const double before = rod.motion.angular_velocity.z();
+    Counters counters;
+    turn_at_random(i, 0, rod, rules.species_of(i), 10.0, 5, rules, counters);
+    EXPECT_NEAR(std::abs(rod.motion.angular_velocity.z() - before), is_third ? 0.7 : 0.3, 1e-13);
+  }
+}
+
+// Between plates without friction nothing but noise changes the angular momentum about the vertical of a rod that meets
+// no other.
+TEST(RotationalNoise, KicksOnlyRodsOfSpeciesThatHaveIt) {
+  for (const bool of_added : {false, true}) {
+    System system = test::short_rods(3, 100);
+    system.added[0] = AddedRods{system.rod, 3};
+    system.start = Start::kRandom;
+    system.rod_base.friction = system.rod_lid.friction = 0;
+    system.rotational_noise = of_added ? 0 : 0.05;
+    system.added_noise[0] = of_added ? 0.05 : 0;
+    auto simulation = Simulation::start(system);
+    ASSERT_TRUE(static_cast<bool>(simulation));
+    std::vector<double> before;
+    for (const Flight& rod : simulation->world().rods) before.push_back(rod.precession.z());
+    ASSERT_FALSE(simulation->advance_to(10000).has_value());
+    const World& world = simulation->world();
+    ASSERT_EQ(world.counters.impulses_rod_rod, 0);
+    const std::int64_t hits = world.counters.impulses_rod_base + world.counters.impulses_rod_lid;
+    EXPECT_GT(world.counters.noise_kicks, 0);
+    EXPECT_LT(world.counters.noise_kicks, hits) << "rods without noise count none";
+    const Cell cell = world.cell();
+    for (std::size_t i = 0; i < world.rods.size(); ++i) {
+      const double change = std::abs(world.rods[i].precession.z() - before[i]);
+      const bool is_kicked = (cell.species_of(i) == 1) == of_added;
+      EXPECT_TRUE(is_kicked ? change > 1e-3 : change < 1e-9) << i << ": " << change;
+    }
+  }
+}
+
+// One number in `plates.noise` is the same as that number for each species.
+TEST(RotationalNoise, OfEachSpeciesAlikeIsThatOfAll) {
+  System common = test::short_rods(20, 20);
+  common.added[0] = AddedRods{{.length = 2.5, .n_beads = 9, .profile = Profile::kPolar}, 10};
+  common.rotational_noise = 0.05;
+  System each = common;
+  each.added_noise[0] = 0.05;
+  System other = common;
+  other.added_noise[0] = 0.051;
+  const auto hash = [](const System& system) {
+    auto simulation = Simulation::start(system);
+    EXPECT_FALSE(simulation->advance_to(3000).has_value());
+    return simulation->state_hash();
+  };
+  EXPECT_EQ(hash(common), hash(each));
+  EXPECT_NE(hash(common), hash(other));
 }
 
 TEST(RotationalNoise, TheSideDependsOnTheKeyOnly) {
