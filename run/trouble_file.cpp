@@ -49,6 +49,7 @@ OrderedJson to_json(const CloseUp& close_up) {
           {"base_mm", close_up.plates.base},
           {"lid_mm", close_up.plates.lid},
           {"plate_velocity_mm_s", close_up.plates.velocity},
+          {"lid_velocity_mm_s", close_up.plates.lid_velocity},
           {"rods", rods},
           {"contacts", contacts},
           {"unknown_rods", close_up.unknown}};

@@ -42,7 +42,8 @@ Result<void> check_cell(const Cell& cell, std::size_t n_rods) {
     if (cell.walls->has_length()) hold("length of an arena", cell.walls->length, "walls.length");
     if (cell.walls->arena == Arena::kWedge) hold("narrow end", cell.walls->narrow, "walls.narrow");
     const bool is_thin = cell.walls->arena == Arena::kWedge && !(cell.walls->length > 0);
-    const bool is_upright = cell.walls->arena == Arena::kEllipse && !(cell.walls->length >= cell.walls->size);
+    const bool is_upright =
+        cell.walls->arena == Arena::kEllipse && !(cell.walls->length >= cell.walls->size * (1 - 1e-12));
     if (is_thin || is_upright) wrong = "an arena that is too short";
   }
   if (!cell.posts.centres.empty()) hold("post", cell.posts.diameter, "posts.diameter");

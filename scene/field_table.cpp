@@ -66,10 +66,9 @@ Field inner_wall() {
 }
 
 Field length_of_arena() {
-  Field field =
-      derived(quantity("walls.length", sys<&System::walls, &SideWalls::length>, kLength, 0, 2000,
-                       "Length along x: of a stadium's straight walls, or of an ellipse or a wedge from end to end."),
-              "so that the arena is twice as long as wide");
+  Field field = derived(quantity("walls.length", sys<&System::walls, &SideWalls::length>, kLength, 0, 2000,
+                                 "Length along x: of a stadium's straight walls, of an ellipse, or of a wedge."),
+                        "so that the arena is twice as long as wide");
   field.fetch = [](const RunPlan& p) { return p.system.walls->has_length() ? Value(p.system.walls->length) : Value(); };
   return field;
 }
@@ -346,7 +345,7 @@ std::vector<Field> rod_contact() {
 template <std::size_t k>
 Field own_noise(const std::string& name) {
   return derived(quantity("plates." + name + ".noise", sys<&System::added_noise, k>, kPlain, 0, kMostNoise,
-                          "The rotational noise that `plates.noise` is, of `" + name + "`."),
+                          "Rotational noise of `" + name + "`, in rad/mm, as `plates.noise`."),
                  "that of plates.noise");
 }
 

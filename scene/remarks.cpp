@@ -71,7 +71,7 @@ std::optional<std::string> remark_on_slope(const System& system) {
   if (slope <= friction) return std::nullopt;
   return fmt::format(
       "plates.inclination {:.4g} degrees is steeper than the friction of the plates, whose angle is {:.3g} degrees: "
-      "without walls rods may slide down faster and faster",
+      "without walls rods may slide down faster and faster, until the run ends because one is too fast",
       system.inclination, std::atan(friction) * 180 / kPi);
 }
 
@@ -154,6 +154,12 @@ std::vector<std::string> remarks(const RunPlan& plan) {
                                plan.system.peak_acceleration() / plan.system.gravity_on_plates().down));
   }
   if (const auto remark = remark_on_slope(plan.system)) list.push_back(*remark);
+  if (plan.system.inclination > 0 && plan.system.gravity == 0)
+    list.emplace_back("plates.inclination: without gravity nothing pulls the rods down the slope");
+  if (plan.system.inclination_angle != 0 && plan.system.inclination == 0)
+    list.emplace_back("plates.inclination_angle: the plates are level (plates.inclination is 0), so it has no effect");
+  if (plan.system.second && !plan.system.base && !plan.system.lid)
+    list.emplace_back("plates.second: there are no plates that could vibrate");
   if (plan.system.has_horizontal_vibration() && !has_plate_friction(plan.system)) {
     list.push_back(
         "plates.horizontal_amplitude: no plate has friction, so the vibration in the plane does not reach the rods");

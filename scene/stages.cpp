@@ -79,10 +79,8 @@ std::string cannot_follow(const RunPlan& plan, const RunPlan& former) {
   const Tick end = total_ticks(former);
   const double off = off_the_beat(former.system, end);
   if (std::abs(off) <= 0.5 * dt * (1 + 1e-6)) return "";
-  return fmt::format(
-      "that ends in the middle of a vibration, at {:.10g} s, and the plates would jump; the nearest whole "
-      "one ends at {:.10g} s",
-      static_cast<double>(end) * dt, static_cast<double>(end) * dt - off);
+  return fmt::format("that ends in the middle of a vibration, at {:.10g} s, and the plates would jump; {}",
+                     static_cast<double>(end) * dt, nearest_beat(former.system, end));
 }
 
 }  // namespace shaken::scene

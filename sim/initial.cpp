@@ -521,13 +521,27 @@ std::string start_mismatch(const System& system, const System& other) {
 double off_the_beat(const System& system, Tick tick) {
   if (!system.has_moving_plates()) return 0;
   const double time = static_cast<double>(tick) * system.dt;
-  const auto off = [&](double frequency) {
-    return frequency > 0 ? time - std::round(time * frequency) / frequency : 0.0;
+  const auto off = [&](bool moves, double frequency) {
+    return moves && frequency > 0 ? time - std::round(time * frequency) / frequency : 0.0;
   };
-  const double first = off(system.frequency);
+  const bool first_moves = system.amplitude > 0 || system.horizontal_amplitude > 0 || system.has_lid_motion();
+  const double first = off(first_moves, system.frequency);
   if (!system.has_second_vibration()) return first;
-  const double second = off(system.second->frequency);
+  const double second = off(true, system.second->frequency);
   return std::abs(second) > std::abs(first) ? second : first;
+}
+
+std::string nearest_beat(const System& system, Tick tick) {
+  const auto text = [](const char* words, double first, double second) {
+    char line[120];
+    std::snprintf(line, sizeof line, words, first, second);
+    return std::string(line);
+  };
+  if (system.has_second_vibration())
+    return text("both vibrations, of %.10g and %.10g Hz, must be whole ones there", system.frequency,
+                system.second->frequency);
+  return text("the nearest whole one is at %.10g s", static_cast<double>(tick) * system.dt - off_the_beat(system, tick),
+              0);
 }
 
 bool is_resized(const System& system, const System& other) {
@@ -541,8 +555,8 @@ Result<void> check_left(const System& system, const World& left) {
   const double off = off_the_beat(left.system, left.tick);
   if (std::abs(off) <= 0.5 * left.system.dt * (1 + 1e-6)) return {};
   const double now = static_cast<double>(left.tick) * left.system.dt;
-  return Error{"its plates are in the middle of a vibration at " + std::to_string(now) +
-               " s and would jump; the nearest whole one is at " + std::to_string(now - off) + " s"};
+  return Error{"its plates are in the middle of a vibration at " + std::to_string(now) + " s and would jump; " +
+               nearest_beat(left.system, left.tick)};
 }
 
 RodsLeft rods_left(const World& world, const World& left) {

@@ -63,6 +63,9 @@ bool is_resized(const System& system, const System& other);
 /// they are past it, 0 where nothing moves [s]. Only a run that ends within half a tick of one can be gone on from.
 double off_the_beat(const System& system, Tick tick);
 
+/// Where a run that is off the beat should end, in words.
+std::string nearest_beat(const System& system, Tick tick);
+
 /// Whether a run of `system` can begin where the rods of `left` are now. Errors: start_mismatch(); or the plates of
 /// `left` are in the middle of a vibration, so that they would jump.
 Result<void> check_left(const System& system, const World& left);

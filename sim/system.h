@@ -271,7 +271,9 @@ struct System {
     return second && second->amplitude > 0 && second->frequency > 0 && (base || lid);
   }
   /// The lid does not move as the base does.
-  bool has_lid_motion() const { return lid && lid_motion && *lid_motion != LidMotion{amplitude, 0.0}; }
+  bool has_lid_motion() const {
+    return lid && lid_motion && (has_second_vibration() || *lid_motion != LidMotion{amplitude, 0.0});
+  }
   /// There are plates, and they move.
   bool has_moving_plates() const {
     const bool moves = amplitude > 0 || horizontal_amplitude > 0 || (has_lid_motion() && lid_motion->amplitude > 0);

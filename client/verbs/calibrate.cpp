@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <span>
 #include <utility>
 
 #include "base/paths.h"
@@ -20,13 +21,15 @@
 namespace shaken::client {
 namespace {
 
-/// A species by itself, as shaken/calibration/lone.py takes it.
+/// A species by itself, as shaken/calibration/rods.py takes it.
 Json species_json(const scene::RunPlan& plan, std::size_t number) {
   const scene::RunPlan alone = scene::rods_of_species(plan, number);
   const System& system = alone.system;
+  const Species mean = scene::species_of(system.rod);
   return {{"name", number == 0 ? "rods" : fmt::format("rods_{}", number + 1)},
           {"has_axis", system.rod.has_axis()},
           {"rod_area_mm2", scene::area_fraction_of(system, system.rod, 1) * system.area()},
+          {"least_side_mm", least_box_side(std::span(&mean, 1))},
           {"scene", scene::to_json(alone)}};
 }
 

@@ -153,8 +153,8 @@ class Explain : public Verb {
       if (s.walls->arena == Arena::kWedge)
         more = fmt::format(" to {} over {}", length(s.walls->narrow), length(s.walls->length));
       if (s.walls->arena == Arena::kChannel) more = fmt::format(", periodic after {}", length(s.box_side));
-      text += fmt::format("  arena   {} of {}{} between side walls; plates {} apart\n", name_of(s.walls->arena),
-                          length(s.walls->size), more, length(s.gap));
+      text += fmt::format("  arena   {} of {}{} between side walls; plates {} apart\n", name_of(s.walls->arena), size,
+                          more, length(s.gap));
     } else {
       text += fmt::format(
           "  box     {}, periodic; plates {} apart\n",

@@ -74,7 +74,8 @@ void check_plates_in_a_tick(Resolution& scene) {
   }
   const double deepest = kDeepestOverlap * thinnest;
   if (speed * system.dt <= deepest) return;
-  scene.report({"time.step", "accuracy", "plates.gamma", "plates.amplitude", "plates.frequency"},
+  scene.report({"time.step", "accuracy", "plates.gamma", "plates.amplitude", "plates.frequency",
+                "plates.second.amplitude", "plates.second.frequency", "plates.lid_motion.amplitude"},
                fmt::format("plates as fast as {:.4g} mm/s move further in a step of {} than half the radius of the "
                            "thinnest bead, {}, the deepest overlap there may be: the run would end in numerical "
                            "trouble; take a step of at most {}, or shake less",

@@ -463,8 +463,8 @@ constexpr Effect line(std::string_view name, std::string_view unit, std::string_
 
 constexpr std::array kEffects{
     line<Falling>("gravity", "rod_ticks", "Rods fall."),
-    line<Vibration>("vibration", "periods", "Both plates vibrate."),
-    line<HorizontalVibration>("horizontal_vibration", "periods", "Both plates vibrate in the plane too."),
+    line<Vibration>("vibration", "periods", "The plates vibrate."),
+    line<HorizontalVibration>("horizontal_vibration", "periods", "The plates vibrate in the plane too."),
     line<SecondVibrationOfPlates>("second_vibration", "periods", "The plates have a second vibration."),
     line<LidByItself>("lid_motion", "impulses", "The lid does not move with the base."),
     line<Inclination>("inclination", "rod_ticks", "Inclined plates: gravity has a part along them."),

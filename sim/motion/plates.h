@@ -42,7 +42,7 @@ class TickPhases {
   __extension__ unsigned __int128 phase_per_tick_ = 0;  ///< in units of 2^-128 cycles
 };
 
-/// Two horizontal plates that vibrate together: z_base(t) = a cos(2 pi f t) + a, z_lid = z_base + w
+/// Two parallel plates that vibrate together: z_base(t) = a cos(2 pi f t) + a, z_lid = z_base + w
 /// (Sharma & Soni 2024, section 2), and, where it is asked for,
 /// - x(t) = b cos(2 pi f t + phi) along one direction of the plane: each point of a plate then moves along a line
 ///   (phi = 0), a circle (a = b, phi = 90 degrees) or an ellipse;

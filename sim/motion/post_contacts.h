@@ -31,7 +31,9 @@ double overlap_with_posts(const PostGrid& posts, const Species& species, const P
 /// The latest of these is the bound. Posts are looked for no farther than a rod gets within a cell of the grid; until
 /// it has flown so far, it meets no other. Numerics: posts are taken to be thicker by a margin for rounding, 1e-9
 /// of the lengths that places are given by.
+/// Arguments: `flight` with its velocity of now, and `pull`, the acceleration along the plane [mm/s^2], which bends
+/// each path by pull t^2 / 2 at most.
 double post_safe_time(const PostGrid& posts, const Box& box, const Species& species, const Pose& pose,
-                      const Flight& flight, double horizon, double pull = 0);
+                      const Flight& flight, double horizon, double pull);
 
 }  // namespace shaken

@@ -56,7 +56,9 @@ bool may_touch_walls(const SideWalls& walls, const Box& box, const Species& spec
 /// - an ellipse no earlier than the rim of any disc within it that the bead lies in (sim/motion/ellipse.h).
 /// An inner wall lies behind its tangent at the point nearest to p, so each bead meets it no earlier than it would meet
 /// a straight wall there. Numerics: all walls are taken to be nearer by a margin for rounding, 1e-9 of the box.
+/// Arguments: `flight` with its velocity of now, and `pull`, the acceleration along the plane [mm/s^2], which bends
+/// each path by pull t^2 / 2 at most.
 double wall_safe_time(const SideWalls& walls, const Box& box, const Species& species, const Pose& pose,
-                      const Flight& flight, double horizon, double pull = 0);
+                      const Flight& flight, double horizon, double pull);
 
 }  // namespace shaken

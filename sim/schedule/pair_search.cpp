@@ -24,8 +24,10 @@ PairSearch::PairSearch(const TickRules& rules) : rules_(rules) {
   const double longest = *std::max_element(reach_.begin(), reach_.end());
   // such that pairs in the neighbour list, and rods of 1.2 times the reach, are near
   const double near = 4.0 * longest + std::max(0.4 * longest, 2.0 * NeighborList::kSkin);
-  slow_ = static_cast<float>(std::max(0.0, rules.box.shorter() - near) /
-                             (2.0 * static_cast<double>(TimingWheel::horizon()) * rules.dt));
+  const double horizon = static_cast<double>(TimingWheel::horizon()) * rules.dt;
+  const double slow = std::max(0.0, rules.box.shorter() - near) / (2.0 * horizon);
+  slow_ = static_cast<float>(slow);
+  slow_now_ = static_cast<float>(std::max(0.0, slow - rules.gravity.along_size() * horizon));
 }
 
 bool PairSearch::find(const PairRods& pair, const Pose& pose_i, const Pose& pose_j, const Direction& direction,

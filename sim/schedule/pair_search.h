@@ -34,8 +34,9 @@ class PairSearch {
   bool find(const PairRods& pair, const Pose& pose_i, const Pose& pose_j, const Direction& direction,
             std::vector<BeadContact>& beads, std::vector<PairContact>& contacts) const;
 
-  /// Rods that are slower than this along x and y meet no image but the nearest, if that is near [mm/s].
-  float slow() const { return slow_; }
+  /// Rods that are slower than this along x and y meet no image but the nearest, if that is near, even if inclined
+  /// plates make them faster [mm/s].
+  float slow() const { return slow_now_; }
 
   /// Bounds for pairs of one pair of species, from the rods as they are at this tick. They hold for free flight, or as
   /// far as budgets allow for hits (PairSchedule::spend).
@@ -47,7 +48,8 @@ class PairSearch {
   std::vector<Hull> hulls_;       ///< (n_shapes)
   std::vector<BeadLanes> lanes_;  ///< (n_shapes)
   std::vector<double> reach_;     ///< (n_shapes) [mm]
-  float slow_;
+  float slow_;                    ///< what they may become in the time that is looked ahead
+  float slow_now_;                ///< so that they do not become faster
 };
 
 }  // namespace shaken

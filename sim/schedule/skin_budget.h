@@ -20,12 +20,12 @@ class SkinBudget {
   }
 
   /// Ticks after `now` for which the list certainly covers the rod, at most `horizon`. Counts down at the flight's
-  /// speed from then on. `pull`: acceleration along the plates [mm/s^2].
+  /// speed from then on. `pull`: acceleration along the plates [mm/s^2]; the flight may have begun before.
   Tick covered_ticks(const NeighborList& list, int rod, const Flight& flight, const Pose& pose, double half_length,
-                     Tick now, double dt, Tick horizon, double pull = 0);
+                     Tick now, double dt, Tick horizon, double pull);
   /// Counts down at what the flight can take at most, for less work than covered_ticks and less exactly: for a rod that
   /// is visited at the next tick whatever comes.
-  void cover_tick(const Flight& flight, double half_length, Tick now, double dt, double pull = 0);
+  void cover_tick(const Flight& flight, double half_length, Tick now, double dt, double pull);
 
  private:
   float left_ = 1e30F;  ///< at `at_`, at least [mm]

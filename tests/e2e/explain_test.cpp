@@ -75,6 +75,17 @@ TEST_F(Explain, SaysHowThePlatesMove) {
                                           HasSubstr("under a lid at rest"), HasSubstr("inclined by 0.5 degrees")));
 }
 
+TEST_F(Explain, SaysTheSizesOfAnArena) {
+  const std::string scene = write("scene.json", R"({"rods": {"length": "2.5 mm", "area_fraction": 0.3}})");
+  const auto of = [&](const char* walls) {
+    return shaken({"explain", scene, "--no-probe", "-s", std::string("walls=") + walls}).output;
+  };
+  EXPECT_THAT(of(R"({"arena": "ellipse", "size": 20, "length": 50})"), HasSubstr("ellipse of 50 mm by 20 mm between"));
+  EXPECT_THAT(of(R"({"arena": "wedge", "size": 20, "narrow": 5, "length": 50})"),
+              HasSubstr("wedge of 20 mm to 5 mm over 50 mm between"));
+  EXPECT_THAT(of(R"({"arena": "disc", "size": 20})"), HasSubstr("disc of 20 mm between"));
+}
+
 TEST_F(Explain, WhatNoMachineHasMemoryForIsRefusedByEveryVerb) {
   const std::string scene = write("fine.json", R"({"rods": {"count": 100}, "box": {"side": 2000},
                                                    "measure": {"defects": {"grid": "0.01 mm"}}, "stream": null})");

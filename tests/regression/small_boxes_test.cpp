@@ -127,6 +127,26 @@ INSTANTIATE_TEST_SUITE_P(Bodies, SmallBoxesOf,
                                          Case{"TwoPins", &kPin, 2}),
                          [](const auto& about) { return std::string(about.param.name); });
 
+// On a steep slope rods become faster while nothing hits them, and friction with the plates tells them apart.
+TEST(SmallBoxes, RodsThatSlideDownASlope) {
+  for (const double inclination : {20.0, 60.0}) {
+    for (int k = 0; k < 24; ++k) {
+      System system;
+      system.rod = kRod;
+      system.n_rods = 3;
+      system.box_side = 2.2 * kRod.length * (1 + 0.05 * k);
+      system.start = Start::kRandom;
+      system.inclination = inclination;
+      system.inclination_angle = 15.0 * k;
+      system.amplitude = 0.005;
+      system.rod_base.friction = 0.5;
+      system.rod_lid.friction = 0;
+      system.seed = static_cast<std::uint64_t>(k + 1);
+      EXPECT_EQ(problem(compare(system, 60000, 20000)), "") << inclination << " degrees, case " << k;
+    }
+  }
+}
+
 TEST(SmallBoxes, BelowTheLeastNoRunStarts) {
   for (const RodShape* rod : {&kRod, &kSphere, &kPin}) {
     const Species species = make_species(*rod);

@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import Any, Sequence
 
 from ..errors import ShakenError
-from .rods import Level, Measuring, NotDiffusive, Species
-from .search import BelowOwn, Calibrated, noise_for
+from .rods import Level, Measuring, NotDiffusive, Species, Unmet
+from .search import Calibrated, noise_for
 
 OK, FAILED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 _PICTURES = (".png", ".pdf", ".svg")
@@ -84,7 +84,7 @@ def calibrated(one: Species, options: argparse.Namespace) -> tuple[list[Calibrat
     for wanted in wanted_of(options):
         try:
             found.append(noise_for(wanted, measuring.level, options.precision, list(measuring.levels.values())))
-        except (BelowOwn, NotDiffusive) as error:
+        except Unmet as error:
             hint = ""
             if isinstance(error, NotDiffusive) and options.area_fraction is None:
                 hint = (": their plates do not slow rods that are alone, which then have no D_r; --area-fraction 0.3 "
@@ -160,8 +160,8 @@ def _run(options: argparse.Namespace, species: Sequence[Species]) -> int:
         print(table(rows))
     for one, each in rows:
         if not each.is_met:
-            print(f"{one.name}: D_r = {each.wanted:g} rad^2/s was not met within {options.precision:.0%}, nor known as "
-                  "well; the nearest is given", file=sys.stderr)
+            print(f"{one.name}: D_r = {each.wanted:g} rad^2/s was not met, or is not known within "
+                  f"{options.precision:.0%}; the nearest is given", file=sys.stderr)
     if options.plot is not None and any(levels for _, _, levels in every):
         draw(options.plot, every)
         print(options.plot, file=sys.stderr)

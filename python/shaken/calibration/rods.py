@@ -40,11 +40,13 @@ class Species:
 
     scene:        of them and nothing else; number, box, noise and times are to be set
     rod_area_mm2: of a rod that lies flat, seen from above
+    least_side_mm: of a periodic box in which no rod meets two images of another
     """
 
     name: str
     has_axis: bool
     rod_area_mm2: float
+    least_side_mm: float
     scene: Mapping[str, Any]
 
     @property
@@ -52,7 +54,11 @@ class Species:
         return "plates.noise" if self.name == "rods" else f"plates.{self.name}.noise"
 
 
-class NotDiffusive(ShakenError):
+class Unmet(ShakenError):
+    """A D_r that rods do not have at any noise, or none that can be measured."""
+
+
+class NotDiffusive(Unmet):
     """Rods whose turning is not diffusive within the longest lags.
 
     noise: [rad/mm]; lag: the longest [s]; exponent: of the MSAD there
@@ -109,6 +115,11 @@ def scene_of(species: Species, noise: float, area_fraction: float | None, rods: 
     return scene
 
 
+def rods_at(area_fraction: float, species: Species) -> int:
+    """How many rods there are in a box at an area fraction: RODS, or as many as the smallest box takes."""
+    return max(RODS, math.ceil(1.02 * area_fraction * species.least_side_mm**2 / species.rod_area_mm2))
+
+
 def _longer(level: Level, precision: float, longest: float) -> float:
     """How long runs must be for the precision, with a fifth to spare [s]; at most eight times as long as before."""
     share = level.error / (precision * level.d_r)
@@ -122,7 +133,7 @@ class Measuring:
                  say: Callable[[str], None] = lambda line: None) -> None:
         self.species, self.area_fraction, self.program, self.threads = species, area_fraction, program, threads
         self.say = say
-        self.rods = RODS
+        self.rods = RODS if area_fraction is None else rods_at(area_fraction, species)
         self.start, self.every = SHORTEST, EVERY  # what the next level begins with
         self.levels: dict[float, Level] = {}
         self._without: dict[float, NotDiffusive] = {}  # noise at which rods do not diffuse
@@ -168,8 +179,8 @@ class Measuring:
             if large_turns == 0:
                 return lag, msad, meetings
             if self.every <= FINEST:
-                raise ShakenError(f"{self.species.name}: at noise {noise:.3g} rad/mm rods turn by more than 60 degrees "
-                                  f"in {self.every:.2g} s, which is too fast to follow: ask for less D_r")
+                raise Unmet(f"at noise {noise:.3g} rad/mm rods turn by more than 60 degrees "
+                            f"in {self.every:.2g} s, which is too fast to follow: ask for less D_r")
             self.every /= 2
 
     def _run_all(self, noise: float, length: float) -> tuple[np.ndarray, np.ndarray, int, float]:

@@ -9,7 +9,7 @@ from typing import Callable, Sequence
 import numpy as np
 
 from ..errors import ShakenError
-from .rods import Level, NotDiffusive
+from .rods import Level, NotDiffusive, Unmet
 
 #: Noise that is tried first, the least that is tried, and the largest that a scene may have [rad/mm].
 FIRST, LEAST, MOST = 0.01, 1e-5, 10.0
@@ -21,16 +21,16 @@ POWER, POWER_ERROR, POWERS = 1.5, 0.7, (0.3, 3.0)
 _MOST_LEVELS, _MOST_ROUNDS = 14, 5
 
 
-class BelowOwn(ShakenError):
+class BelowOwn(Unmet):
     """D_r that rods exceed without any noise."""
 
 
 @dataclass(frozen=True)
 class Calibrated:
     """noise:  [rad/mm], of three digits; with it D_r was measured as `level` says
-    error:  of the noise, from that of D_r
+    error:  of the noise, from that of D_r and how far D_r is from what was wanted
     own:    the level without noise; None where rods do not diffuse without any
-    is_met: whether D_r is as wanted within two standard errors, and these are as small as asked for
+    is_met: whether D_r is as wanted within two standard errors or the precision asked for, and as well known
     """
 
     wanted: float
@@ -49,6 +49,8 @@ def power_law(levels: Sequence[Level], own: float, near: float) -> tuple[float, 
     """ln(D_r - own) = a + p ln(noise): (a, p), by the errors of the levels, of which those count most whose
     ln(D_r - own) is near `near`."""
     above = [level for level in levels if level.d_r > own]
+    if not above:
+        raise Unmet("no noise that was tried gives a D_r that could be told from that without noise")
     x = np.log([level.noise for level in above])
     y = np.log([level.d_r - own for level in above])
     errors = np.array([max(level.error / (level.d_r - own), 1e-3) for level in above])
@@ -65,7 +67,7 @@ def noise_for(wanted: float, measure: Callable[[float, float], Level], precision
     """The noise with which rods have D_r = `wanted` [rad^2/s] within the relative `precision`. `measure(noise,
     precision)` gives a level, or raises NotDiffusive; `known` are levels with noise of which it was asked before.
 
-    Raises BelowOwn where rods without noise have as much or more, ShakenError where none up to MOST gives as much.
+    Raises BelowOwn where rods without noise have as much or more, Unmet where none up to MOST gives as much.
     """
     own = _own(wanted, measure, precision)
     d_own = own.d_r if own is not None else 0.0
@@ -86,8 +88,8 @@ def noise_for(wanted: float, measure: Callable[[float, float], Level], precision
             raise BelowOwn(f"D_r = {wanted:.4g} rad^2/s is below what these rods have with next to no noise, "
                            f"{level.found.d_r} at {noise:g} rad/mm")
         if noise >= MOST and added < math.exp(aim):
-            raise ShakenError(f"D_r = {wanted:.4g} rad^2/s is more than the largest noise, {MOST:g} rad/mm, gives: "
-                              f"{level.found.d_r}")
+            raise Unmet(f"D_r = {wanted:.4g} rad^2/s is more than the largest noise, {MOST:g} rad/mm, gives: "
+                        f"{level.found.d_r}")
         if added > 2 * level.error:
             noise = _within(levels, guess())
         else:  # not to be told from what rods do without
@@ -100,8 +102,9 @@ def noise_for(wanted: float, measure: Callable[[float, float], Level], precision
             break
         level = levels[noise] = measure(noise, precision)
         _, p = power_law(list(levels.values()), d_own, aim)
-        error = noise * level.error / (p * (wanted - d_own))
-        is_met = abs(level.d_r - wanted) <= 2 * level.error <= 2 * precision * level.d_r
+        error = noise * math.hypot(level.error, level.d_r - wanted) / (p * (wanted - d_own))
+        is_met = (abs(level.d_r - wanted) <= max(2 * level.error, precision * wanted) and
+                  level.error <= precision * level.d_r)
         found = Calibrated(wanted, noise, error, level, own, is_met)
         if best is None or abs(level.d_r - wanted) < abs(best.level.d_r - wanted):
             best = found

@@ -39,7 +39,16 @@ TEST(Remarks, NameSlopesThatRodsMaySlideDown) {
   EXPECT_THAT(
       remarks(plan_of(R"({"plates": {"inclination": 1}})")),
       ElementsAre("plates.inclination 1 degrees is steeper than the friction of the plates, whose angle is 0.573 "
-                  "degrees: without walls rods may slide down faster and faster"));
+                  "degrees: without walls rods may slide down faster and faster, until the run ends because one is too "
+                  "fast"));
+  EXPECT_THAT(remarks(plan_of(R"({"gravity": 0, "plates": {"amplitude": 0, "inclination": 1}})")),
+              ElementsAre(HasSubstr("without gravity nothing pulls the rods")));
+  EXPECT_THAT(remarks(plan_of(R"({"plates": {"inclination_angle": 30}})")),
+              ElementsAre(HasSubstr("the plates are level")));
+  EXPECT_THAT(
+      remarks(plan_of(
+          R"({"gravity": 0, "plates": {"amplitude": 0, "base": false, "lid": false, "second": {}}, "walls": {}})")),
+      ElementsAre(HasSubstr("no plates that could vibrate")));
   for (const char* scene : {R"({"plates": {"inclination": 0.5}})", R"({"plates": {"inclination": 1}, "walls": {}})",
                             R"({"plates": {"inclination": 5}, "contacts": {"rod_base": {"friction": 0.1}}})"})
     EXPECT_THAT(remarks(plan_of(scene)), IsEmpty()) << scene;

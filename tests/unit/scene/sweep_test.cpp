@@ -351,7 +351,7 @@ TEST(Sweep, MistakesInStages) {
   EXPECT_THAT(
       problem(R"([{"time.measure": "1.001 s"}, {"plates.gamma": 6}])"),
       HasSubstr("stage 2 cannot follow stage 1: that ends in the middle of a vibration, at 1.001 s, and the plates "
-                "would jump; the nearest whole one ends at 1 s"));
+                "would jump; the nearest whole one is at 1 s"));
   EXPECT_THAT(problem(R"([{"until.order_sem": 0.01}, {}])"), HasSubstr("with `until`, the time at which that ends"));
   EXPECT_THAT(problem(R"([{}, {"walls.arena": "disc"}])"), HasSubstr("the walls"));
   EXPECT_THAT(problem(R"([{"plates.gamma": 6}])", {"plates.gamma=5,6"}), HasSubstr("the file's stages set it"));

@@ -161,6 +161,13 @@ TEST(PlateMotion, OfALidThatMovesWithTheBaseIsThatOfBoth) {
   EXPECT_FALSE(system.has_lid_motion());
   const PlateMotion plates(system), plain(System{});
   for (const Tick k : {0, 17, 999}) EXPECT_EQ(plates.at(k).lid, plain.at(k).lid);
+  // but a second vibration is of the base alone
+  system.second = SecondVibration{0.02, 300, 0};
+  EXPECT_TRUE(system.has_lid_motion());
+  EXPECT_EQ(PlateMotion(system).at(17).lid_velocity, plain.at(17).lid_velocity);
+  system.amplitude = 0;
+  system.lid_motion = LidMotion{};
+  EXPECT_EQ(PlateMotion(system).at(17).lid_velocity, 0.0);
 }
 
 TEST(PlateMotion, StandsStillWithoutVibration) {

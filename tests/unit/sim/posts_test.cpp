@@ -237,14 +237,14 @@ TEST(PostSafeTime, OfASphereThatFliesAskewAtAPost) {
     flight.position = Vec3(34 + ahead, 33, 0.6);
     flight.prepare();
     const auto bound = [&](double horizon) {
-      return post_safe_time(post, box, sphere, {flight.position, flight.director}, flight, horizon);
+      return post_safe_time(post, box, sphere, {flight.position, flight.director}, flight, horizon, 0);
     };
     EXPECT_NEAR(bound(1.0), ahead / 40, 1e-6);
     EXPECT_LE(bound(1.0), ahead / 40);
     EXPECT_EQ(bound(0.2 * ahead / 40), 0.2 * ahead / 40);
   }
   flight.position = Vec3(38, 36, 0.6);  // it passes
-  EXPECT_EQ(post_safe_time(post, box, sphere, {flight.position, flight.director}, flight, 0.4), 0.4);
+  EXPECT_EQ(post_safe_time(post, box, sphere, {flight.position, flight.director}, flight, 0.4, 0), 0.4);
 }
 
 /// A weightless sphere of 1 mm, and a post of 4 mm with its axis at (10, 10) in a box of 20 mm.

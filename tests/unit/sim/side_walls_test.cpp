@@ -244,7 +244,7 @@ TEST(WallSafeTime, OfARodThatFliesStraightAtAWall) {
         flight.director = towards;
         flight.prepare();
         const auto bound = [&](double horizon) {
-          return wall_safe_time(walls, kBox, species, {flight.position, flight.director}, flight, horizon);
+          return wall_safe_time(walls, kBox, species, {flight.position, flight.director}, flight, horizon, 0);
         };
         constexpr double kTrue = kGap / kSpeed;
         EXPECT_LE(bound(1.0), kTrue) << name;
@@ -262,8 +262,8 @@ TEST(WallSafeTime, OfASphereThatFliesAskewAtARoundWall) {
   flight.position = Vec3(20, 29, 0.6);
   flight.velocity = Vec3(-40, 0, 0);
   flight.prepare();
-  const double bound =
-      wall_safe_time(SideWalls{Arena::kDisc, 30.8, 6, {}}, 40, sphere, {flight.position, flight.director}, flight, 1.0);
+  const double bound = wall_safe_time(SideWalls{Arena::kDisc, 30.8, 6, {}}, 40, sphere,
+                                      {flight.position, flight.director}, flight, 1.0, 0);
   EXPECT_NEAR(bound, 0.3, 1e-6);
   EXPECT_LE(bound, 0.3);
 }
@@ -297,7 +297,7 @@ TEST(MayTouchWalls, OfARodThatADiscHasNoRoomFor) {
     Flight flight;
     flight.position = pose.position;
     EXPECT_TRUE(may_touch_walls(walls, 3, sphere, pose));
-    EXPECT_EQ(wall_safe_time(walls, 3, sphere, pose, flight, 1.0), 0);
+    EXPECT_EQ(wall_safe_time(walls, 3, sphere, pose, flight, 1.0, 0), 0);
   }
 }
 

@@ -31,9 +31,9 @@ void creep(double speed, bool rests) {
   for (Tick now = 1; now <= 3'000'000; ++now) {
     const Vec3 place = flight.position + static_cast<double>(now) * kDt * flight.velocity;
     if (rests) {
-      reserve.cover_tick(flight, half_length, now, kDt);
+      reserve.cover_tick(flight, half_length, now, kDt, 0);
     } else {
-      reserve.covered_ticks(list, 0, flight, {place, flight.director}, half_length, now, kDt, 4000);
+      reserve.covered_ticks(list, 0, flight, {place, flight.director}, half_length, now, kDt, 4000, 0);
     }
     if (now % 1000 != 0) continue;
     ASSERT_LE(static_cast<double>(reserve.left(now, kDt)), list.slack(0, {place, flight.director}))
