@@ -9,7 +9,7 @@ import pytest
 
 from shaken.calibration import app
 from shaken.calibration.diffusion import Diffusion, diffusion, exponent
-from shaken.calibration.rods import Level, Measuring, NotDiffusive, Species, scene_of
+from shaken.calibration.rods import Level, Measuring, NotDiffusive, Species, rods_at, scene_of
 from shaken.calibration.search import BelowOwn, noise_for, power_law
 from shaken.errors import ShakenError
 from shaken.estimate import Estimate
@@ -159,7 +159,8 @@ def test_a_power_law_goes_through_its_levels():
 # --- runs
 
 def species(**more):
-    return Species(**{"name": "rods", "has_axis": True, "rod_area_mm2": 2.5, "scene": SCENE, **more})
+    return Species(**{"name": "rods", "has_axis": True, "rod_area_mm2": 2.5, "least_side_mm": 9.9, "scene": SCENE,
+                      **more})
 
 
 def test_scenes_differ_in_noise_seed_and_length_only():
@@ -176,6 +177,14 @@ def test_scenes_differ_in_noise_seed_and_length_only():
     assert scene_of(species(), 0.02, None, 16, 0, 20.0, 5e-3)["box"]["side"] == 2000.0
     assert scene_of(species(), 0.02, 0.5, 16, 0, 20.0, 5e-3)["rods"]["start"] == "compressed"
     assert SCENE["plates"]["noise"] == 0.3, "the species' own scene stays as it is"
+
+
+def test_dense_rods_are_as_many_as_the_smallest_box_takes():
+    assert rods_at(0.1, species()) == 16
+    for area_fraction in (0.45, 0.6, 0.7):
+        scene = scene_of(species(), 0.02, area_fraction, rods_at(area_fraction, species()), 0, 20.0, 5e-3)
+        assert scene["box"]["side"] >= 9.9
+        assert scene["rods"]["count"] * 2.5 / scene["box"]["side"]**2 == pytest.approx(area_fraction, rel=1e-4)
 
 
 class MadeUp(Measuring):
@@ -231,7 +240,7 @@ def test_rods_that_should_be_alone_but_meet_become_fewer():
 # --- the command
 
 def test_everything_wrong_with_the_options_is_said_at_once(capsys):
-    sphere = {"name": "rods_2", "has_axis": False, "rod_area_mm2": 1.0, "scene": SCENE}
+    sphere = {"name": "rods_2", "has_axis": False, "rod_area_mm2": 1.0, "least_side_mm": 2.0, "scene": SCENE}
     both = "--species=" + json.dumps([vars(species()), sphere])
     code = app.main([both, "--rotational-diffusion=fast", "--of=rods_3", "--of=rods_2", "--area-fraction=2",
                      "--precision=0.001", "--threads=0", "--plot=noise.txt"])
@@ -265,6 +274,14 @@ def test_the_table_names_the_key_and_the_plot_has_every_level(capsys, monkeypatc
     assert first["wanted_rad2_s"] == 20 and first["is_met"]
     assert first["noise_rad_per_mm"] == pytest.approx(0.02, rel=0.15)
     assert first["rotational_diffusion_rad2_s"] == pytest.approx(20, rel=0.05)
+
+
+def test_what_was_found_is_kept_where_another_d_r_cannot_be_had(capsys, monkeypatch):
+    monkeypatch.setattr(app, "Measuring", MadeUp)
+    wanted = ["--rotational-diffusion=20", "--rotational-diffusion=20000", "--area-fraction=0.1"]
+    assert app.main(["--species=" + json.dumps([vars(species())]), *wanted]) == 2
+    shown = capsys.readouterr()
+    assert "plates.noise = 0.0" in shown.out and "more than the largest noise" in shown.err
 
 
 def test_what_does_not_diffuse_is_measured_once():
