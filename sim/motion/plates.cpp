@@ -64,8 +64,10 @@ PlateMotion::PlateMotion(const System& system)
                   {system.horizontal_amplitude, radians(system.horizontal_phase), radians(system.horizontal_angle)}) {
   if (system.has_second_vibration()) {
     const SecondVibration& second = *system.second;
-    second_.emplace(second.amplitude, 2.0 * kPi * second.frequency, radians(second.phase),
-                    TickPhases(second.frequency, system.dt));
+    second_ = Second{.amplitude = second.amplitude,
+                     .angular_frequency = 2.0 * kPi * second.frequency,
+                     .phase = radians(second.phase),
+                     .phases = TickPhases(second.frequency, system.dt)};
     for (Tick k = 0; k < second_->phases.period(); ++k)
       second_->table.push_back(second_->at_phase(second_->phases.at(k)));
   }

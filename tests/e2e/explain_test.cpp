@@ -71,7 +71,7 @@ TEST_F(Explain, SaysHowThePlatesMove) {
                                        "plates.lid_motion={}",
                                        "-s",
                                        "plates.inclination=0.5"};
-  EXPECT_THAT(shaken(words).output, AllOf(HasSubstr("with a second vibration of 12 um at 400 Hz"),
+  EXPECT_THAT(shaken(words).output, AllOf(HasSubstr("with a second vibration of 0.012 mm at 400 Hz"),
                                           HasSubstr("under a lid at rest"), HasSubstr("inclined by 0.5 degrees")));
 }
 

@@ -124,7 +124,7 @@ TEST(Trajectory, SpeciesAndSideWallsComeBack) {
   for (const auto& [name, arena] : kArenaNames) {
     several.cell.walls = SideWalls{.arena = arena, .size = 70.25, .contact = {0.02, 0.7}};
     if (arena == Arena::kAnnulus) several.cell.walls->inner = 12.5;
-    if (several.cell.walls->has_length()) several.cell.walls->length = 3.125;
+    if (several.cell.walls->has_length()) several.cell.walls->length = arena == Arena::kEllipse ? 80.125 : 3.125;
     if (arena == Arena::kWedge) several.cell.walls->narrow = 1.0 / 3;
     expect_frames(folder, 2, several);
   }

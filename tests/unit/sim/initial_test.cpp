@@ -345,7 +345,41 @@ TEST(MakeWorld, FromAnotherThatDoesNotFitIsRefused) {
   const Simulation half = shaken_for(2.25);
   EXPECT_EQ(refusal(half.world(), half.world().system),
             "its plates are in the middle of a vibration at 0.011252 s and would jump; the nearest whole one is at "
-            "0.010000 s");
+            "0.01 s");
+}
+
+// 200 and 300 Hz come together after each 10 ms. Of plates that only the second moves, its periods alone count.
+TEST(OffTheBeat, CountsEveryVibrationThatIsThere) {
+  System system;
+  system.dt = 5e-6;  // 1,000 ticks of the first
+  system.frequency = 200;
+  EXPECT_EQ(off_the_beat(system, 1000), 0);
+  system.second = SecondVibration{0.01, 300, 20};
+  EXPECT_NEAR(std::abs(off_the_beat(system, 1000)), 5.0 / 3000, 1e-12);
+  EXPECT_NEAR(off_the_beat(system, 2000), 0, 1e-12);
+  EXPECT_EQ(nearest_beat(system, 1000), "both vibrations, of 200 and 300 Hz, must be whole ones there");
+  system.amplitude = 0;
+  system.second->frequency = 500;
+  EXPECT_NEAR(off_the_beat(system, 400), 0, 1e-12);
+  EXPECT_NEAR(off_the_beat(system, 500), 5e-4, 1e-12);
+}
+
+// A lid that is lower at the start of the next run might be in rods.
+TEST(StartMismatch, IsOfLidsThatMoveInOtherWays) {
+  System system;
+  system.lid_motion = LidMotion{0.02, 30};
+  System other = system;
+  EXPECT_EQ(start_mismatch(system, other), "");
+  other.lid_motion->phase = 40;
+  EXPECT_EQ(start_mismatch(system, other), "how the lid moves");
+  other = system;
+  other.amplitude *= 2;
+  EXPECT_EQ(start_mismatch(system, other), "how the lid moves");
+  other.lid_motion.reset();
+  EXPECT_EQ(start_mismatch(system, other), "how the lid moves");
+  System plain, stronger;
+  stronger.amplitude *= 2;
+  EXPECT_EQ(start_mismatch(plain, stronger), "") << "a lid that moves with the base keeps its height over it";
 }
 
 }  // namespace
