@@ -391,7 +391,7 @@ class Compression {
   }
 
   const System& system_;
-  PlatesAtStart plates_;
+  PlatesAtStart plates_;  ///< between which the rods are in the end
   const GoOn& go_on_;
   DirectorAt pattern_;                  ///< of the box that is wanted; or none
   std::optional<AligningField> field_;  ///< that turns rods towards it

@@ -103,7 +103,7 @@ class Placement {
   const Species& species_of(int i) const { return species[shape_of_rod[static_cast<std::size_t>(i)]]; }
 
   const System& system;
-  PlatesAtStart plates;
+  PlatesAtStart plates;  ///< at tick 0, between which the rods are placed
   std::span<const Species> species;
   std::span<const std::uint8_t> shape_of_rod;
   std::optional<PostGrid> posts;  ///< thicker, by as much as a bead comes nearer when its rod is tilted

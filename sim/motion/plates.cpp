@@ -101,10 +101,6 @@ double PlateMotion::peak_speed() const {
   return lid_ ? std::max(base, lid_->amplitude * angular_frequency_) : base;
 }
 
-double PlateMotion::highest_lid() const {
-  return lid_ ? lid_middle() + second_amplitude() + lid_->amplitude : highest_base() + gap_;
-}
-
 double PlateMotion::least_gap() const {
   if (!lid_) return gap_;
   const SinCos ahead = sincos(radians(lid_->phase));

@@ -81,9 +81,6 @@ class PlateMotion {
   double peak_speed() const;
   double peak_slide() const { return horizontal_.amplitude * angular_frequency_; }
 
-  /// How far the base rises above its lowest height 0, and the lid above that [mm].
-  double highest_base() const { return 2.0 * (amplitude_ + second_amplitude()); }
-  double highest_lid() const;
   /// The least height between the plates there can be [mm].
   double least_gap() const;
 

@@ -412,8 +412,9 @@ Result<World> world_of(const SceneCase& one, const System& system) {
   if (!made) return made.error();
   World world = made->world();
   Tick later = one.begin;
-  if (const Tick period = world.plates.period_ticks(); period > 0)
-    later -= later % period;  // plates are where they were
+  // plates are where they were; where there are two vibrations, at the start only
+  if (system.has_second_vibration()) later = 0;
+  if (const Tick period = world.plates.period_ticks(); period > 0) later -= later % period;
   world.tick += later;
   Draw draw(system.seed + 1);
   for (std::size_t i = 0; i < world.rods.size(); ++i) {

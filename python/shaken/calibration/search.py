@@ -103,12 +103,12 @@ def noise_for(wanted: float, measure: Callable[[float, float], Level], precision
         level = levels[noise] = measure(noise, precision)
         _, p = power_law(list(levels.values()), d_own, aim)
         error = noise * math.hypot(level.error, level.d_r - wanted) / (p * (wanted - d_own))
-        is_met = (abs(level.d_r - wanted) <= max(2 * level.error, precision * wanted) and
-                  level.error <= precision * level.d_r)
+        off, is_known = abs(level.d_r - wanted), level.error <= precision * level.d_r
+        is_met = is_known and off <= max(2 * level.error, precision * wanted)
         found = Calibrated(wanted, noise, error, level, own, is_met)
         if best is None or abs(level.d_r - wanted) < abs(best.level.d_r - wanted):
             best = found
-        if found.is_met:
+        if is_known and off <= 2 * level.error:
             break
     assert best is not None
     return best

@@ -114,7 +114,7 @@ TEST(PlateMotion, HasASecondVibrationAndALidOfItsOwn) {
          {std::optional<LidMotion>{}, std::optional(LidMotion{0.08, 120.0}), std::optional(LidMotion{0.0, 0.0})}) {
       const System system = with_two_vibrations(f2, lid);
       const PlateMotion plates(system);
-      double highest = 0, highest_lid = 0, nearest = INFINITY, lowest = INFINITY, fastest = 0;
+      double highest = 0, nearest = INFINITY, lowest = INFINITY, fastest = 0;
       for (Tick k = 0; k < 20000; k += 7) {
         const double t = static_cast<double>(k) * system.dt, w = 2 * kPi * 125, w2 = 2 * kPi * f2;
         const double second = 0.02 * std::cos(w2 * t + 40 * degree),
@@ -134,16 +134,14 @@ TEST(PlateMotion, HasASecondVibrationAndALidOfItsOwn) {
         ASSERT_NEAR((later.lid - now.lid) / 3e-6, 0.5 * (later.lid_velocity + now.lid_velocity), 1e-3);
         lowest = std::min(lowest, now.base);
         highest = std::max(highest, now.base);
-        highest_lid = std::max(highest_lid, now.lid);
         nearest = std::min(nearest, now.lid - now.base);
         fastest = std::max({fastest, std::abs(now.velocity), std::abs(now.lid_velocity)});
         ASSERT_LE(std::abs(later.velocity - now.velocity) / 3e-6, plates.peak_acceleration());
         ASSERT_LE(std::abs(later.lid_velocity - now.lid_velocity) / 3e-6, plates.peak_lid_acceleration() + 1e-6);
       }
       EXPECT_GE(lowest, 0);
-      EXPECT_LE(highest, plates.highest_base());
-      EXPECT_LE(highest_lid, plates.highest_lid() + 1e-12);
-      EXPECT_GT(highest_lid, plates.highest_lid() - 0.01);
+      EXPECT_LE(highest, 2 * (0.05 + 0.02));
+      EXPECT_GT(highest, 2 * (0.05 + 0.02) - 0.01);
       EXPECT_GE(nearest, plates.least_gap() - 1e-12);
       EXPECT_LT(nearest, plates.least_gap() + 0.03);  // with 250 Hz the two are not at their worst at once
       EXPECT_LE(fastest, plates.peak_speed());
