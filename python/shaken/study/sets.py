@@ -14,9 +14,9 @@ from ..errors import ShakenError
 ORDER: tuple[tuple[str, str], ...] = (
     ("A", "long-rods"), ("B", "dilute"), ("G", "layers"), ("C", "mechanism"), ("D", "shaking"), ("E", "crossings"),
     ("F", "size"), ("H", "gaps"), ("J", "diffusion-along"), ("AA", "strip"), ("I", "layer-trends"), ("K", "short-rods"),
-    ("M", "larger-box"), ("L", "no-order"), ("U", "frequency"), ("V", "phases"), ("W", "density"), ("X", "beads"),
-    ("R", "elasticity"), ("S", "turned"), ("T", "diffusion"), ("O", "wavelength-length"), ("P", "wavelength-end"),
-    ("N", "wavelength-packing"), ("Q", "long-range"), ("Y", "equilibrium"), ("Z", "movies"))
+    ("M", "larger-box"), ("U", "frequency"), ("V", "phases"), ("X", "beads"), ("R", "elasticity"), ("S", "turned"),
+    ("P", "wavelength-end"), ("Q", "long-range"), ("L", "no-order"), ("O", "wavelength-length"),
+    ("N", "wavelength-packing"), ("W", "density"), ("T", "diffusion"), ("Y", "equilibrium"), ("Z", "movies"))
 
 
 @dataclass(frozen=True)
