@@ -11,9 +11,8 @@ import sys
 # Inside the physics library: each may include what stands before it, so there are no circles.
 SIM = ["sim/lanes", "sim/gravity.h", "sim/system.h", "sim/physics_version.h", "sim/snapshot.h", "sim/posts.h",
        "sim/rod", "sim/cell.h", "sim/motion", "sim/posts.cpp", "sim/contact", "sim/neighbors", "sim/ledger.h",
-       "sim/world", "sim/balance", "sim/turned_rows", "sim/director_patterns", "sim/aligning_field", "sim/initial",
-       "sim/close_up", "sim/overlaps", "sim/effects", "sim/tick", "sim/bounds", "sim/schedule", "sim/stepping",
-       "sim/compression", "sim/checkpoint", "sim/simulation"]
+       "sim/world", "sim/balance", "sim/close_up", "sim/overlaps", "sim/effects", "sim/tick", "sim/bounds",
+       "sim/schedule", "sim/stepping", "sim/start", "sim/checkpoint", "sim/simulation"]
 ALLOWED = {
     "base/core": [],
     "base": [],
@@ -25,8 +24,8 @@ ALLOWED = {
     "scene": ["base/keys", "sim/rod", "sim/cell.h", "sim/posts.h", "sim/system.h",
               "sim/physics_version.h"],
     # whether rods can be placed, or a run begin where another ends, the simulation itself says
-    "scene/stages.cpp": ["scene", "base/keys", "sim/initial.h"],
-    "scene/placement.cpp": ["scene", "base/keys", "sim/rod", "sim/system.h", "sim/initial.h"],
+    "scene/stages.cpp": ["scene", "base/keys", "sim/start/from_another_run.h"],
+    "scene/placement.cpp": ["scene", "base/keys", "sim/rod", "sim/system.h", "sim/start/initial.h"],
     # a film is as large as the renderer can draw it
     "scene/field_table.cpp": ["scene", "base/keys", "base/picture_limits.h", "sim/rod", "sim/system.h"],
     # a sweep's name is printed
@@ -41,8 +40,8 @@ ALLOWED = {
     "run/files": ["base", "sim/cell.h", "sim/snapshot.h"],
     "run/export": ["base", "run/files", "sim/system.h"],
     # whether rods of another run are those of a scene, and how fast rods are at a start, the simulation itself says
-    "run/import": ["run", "base", "scene", "sim/initial.h", "sim/close_up.h", "sim/overlaps.h", "sim/simulation.h",
-                   "sim/system.h", "sim/world.h"],
+    "run/import": ["run", "base", "scene", "sim/motion/start_motion.h", "sim/start/from_another_run.h",
+                   "sim/close_up.h", "sim/overlaps.h", "sim/simulation.h", "sim/system.h", "sim/world.h"],
     "run": ["proto", "base", "scene", "analysis", "run/files", "sim/rod", "sim/cell.h", "sim/system.h",
             "sim/snapshot.h", "sim/world.h", "sim/simulation.h", "sim/balance.h", "sim/close_up.h", "sim/overlaps.h",
             "sim/effects/registry.h", "sim/motion/side_walls.h", "sim/physics_version.h"],

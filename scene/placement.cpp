@@ -10,7 +10,7 @@
 
 #include "scene/load.h"
 #include "scene/memory_limit.h"
-#include "sim/initial.h"
+#include "sim/start/initial.h"
 
 namespace shaken::scene {
 

@@ -9,7 +9,7 @@
 #include "scene/canonical.h"
 #include "scene/keys.h"
 #include "scene/length.h"
-#include "sim/initial.h"
+#include "sim/start/from_another_run.h"
 
 namespace shaken::scene {
 

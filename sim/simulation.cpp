@@ -4,8 +4,9 @@
 #include "base/core/check.h"
 #include "sim/balance.h"
 #include "sim/checkpoint.h"
-#include "sim/compression.h"
-#include "sim/initial.h"
+#include "sim/start/compression.h"
+#include "sim/start/from_another_run.h"
+#include "sim/start/initial.h"
 #include "sim/stepping/stepper.h"
 
 namespace shaken {

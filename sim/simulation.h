@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "base/core/result.h"
-#include "sim/compression.h"
 #include "sim/snapshot.h"
+#include "sim/start/compression.h"
 #include "sim/stepping/phase_times.h"
 #include "sim/stepping/work_counts.h"
 #include "sim/system.h"
@@ -27,8 +27,8 @@ class Simulation {
   /// Places the rods as the scene says. Fails, with the largest area fraction that fits, if they cannot be packed.
   /// A compressed start takes CPU seconds; it asks `go_on` now and then, and fails once that says false.
   static Result<Simulation> start(const System& system, const GoOn& go_on = {});
-  /// Begins with the rods as they are in `left` (sim/initial.h), in a box and a gap that may be others
-  /// (make_resized_world() in sim/compression.h, which asks `go_on`); fails as those do.
+  /// Begins with the rods as they are in `left` (sim/start/from_another_run.h), in a box and a gap that may be others
+  /// (make_resized_world() in sim/start/compression.h, which asks `go_on`); fails as those do.
   static Result<Simulation> start(const System& system, const World& left, const GoOn& go_on = {});
   /// Continues from bytes made by checkpoint(), bitwise as if there had been no stop.
   /// Fails if the bytes are damaged or belong to another scene.

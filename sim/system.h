@@ -131,7 +131,7 @@ enum class Start {
   kPolydomain,  ///< compressed, along the directors of several domains
   kDefectPair,  ///< compressed, along a director field with one defect of +1/2 and one of -1/2
 };
-/// Whether the rods are compressed into their box (sim/compression.h).
+/// Whether the rods are compressed into their box (sim/start/compression.h).
 constexpr bool is_compressed(Start start) { return start != Start::kAligned && start != Start::kRandom; }
 
 enum class Arena { kDisc, kSquare, kAnnulus, kStadium, kChannel, kEllipse, kWedge };

@@ -369,6 +369,31 @@ def test_some_of_both_is_in_part_and_says_where():
     assert rules.conclude([rules.yes(), rules.no()], "x", everywhere=True).verdict == rules.DISAGREES
 
 
+def test_layers_are_asked_for_in_the_widest_box():
+    def strips(numbers):
+        found = layers(0.80, numbers, "strip", side=21.0) + layers(0.85, numbers, "strip", side=21.0)
+        for run in found:
+            run.scene["box"]["aspect"] = 6.0
+        return found
+
+    squares = layers(0.75, PLAIN) + layers(0.80, VAGUE) + layers(0.85, VAGUE)
+    assert verdict("layers", squares) == rules.OPEN
+    assert verdict("layers", squares + strips(LAYERED)) == rules.AGREES
+    layered = layers(0.75, PLAIN) + layers(0.80, LAYERED) + layers(0.85, LAYERED)
+    assert verdict("layers", layered + strips(PLAIN)) == rules.IN_PART
+
+
+def test_layers_of_blunt_rods_that_depend_on_the_start_are_open():
+    def rods(end, numbers, sweep):
+        return layers(0.85, numbers, sweep, length=4.0, end=end)
+
+    rows = rods(0.4, LAYERED, "layer-trends") + rods(0.6, PLAIN, "layer-trends")
+    assert verdict("peaks-end", rows) == rules.DISAGREES
+    assert verdict("peaks-end", rows + rods(0.6, PLAIN, "fluid-start")) == rules.DISAGREES
+    found = CHECKS["peaks-end"].check(Evidence(rows + rods(0.6, LAYERED, "fluid-start")))
+    assert found.verdict == rules.OPEN and found.why == "d = 0.6 mm (it depends on the start)"
+
+
 def test_the_end_of_a_rise_is_judged_where_rods_are_dense():
     crossings = [r for p, value in ((0.55, 0.32), (0.60, 0.66), (0.65, 0.79))
                  for r in runs("crossings", p, S=value, length=4.0)]

@@ -8,7 +8,7 @@
 
 #include "base/text.h"
 #include "sim/close_up.h"
-#include "sim/initial.h"
+#include "sim/motion/start_motion.h"
 #include "sim/overlaps.h"
 
 namespace shaken::run {

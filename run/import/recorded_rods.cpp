@@ -4,7 +4,7 @@
 #include "run/files/trajectory.h"
 #include "run/import/imported_rods.h"
 #include "scene/load.h"
-#include "sim/initial.h"
+#include "sim/start/from_another_run.h"
 #include "sim/world.h"
 
 namespace shaken::run {

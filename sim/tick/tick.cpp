@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "sim/initial.h"
+#include "sim/motion/start_motion.h"
 
 namespace shaken {
 

@@ -8,8 +8,8 @@
 
 #include "run/measurements.h"
 #include "scene/load.h"
-#include "sim/initial.h"
 #include "sim/simulation.h"
+#include "sim/start/initial.h"
 #include "tests/fuzz/fuzz_target.h"
 
 using namespace shaken;

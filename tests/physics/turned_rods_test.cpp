@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <vector>
 
-#include "sim/initial.h"
 #include "sim/simulation.h"
+#include "sim/start/initial.h"
 #include "sim/tick/surface_impacts.h"
 #include "tests/support/random_rods.h"
 #include "tests/support/short_rods.h"

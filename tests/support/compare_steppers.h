@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/initial.h"
 #include "sim/simulation.h"
+#include "sim/start/initial.h"
 
 /// Whether two ways of stepping the same scene give the same, to the last bit: states, counters and ledgers.
 namespace shaken::test {

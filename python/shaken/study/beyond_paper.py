@@ -245,10 +245,9 @@ def elastic(evidence: Evidence) -> str:
 
 def strip(evidence: Evidence) -> str:
     """Layers in a strip that is long across the rods beside those in the square box; nothing where none was run."""
-    strips = evidence["strip"]
+    strips = Runs(run for run in evidence["strip"] if key_of(run, PACKING) > 0.78)
     if not strips:
         return ""
-    square = evidence["layers"].at(key_of(strips[0], LENGTH), key_of(strips[0], PACKING))
 
     def step(here: Runs) -> str:
         _, across = box_of(here[0])
@@ -256,8 +255,11 @@ def strip(evidence: Evidence) -> str:
         n = round(across / found.value) if found.is_known else 0
         return f"{across / n - across / (n + 1):.2g}" if n else "–"
 
-    return "The same rods in a strip, along whose length more wavelengths fit:\n\n" + table([square, strips], [
-        BOX, PACKED, SEEDS, number("S", "S"), number("θ_m (°)", "theta_m_deg"),
+    squares = evidence.joined("layers", "layer-trends")
+    both = [runs for there in by(strips, LENGTH, PACKING)
+            for runs in (squares.at(key_of(there[0], LENGTH), key_of(there[0], PACKING), end=0.4), there)]
+    return "The same rods in a strip, along whose length more wavelengths fit:\n\n" + table(both, [
+        LONG, PACKED, BOX, SEEDS, number("S", "S"), number("θ_m (°)", "theta_m_deg"),
         ("λ (mm)", lambda here: text(layered(here).of(wavelength))), ("step of λ (mm)", step),
         number("layer order", "layer_order")])
 

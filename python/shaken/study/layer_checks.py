@@ -9,12 +9,15 @@ import numpy as np
 
 from ..estimate import Estimate
 from ..run import Run
-from .evidence import END, GAP, LENGTH, PACKING, SIDE, Evidence, Runs, box_of, key_of, number_of
+from .evidence import END, GAP, LENGTH, PACKING, Evidence, Runs, box_of, box_text, key_of, number_of
 from .rules import (NOT_RUN, Answer, Finding, above, below, close_to, conclude, larger, listed, no, refutable, text,
                     trend, unknown, yes)
 
 #: P(0) over the maximum of P(theta): below it there are two peaks, above it there is one.
 TWO_PEAKS = 0.95
+
+#: What is said of runs that start as a nematic fluid, which was compressed, in place of the rows of the others.
+FLUID = " (from a fluid)"
 
 
 def two_peaks(runs: Runs) -> Answer:
@@ -51,10 +54,16 @@ def _gap_text(runs: Runs) -> str:
             f"Bragg peak {text(runs.number('bragg_peak'))}")
 
 
+def _widest(runs: Runs) -> Runs:
+    """Those in the box that is widest across the director, into which most layers fit."""
+    width = max((box_of(run)[1] for run in runs), default=0.0)
+    return Runs(run for run in runs if box_of(run)[1] == width)
+
+
 def layers_when_dense(evidence: Evidence) -> Finding:
     answers, found = [], []
     for packing in (0.75, 0.80, 0.85):
-        runs = evidence["layers"].at(4.5, packing)
+        runs = _widest(evidence.joined("layers", "strip").at(4.5, packing))
         if not runs:
             if evidence["layers"]:
                 answers.append(unknown(NOT_RUN).placed(f"{packing:g}"))
@@ -65,7 +74,7 @@ def layers_when_dense(evidence: Evidence) -> Finding:
         else:
             answer = close_to(runs.number("theta_m_deg"), 10, 4) if two.word else two
         answers.append(answer.placed(f"{packing:g}"))
-        found.append(f"φ = {packing:g}: {_angle_text(runs)}")
+        found.append(f"φ = {packing:g}: {_angle_text(runs)} in {box_text(runs[0])}")
     return conclude(answers, "; ".join(found))
 
 
@@ -135,26 +144,27 @@ def _trend(series: list[tuple[Runs, str]], name: str, rising: bool, unit: str) -
             continue
         where = ", ".join(f"{symbols[other]} = {key_of(runs[0], other):g}" for other in (LENGTH, PACKING)
                           if other != key)
-        side = key_of(runs[0], SIDE)
+        where += f", {box_text(runs[0])}"
         answers.append((trend(points, rising) if len(points) > 1 else unknown("layers at fewer than two points"))
-                       .placed(f"{where}, L = {side:.0f} mm"))
-        found.append(f"{where}, L = {side:.0f} mm: " + (listed(points, symbols[key], unit) or "no layers"))
+                       .placed(where))
+        found.append(f"{where}: " + (listed(points, symbols[key], unit) or "no layers"))
     able = [answer for answer in answers if answer.word is not None]
     return conclude(able or answers, ". ".join(found))
 
 
 def _by_packing(evidence: Evidence) -> list[tuple[Runs, str]]:
-    runs = evidence.joined("layers", "layer-trends")
+    square = evidence.joined("layers", "layer-trends")
     return [(Runs(run for run in runs.at(length, end=0.4) if key_of(run, PACKING) > 0.78), PACKING)
-            for length in (4.0, 4.5)]
+            for length in (4.0, 4.5) for runs in (square, evidence["strip"])]
 
 
 def _by_length(evidence: Evidence) -> list[tuple[Runs, str]]:
-    return [(evidence.joined("layers", "layer-trends").at(packing=0.85, end=0.4), LENGTH)]
+    return [(runs.at(packing=0.85, end=0.4), LENGTH)
+            for runs in (evidence.joined("layers", "layer-trends"), evidence["strip"])]
 
 
 def _by_end(evidence: Evidence) -> list[tuple[Runs, str]]:
-    return [(evidence["layer-trends"].at(4.0, 0.85), END)]
+    return [(evidence.joined("layer-trends", "fluid-start").at(4.0, 0.85), END)]
 
 
 def angle_grows_with_packing(evidence: Evidence) -> Finding:
@@ -173,9 +183,13 @@ def two_peaks_at_every_end(evidence: Evidence) -> Finding:
     answers, found = [], []
     [(runs, _)] = _by_end(evidence)
     for end in runs.values(END) if len(runs.values(END)) > 1 else []:
-        here = runs.at(end=end)
-        answers.append(two_peaks(here).placed(f"d = {end:g} mm"))
-        found.append(f"d = {end:g} mm: {_angle_text(here)}")
+        starts = [(here, name) for name in ("layer-trends", "fluid-start")
+                  if (here := evidence[name].at(4.0, 0.85, end=end))]
+        given = [two_peaks(here) for here, _ in starts]
+        same = all(answer.word == given[0].word for answer in given)
+        answers.append((given[0] if same else unknown("it depends on the start")).placed(f"d = {end:g} mm"))
+        found.append(f"d = {end:g} mm: " + ", ".join(_angle_text(here) + (FLUID if name == "fluid-start" else "")
+                                                     for here, name in starts))
     return conclude(answers, "; ".join(found), everywhere=True)
 
 
@@ -199,7 +213,7 @@ def larger_box(evidence: Evidence) -> Finding:
         return Finding()
     lam = [layered(runs).of(wavelength) for runs in (small, large)]
     theta = [runs.number("theta_m_deg") for runs in (small, large)]
-    sides = [key_of(runs[0], SIDE) for runs in (small, large)]
+    boxes = [box_text(runs[0]) for runs in (small, large)]
     return conclude([larger(lam[1], lam[0]).placed("λ larger"), larger(theta[0], theta[1]).placed("θ_m smaller")],
                     f"ℓ = 4 mm, φ = 0.85: λ = {text(lam[0])} mm and {text(lam[1])} mm, θ_m = {text(theta[0])}° and "
-                    f"{text(theta[1])}°, in {sides[0]:.1f} and {sides[1]:.1f} mm")
+                    f"{text(theta[1])}°, in {boxes[0]} and {boxes[1]}")

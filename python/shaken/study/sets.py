@@ -14,9 +14,13 @@ from ..errors import ShakenError
 ORDER: tuple[tuple[str, str], ...] = (
     ("A", "long-rods"), ("B", "dilute"), ("G", "layers"), ("C", "mechanism"), ("D", "shaking"), ("E", "crossings"),
     ("F", "size"), ("H", "gaps"), ("J", "diffusion-along"), ("AA", "strip"), ("I", "layer-trends"), ("K", "short-rods"),
-    ("M", "larger-box"), ("U", "frequency"), ("V", "phases"), ("X", "beads"), ("R", "elasticity"), ("S", "turned"),
-    ("P", "wavelength-end"), ("Q", "long-range"), ("L", "no-order"), ("O", "wavelength-length"),
-    ("N", "wavelength-packing"), ("W", "density"), ("T", "diffusion"), ("Y", "equilibrium"), ("Z", "movies"))
+    ("AB", "fluid-start"), ("M", "larger-box"), ("U", "frequency"), ("V", "phases"), ("X", "beads"),
+    ("R", "elasticity"), ("S", "turned"), ("P", "wavelength-end"), ("Q", "long-range"), ("L", "no-order"),
+    ("O", "wavelength-length"), ("N", "wavelength-packing"), ("W", "density"), ("T", "diffusion"),
+    ("Y", "equilibrium"), ("Z", "movies"))
+
+#: Side [mm] of the boxes of those sets that give a number of rods in place of a side.
+SIDE_OF_COUNTS = 41.865
 
 
 @dataclass(frozen=True)
@@ -61,8 +65,10 @@ def scaled(sweep: dict[str, Any], scale: Scale) -> dict[str, Any]:
     found = json.loads(json.dumps(sweep))
     found["name"] = found["name"].rpartition("-")[0] + "-" + scale.name
     scene = found["scene"]
+    side = scene.get("box", {}).get("side", SIDE_OF_COUNTS)
+    area = (_number(_side(side, scale)) / _number(side)) ** 2
     if "side" in scene.get("box", {}):
-        scene["box"]["side"] = _side(scene["box"]["side"], scale)
+        scene["box"]["side"] = _side(side, scale)
     if scale.name == "tiny" and "movie" in scene:
         scene["trajectory"]["every"] = scene["movie"]["every"] = "20 ms"
     if "accuracy" in scene:
@@ -72,23 +78,29 @@ def scaled(sweep: dict[str, Any], scale: Scale) -> dict[str, Any]:
             scene["time"][key] = _time(value, scale)
     parts = []
     for part in found["sweep"]:
-        grid = part["grid"]
-        if grid.get("accuracy") == ["paper"]:
+        if part["grid"].get("accuracy") == ["paper"]:
             continue  # the controls
-        if "accuracy" in grid:
-            grid["accuracy"] = [scale.accuracy]
-        for key, values in grid.items():
-            if key == "box.side":
-                grid[key] = list(dict.fromkeys(_side(value, scale) for value in values))
-            if key in ("time.steady", "time.measure"):
-                grid[key] = [_time(value, scale) for value in values]
-            if key == "time.seed":
-                grid[key] = values[:scale.replicas]
+        for factor in (part["grid"], part.get("zip", {}), *part.get("stages", [])):
+            for key, values in factor.items():
+                factor[key] = _scaled_values(key, values, scale, area)
         if "replicas" in part:
             part["replicas"] = min(part["replicas"], scale.replicas)
         parts.append(part)
     found["sweep"] = parts
     return found
+
+
+def _scaled_values(key: str, values: list[Any], scale: Scale, area: float) -> list[Any]:
+    """The values of a swept key at another scale, at which the boxes have `area` times their area."""
+    if key == "accuracy":
+        return [scale.accuracy]
+    if key == "box.side":
+        return list(dict.fromkeys(None if value is None else _side(value, scale) for value in values))
+    if key in ("time.steady", "time.measure"):
+        return [_time(value, scale) for value in values]
+    if key == "time.seed":
+        return values[:scale.replicas]
+    return [round(value * area) for value in values] if key == "rods.count" else values
 
 
 def _number(value: str | float) -> float:

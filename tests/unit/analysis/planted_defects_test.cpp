@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "analysis/defects.h"
-#include "sim/compression.h"
-#include "sim/director_patterns.h"
+#include "sim/start/compression.h"
+#include "sim/start/director_patterns.h"
 
 namespace shaken::analysis {
 namespace {

@@ -9,7 +9,7 @@
 #include "proto/codec.h"
 #include "scene/fields.h"
 #include "sim/balance.h"
-#include "sim/initial.h"
+#include "sim/start/initial.h"
 
 namespace shaken::run {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sim/compression.h"
+#include "sim/start/compression.h"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +10,10 @@
 #include "sim/balance.h"
 #include "sim/checkpoint.h"
 #include "sim/contact/bead_contacts.h"
-#include "sim/director_patterns.h"
-#include "sim/initial.h"
 #include "sim/neighbors/neighbor_list.h"
 #include "sim/simulation.h"
+#include "sim/start/director_patterns.h"
+#include "sim/start/initial.h"
 
 namespace shaken {
 namespace {

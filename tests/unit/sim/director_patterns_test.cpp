@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sim/director_patterns.h"
+#include "sim/start/director_patterns.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <set>
 #include <vector>
 
-#include "sim/aligning_field.h"
-#include "sim/compression.h"
+#include "sim/start/aligning_field.h"
+#include "sim/start/compression.h"
 
 namespace shaken {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "sim/checkpoint.h"
 #include "sim/effects/registry.h"
-#include "sim/initial.h"
 #include "sim/simulation.h"
+#include "sim/start/initial.h"
 #include "sim/stepping/reference_stepper.h"
 #include "tests/support/short_rods.h"
 

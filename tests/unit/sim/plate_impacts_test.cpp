@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "sim/initial.h"
+#include "sim/start/initial.h"
 #include "sim/tick/surface_impacts.h"
 #include "tests/support/any_width.h"
 #include "tests/support/effort.h"

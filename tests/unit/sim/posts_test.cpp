@@ -10,10 +10,11 @@
 #include <vector>
 
 #include "sim/balance.h"
-#include "sim/compression.h"
-#include "sim/initial.h"
 #include "sim/motion/post_contacts.h"
 #include "sim/simulation.h"
+#include "sim/start/compression.h"
+#include "sim/start/from_another_run.h"
+#include "sim/start/initial.h"
 #include "tests/support/effort.h"
 #include "tests/support/random_rods.h"
 

@@ -3,8 +3,8 @@
 
 #include "sim/balance.h"
 #include "sim/checkpoint.h"
-#include "sim/initial.h"
 #include "sim/simulation.h"
+#include "sim/start/initial.h"
 
 namespace shaken {
 namespace {

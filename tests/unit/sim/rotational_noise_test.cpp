@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "sim/initial.h"
 #include "sim/simulation.h"
+#include "sim/start/initial.h"
 #include "tests/support/short_rods.h"
 
 namespace shaken {

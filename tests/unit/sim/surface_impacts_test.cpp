@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/initial.h"
+#include "sim/start/initial.h"
 
 namespace shaken {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sim/compression.h"
+#include "sim/start/compression.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,13 +10,15 @@
 #include <vector>
 
 #include "base/core/check.h"
-#include "sim/aligning_field.h"
 #include "sim/balance.h"
 #include "sim/contact/bead_contacts.h"
-#include "sim/director_patterns.h"
-#include "sim/initial.h"
 #include "sim/motion/post_contacts.h"
+#include "sim/motion/start_motion.h"
 #include "sim/neighbors/neighbor_list.h"
+#include "sim/start/aligning_field.h"
+#include "sim/start/director_patterns.h"
+#include "sim/start/from_another_run.h"
+#include "sim/start/initial.h"
 #include "sim/stepping/stepper.h"
 
 namespace shaken {

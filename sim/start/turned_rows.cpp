@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sim/turned_rows.h"
+#include "sim/start/turned_rows.h"
 
 #include <algorithm>
 #include <cmath>

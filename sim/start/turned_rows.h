@@ -6,19 +6,9 @@
 
 #include "base/core/box.h"
 #include "sim/rod/species.h"
+#include "sim/start/lattice.h"
 
 namespace shaken {
-
-/// A lattice that tiles the periodic box: `columns` sites to a row along x, each row shifted against the one
-/// before by `turns` / `rows` of a column, so that the rows close in themselves. Each lattice of columns * rows sites
-/// that the box can have is one of these, with 0 <= turns < rows (Hermite's normal form of its basis).
-struct Lattice {
-  int columns = 0;
-  int rows = 0;
-  int turns = 0;
-  double clearance = 0;  ///< smallest of the gaps between rods [mm]
-  int sites() const { return columns * rows; }
-};
 
 /// Parallel rods at an angle to the sides of a periodic box. The box has to be tiled by the lattice of their
 /// centres alone: the rods may point anywhere, as long as those at neighbouring sites are apart. So the angle is met

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sim/director_patterns.h"
+#include "sim/start/director_patterns.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sim/aligning_field.h"
+#include "sim/start/aligning_field.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 
 #include "base/core/box.h"
 #include "base/core/types.h"
-#include "sim/director_patterns.h"
+#include "sim/start/director_patterns.h"
 
 namespace shaken {
 

@@ -21,9 +21,9 @@ using GoOn = std::function<bool()>;
 ///           one and a half thicknesses apart, without gravity and friction, with restitution 1. A step may push rods
 ///           into each other by a small part of a bead's radius; their next impulses drive them apart. Beads are a
 ///           hundredth thicker meanwhile, so that true rods are apart at the end, which is checked.
-/// Patterns: where rods start along domains or a pair of defects (sim/director_patterns.h), they are inserted along the
-///           director of their place, with the head at either end, and turned towards it between the steps by a field
-///           (sim/aligning_field.h). Turns that hits give them last until the next step.
+/// Patterns: where rods start along domains or a pair of defects (sim/start/director_patterns.h), they are inserted
+///           along the director of their place, with the head at either end, and turned towards it between the steps by
+///           a field (sim/start/aligning_field.h). Turns that hits give them last until the next step.
 /// Posts:    they shrink with the box, with the ways between them, so that posts that touch do so all along.
 /// Source:   as the quick compression of hard particles of HOOMD-blue (Anderson et al. 2020), with impulses in place
 ///           of Monte Carlo moves.
