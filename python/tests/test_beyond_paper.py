@@ -19,9 +19,9 @@ _ids = itertools.count()
 
 
 def run(sweep, numbers=None, arrays=None, *, length=2.5, packing=0.75, side=40.0, beads=9, gamma=7.0, frequency=200.0,
-        n_rods=800, seconds=200.0, speed=400.0, S=0.2, step=1.6e-5, aspect=None):
+        n_rods=800, seconds=200.0, speed=400.0, S=0.2, step=1.6e-5, aspect=None, end=0.4):
     """A run of a set, with numbers (NAME -> (value, error)) and arrays."""
-    scene = {"rods": {"length": length, "area_fraction": packing, "beads": beads, "end_diameter": 0.4},
+    scene = {"rods": {"length": length, "area_fraction": packing, "beads": beads, "end_diameter": end},
              "box": {"side": side, "gap": 1.2}, "plates": {"gamma": gamma, "frequency": frequency},
              "time": {"step": step, "seed": 1}}
     if aspect is not None:
@@ -178,12 +178,24 @@ def test_layers_of_a_strip_stand_beside_those_of_the_square_box():
     strips = [layers("strip", value, side=21.0, aspect=6, n_rods=850) for value in (14.0, 14.0, 14.0)]
     first, second = rows(beyond_paper.strip(Evidence([square, *strips])))
     # three waves of 14 mm fit into 42 mm, nine into 126: the next are 42 / 4 and 126 / 10
-    assert first[0] == "42 mm" and second[0] == "21 × 126 mm" and second[2] == "3 × 200 s"
-    assert first[6] == "3.5" and second[6] == "1.4"
+    assert first[:3] == ["4.5 mm", "0.8", "42 mm"] and second[2:4] == ["21 × 126 mm", "3 × 200 s"]
+    assert first[7] == "3.5" and second[7] == "1.4"
     # a uniform error over the step, 42 / 2.5 - 42 / 3.5 and 126 / 8.5 - 126 / 9.5, besides that of each run
-    for cell, step, runs_ in ((first[5], 4.8, 1), (second[5], 1.56, 3)):
+    for cell, step, runs_ in ((first[6], 4.8, 1), (second[6], 1.56, 3)):
         error = math.hypot(step / math.sqrt(12), 0.1) / math.sqrt(runs_)
         assert float(cell.split(" ± ")[1]) == pytest.approx(error, rel=0.15)
+
+
+def test_blunt_rods_from_rows_stand_beside_those_from_a_fluid():
+    def rods(sweep, end, psi_6, packing=0.85):
+        return run(sweep, {"psi_6": (psi_6, 0.01)}, length=4.0, packing=packing, end=end)
+
+    made = [rods("layer-trends", 0.4, 0.03), rods("layer-trends", 0.5, 0.76), rods("fluid-start", 0.5, 0.5),
+            rods("fluid-start", 0.5, 0.02, 0.70)]
+    found = rows(beyond_paper.blunt(Evidence(made)))
+    assert [row[:3] for row in found] == [["0.4 mm", "0.85", "rows"], ["0.5 mm", "0.85", "rows"],
+                                          ["0.5 mm", "0.85", "a fluid"]], "the melt is a stage, no state of its own"
+    assert [row[5] for row in found] == ["0.030 ± 0.010", "0.760 ± 0.010", "0.500 ± 0.010"]
 
 
 def test_rods_are_counted_in_the_area_of_a_box_that_is_not_square():

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..estimate import Estimate, derived
 from ..run import Run
-from .evidence import (BEADS, FREQUENCY, GAMMA, LENGTH, PACKING, SIDE, Evidence, Runs, box_of, box_text, key_of,
+from .evidence import (BEADS, END, FREQUENCY, GAMMA, LENGTH, PACKING, SIDE, Evidence, Runs, box_of, box_text, key_of,
                        number_of)
 from .layer_checks import layered, wavelength
 from .motion_checks import late_velocity_correlation, papers_diffusion, speed_between
@@ -243,6 +243,19 @@ def elastic(evidence: Evidence) -> str:
         PACKED, BOX, SEEDS, number("S", "S"), number("K₃/K₁", "frank_ratio"), number("χ² per point", "frank_chi2")])
 
 
+def blunt(evidence: Evidence) -> str:
+    """Rods of 4 mm with ends of several diameters: crystalline order and P(theta), from rows and from a fluid."""
+    starts = [("rows", evidence["layer-trends"].at(4.0)), ("a fluid", evidence["fluid-start"].at(4.0))]
+    points = [(name, here) for name, runs in starts
+              for here in by(Runs(run for run in runs if key_of(run, PACKING) > 0.78), END, PACKING)]
+    named = {id(here): name for name, here in points}
+    return table([here for _, here in sorted(points, key=lambda point: (key_of(point[1][0], END),
+                                                                        key_of(point[1][0], PACKING)))], [
+        key("d", END, " mm"), PACKED, ("start", lambda here: named[id(here)]), SEEDS, number("S", "S"),
+        number("ψ₆", "psi_6"), number("Bragg peak", "bragg_peak"), number("P(0)/maximum", "dip"),
+        number("layer order", "layer_order"), number("D along (mm²/s)", "diffusion_along_mm2_s")])
+
+
 def strip(evidence: Evidence) -> str:
     """Layers in a strip that is long across the rods beside those in the square box; nothing where none was run."""
     strips = Runs(run for run in evidence["strip"] if key_of(run, PACKING) > 0.78)
@@ -321,4 +334,4 @@ def next_runs(evidence: Evidence) -> str:
 SECTIONS: dict[str, Callable[[Evidence], str]] = {
     "beads": beads, "number of rods": density, "frequency": frequency, "rival frequency": rival_frequency,
     "shaking": shaking, "diffusion": diffusion_minimum, "streaming": streaming, "defects": defects,
-    "elastic constants": elastic, "next runs": next_runs}
+    "elastic constants": elastic, "blunt rods": blunt, "next runs": next_runs}

@@ -10,8 +10,11 @@ from ..plots import names
 from ..plots.panel import Panel
 from ..plots.sheet import Sheet
 from .layer_checks import layered, wavelength
-from .evidence import END, GAP, LENGTH, PACKING, SIDE, Runs
+from .evidence import END, GAP, LENGTH, PACKING, SIDE, Runs, key_of
 from .material import Material, angle_bar, draw_curves, draw_points, draw_rods, first_snapshot, packing_scale
+
+#: The box of the set `strip`, in a legend.
+STRIP = "21 × 126 mm"
 
 
 def g2(material: Material) -> Sheet:
@@ -146,18 +149,17 @@ def layers(material: Material) -> Sheet:
         sheet.colourbar(scale, [sheet[1]])
     sheet[1].reference(x=10, label="10°").reference(x=-10)
     material.stamp(sheet[1], "layers")
-    ends = evidence["layer-trends"].at(4.0, 0.85)
-    _angles(sheet[2], ends, END, "ℓ = 4 mm, φ = 0.85")
+    by_end = evidence["layer-trends"].at(4.0, 0.85)
+    _angles(sheet[2], by_end, END, "ℓ = 4 mm, φ = 0.85")
     material.stamp(sheet[2], "peaks-end")
-    by_length = [(trends.at(packing=packing, end=0.4), f"φ = {packing:g}") for packing in (0.80, 0.85)]
-    by_end = [(ends, "φ = 0.85")]
-    wide = [(evidence["wavelength-length"], "φ = 0.85, L = 84 mm"), *((runs, f"{label}, L = 42 mm")
-                                                                     for runs, label in by_length)]
-    wide_ends = [(evidence.joined("wavelength-end", "larger-box").at(4.0, 0.85), "L = 84 mm"), (ends, "L = 42 mm")]
+    by_length = [(trends.at(packing=packing, end=0.4), f"φ = {packing:g}, L = 42 mm") for packing in (0.80, 0.85)]
+    by_length.append((evidence["strip"].at(packing=0.85, end=0.4), f"φ = 0.85, {STRIP}"))
+    wide = [(evidence["wavelength-length"], "φ = 0.85, L = 84 mm"), *by_length]
+    wide_ends = [(evidence.joined("wavelength-end", "larger-box").at(4.0, 0.85), "L = 84 mm"), (by_end, "L = 42 mm")]
     _against(sheet[3], by_length, LENGTH, "theta_m_deg", "angle")
     sheet[3].reference(y=10, label="the paper: about 10°")
     material.stamp(sheet[3], "angle-length")
-    _against(sheet[4], by_end, END, "theta_m_deg", "angle, ℓ = 4 mm")
+    _against(sheet[4], [(by_end, "φ = 0.85")], END, "theta_m_deg", "angle, ℓ = 4 mm")
     material.stamp(sheet[4], "angle-end")
     _cuts_across(sheet[5], long_, scale)
     material.stamp(sheet[5], "g2-oscillates")
@@ -187,6 +189,8 @@ def layer_trends(material: Material) -> Sheet:
     """Angle, wavelength and order of the layers against packing."""
     trends = material.evidence.joined("layers", "layer-trends")
     series = [(trends.at(length, end=0.4), names.value_label(LENGTH, length)) for length in (4.0, 4.5)]
+    strips = Runs(run for run in material.evidence["strip"].at(4.5) if key_of(run, PACKING) > 0.78)
+    series.append((strips, f"{names.value_label(LENGTH, 4.5)}, {STRIP}"))
     sheet = material.sheet(3)
     for panel, name, statement in zip(sheet, ("theta_m_deg", "wavelength_mm", "layer_order"),
                                       ("angle-packing", "wavelength-packing", "")):
@@ -216,6 +220,23 @@ def larger_box(material: Material) -> Sheet:
     _angles(sheet[2], both, SIDE, "P(θ)")
     _cuts_across(sheet[3], both, None, SIDE)
     material.stamp(sheet[3], "larger-box")
+    return sheet
+
+
+def ends(material: Material) -> Sheet:
+    """Rods of 4 mm at 0.85, sharp as the paper's and blunter, from rows and from a fluid: the last rods, P(theta)."""
+    rows, fluid = (material.evidence[name].at(4.0, 0.85) for name in ("layer-trends", "fluid-start"))
+    sheet = material.sheet(6, columns=3, height=58)
+    shown = [(rows.at(end=end), f"d = {end:g} mm, from rows") for end in (0.4, 0.5)]
+    shown += [(fluid.at(end=end), f"d = {end:g} mm, from a fluid") for end in (0.5, 0.6)]
+    for panel, (runs, title) in zip(sheet, shown):
+        snapshot = first_snapshot(runs)
+        if snapshot:
+            draw_rods(panel, snapshot, runs[0].scene, title)
+    angle_bar(sheet, [panel for panel in sheet.panels[:4] if panel.is_used] or sheet.panels[:1])
+    for panel, runs, title in ((sheet[4], rows, "P(θ), from rows"), (sheet[5], fluid, "P(θ), from a fluid")):
+        _angles(panel, runs, END, title)
+    material.stamp(sheet[5], "peaks-end")
     return sheet
 
 

@@ -179,15 +179,20 @@ def angle_falls_with_end(evidence: Evidence) -> Finding:
     return _trend(_by_end(evidence), "theta_m_deg", False, "°")
 
 
+def _whatever_the_start(answers: list[Answer]) -> Answer:
+    """The answer of runs from several starts, where they say the same."""
+    open_ = [answer for answer in answers if answer.word is None]
+    same = len({answer.word for answer in answers}) == 1
+    return open_[0] if open_ else answers[0] if same else unknown("it depends on the start")
+
+
 def two_peaks_at_every_end(evidence: Evidence) -> Finding:
     answers, found = [], []
     [(runs, _)] = _by_end(evidence)
     for end in runs.values(END) if len(runs.values(END)) > 1 else []:
         starts = [(here, name) for name in ("layer-trends", "fluid-start")
                   if (here := evidence[name].at(4.0, 0.85, end=end))]
-        given = [two_peaks(here) for here, _ in starts]
-        same = all(answer.word == given[0].word for answer in given)
-        answers.append((given[0] if same else unknown("it depends on the start")).placed(f"d = {end:g} mm"))
+        answers.append(_whatever_the_start([two_peaks(here) for here, _ in starts]).placed(f"d = {end:g} mm"))
         found.append(f"d = {end:g} mm: " + ", ".join(_angle_text(here) + (FLUID if name == "fluid-start" else "")
                                                      for here, name in starts))
     return conclude(answers, "; ".join(found), everywhere=True)

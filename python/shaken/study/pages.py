@@ -32,7 +32,7 @@ class Page:
 PAGES: tuple[Page, ...] = (
     Page("figure-2", ("2",)), Page("figure-3", ("3", "size", "steady")), Page("figure-4", ("4",)),
     Page("figure-5", ("5",)), Page("figure-6", ("6", "elasticity")), Page("figure-7", ("7",)),
-    Page("figure-8", ("8", "layer-trends", "larger-box", "gap")), Page("figure-9", ("9", "diffusion-more")),
+    Page("figure-8", ("8", "layer-trends", "larger-box", "ends", "gap")), Page("figure-9", ("9", "diffusion-more")),
     Page("figure-10", ("10",)), Page("figure-11", ("11",)), Page("figure-12", ("12",)), Page("figure-13", ("13",)),
     Page("figure-14", ("14", "melting")), Page("shaking", ("shaking",)))
 
