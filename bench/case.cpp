@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <optional>
+#include <string_view>
 
 #include "base/failure.h"
 #include "base/files.h"
@@ -47,6 +48,22 @@ Simulation simulate(const Case& wanted) {
   return simulation;
 }
 
+/// Of the text of a scene with further settings.
+Case loaded_case(std::string_view text, double warm_up, const std::string& label, std::vector<std::string> settings) {
+  settings.insert(settings.end(), {"time.steady=0", fmt::format("time.measure={:.17g}", warm_up)});
+  const auto loaded = scene::load_scene(text, label, settings);
+  if (!loaded) {
+    std::string problems;
+    for (const keys::Problem& problem : loaded.error()) {
+      problems += fmt::format("{}{}: {}: {}", problems.empty() ? "" : "\n  ", label, problem.path, problem.message);
+    }
+    throw Failure(ExitCode::kBadInput, problems);
+  }
+  if (loaded->start) throw Failure(ExitCode::kBadInput, label + ": start: benches place the rods, remove it");
+  const System& system = loaded->system;
+  return {label, system.rod.length, scene::area_fraction_of(system), system.box_side, system.dt, warm_up, *loaded};
+}
+
 }  // namespace
 
 Tick Case::warm_up_ticks() const { return std::llround(warm_up / dt); }
@@ -64,18 +81,15 @@ std::pair<double, double> limits_of(std::string_view field) {
 }
 
 Case case_of(nlohmann::json scene, double warm_up, const std::string& label) {
-  scene.merge_patch({{"time", {{"steady", 0}, {"measure", warm_up}}}});
   scene["measure"] = {{"order", nullptr}};
-  const auto loaded = scene::load_scene(scene.dump(), "scene");
-  if (!loaded) {
-    std::string problems;
-    for (const keys::Problem& problem : loaded.error()) {
-      problems += fmt::format("{}{}: {}: {}", problems.empty() ? "" : "\n  ", label, problem.path, problem.message);
-    }
-    throw Failure(ExitCode::kBadInput, problems);
-  }
-  const System& system = loaded->system;
-  return {label, system.rod.length, scene::area_fraction_of(system), system.box_side, system.dt, warm_up, *loaded};
+  return loaded_case(scene.dump(), warm_up, label, {});
+}
+
+Case read_case(const std::filesystem::path& file, double warm_up) {
+  const Result<std::string> text = read_file(file);
+  if (!text) throw Failure(ExitCode::kBadInput, text.error().message);
+  return loaded_case(*text, warm_up, file.string(),
+                     {R"(measure={"order":null})", "trajectory=null", "movie=null", "until=null"});
 }
 
 Case make_case(double length, double area_fraction, double side, double dt, double warm_up) {
@@ -88,9 +102,11 @@ Case make_case(double length, double area_fraction, double side, double dt, doub
 }
 
 void CaseOptions::declare(CLI::App& app) {
-  add_number(app, "--length", length, "MM", limits_of("rods.length"), "Rod length [mm]");
-  add_number(app, "--area-fraction", area_fraction, "PHI", limits_of("rods.area_fraction"), "Area fraction");
-  add_number(app, "--side", side, "MM", limits_of("box.side"), "Side of the box [mm]");
+  CLI::Option* file = add_path(app, "--scene", scene, "FILE", "A scene of yours; how long it runs is left out");
+  file->excludes(
+      add_number(app, "--length", length, "MM", limits_of("rods.length"), "Rod length [mm]"),
+      add_number(app, "--area-fraction", area_fraction, "PHI", limits_of("rods.area_fraction"), "Area fraction"),
+      add_number(app, "--side", side, "MM", limits_of("box.side"), "Side of the box [mm]"));
   add_number(app, "--warm-up", warm_up, "S", kWarmUps, "Simulated seconds before anything is measured");
 }
 

@@ -49,6 +49,8 @@ std::pair<double, double> limits_of(std::string_view field);
 /// Of a scene as a user would write it, but for what says how long it runs and what it measures: `warm_up` says the
 /// one, and it measures nothing. Throws Failure with all that is wrong with the scene.
 Case case_of(nlohmann::json scene, double warm_up, const std::string& label);
+/// Of a scene file, with its own time step. Throws Failure with all that is wrong with it.
+Case read_case(const std::filesystem::path& file, double warm_up);
 /// Of rods in a periodic box; everything that is not named here is the scene file's default. Its label is label_of.
 Case make_case(double length, double area_fraction, double side, double dt, double warm_up);
 
@@ -91,9 +93,12 @@ struct CaseOptions {
   double warm_up = 0.5;
   double length = 4.5;
   double area_fraction = 0.75;
+  std::string scene{};  ///< a file, in place of length, area fraction and side; empty: none
 
   void declare(CLI::App& app);
-  Case read() const { return make_case(length, area_fraction, side, kPaperStep, warm_up); }
+  Case read() const {
+    return scene.empty() ? make_case(length, area_fraction, side, kPaperStep, warm_up) : read_case(scene, warm_up);
+  }
 };
 
 }  // namespace shaken::bench

@@ -27,6 +27,7 @@ Examples:
   shaken bench effects --area-fraction 0.45 --out effects   fewer; effects/effects.csv, .json and .png
   shaken bench effects --warm-up 5 --repeat 9               in the steady state of each, with smaller errors
   shaken bench effects --side 15 --warm-up 2 --measure 20   what effects do, in 20 s of 68 rods without each
+  shaken bench effects --scene scene.json                   the effects of a scene of yours
 
 Exit codes: 0 done, 1 something failed, 2 bad input.)";
 

@@ -51,6 +51,36 @@ TEST(Case, IsWhatASceneSays) {
   EXPECT_EQ(made.warm_up_ticks(), 62'500);
 }
 
+TEST(Case, IsReadFromAFileWithoutWhatItMeasures) {
+  const ScratchFolder folder;
+  const std::filesystem::path file = folder.path() / "scene.json";
+  std::ofstream(file) << R"(// a comment
+    {"rods": {"count": 40, "length_spread": 0.2}, "time": {"step": "8 us", "steady": "2 s", "measure": "10 s"},
+     "measure": {"msd": {}}, "movie": {"every": "20 ms"}})";
+  const Case made = read_case(file, 0.5);
+  EXPECT_EQ(made.label, file.string());
+  EXPECT_EQ(made.n_rods(), 40);
+  EXPECT_EQ(made.dt, 8e-6);
+  EXPECT_EQ(made.plan.total_time(), 0.5);
+  EXPECT_FALSE(made.plan.msd || made.plan.order);
+  EXPECT_FALSE(made.plan.movie);
+  EXPECT_TRUE(made.system().rod.spread.length > 0);
+
+  const auto refusal = [&](const char* scene) {
+    std::ofstream(file) << scene;
+    try {
+      read_case(file, 0.5);
+    } catch (const Failure& failure) {
+      EXPECT_EQ(failure.code, ExitCode::kBadInput);
+      return std::string(failure.what());
+    }
+    return std::string("not refused");
+  };
+  const std::string both = refusal(R"({"rods": {"count": 40, "lenght": 3}, "boks": {}})");
+  for (const char* word : {"lenght", "boks"}) EXPECT_NE(both.find(word), std::string::npos) << both;
+  EXPECT_NE(refusal(R"({"start": {"run": "7b26405de457a366", "time": "10 s"}})").find("start"), std::string::npos);
+}
+
 TEST(Case, CountsRodsOfAllSpecies) {
   const Case made = case_of({{"rods", {{"count", 40}}}, {"rods_2", {{"count", 30}}}}, 0.5, "mixture");
   EXPECT_EQ(made.n_rods(), 70);
