@@ -36,30 +36,29 @@ NeighborList::NeighborList(std::span<const Species> species, std::span<const std
 }
 
 std::size_t NeighborList::bytes() const {
-  std::size_t bytes = heap_bytes(shape_of_rod_, placed_center_, placed_direction_, cell_, members_, pairs_, unused_,
-                                 pairs_of_, n_pairs_of_, mark_);
+  std::size_t bytes =
+      heap_bytes(shape_of_rod_, places_, cell_, members_, pairs_, unused_, pairs_of_, n_pairs_of_, mark_);
   for (const auto& members : members_) bytes += heap_bytes(members);
   return bytes;
 }
 
 void NeighborList::note_place(int i, const Pose& pose) {
-  placed_center_[i] = {pose.position.x(), pose.position.y()};
+  places_[i] = {{pose.position.x(), pose.position.y()}, flat_direction(pose)};
   for (int c = 0; c < 2; ++c) {
-    double& x = placed_center_[i][c];
+    double& x = places_[i].center[c];
     x -= box_[c] * std::floor(x / box_[c]);
   }
-  placed_direction_[i] = flat_direction(pose);
 }
 
 double NeighborList::slack(int i, const Pose& pose) const {
-  const Vec3 from(placed_center_[i].x(), placed_center_[i].y(), 0);
+  const Vec3 from(places_[i].center.x(), places_[i].center.y(), 0);
   const Vec2 shift = nearest_image(from, pose.position, box_).head<2>();
-  const Vec2 turn = shadow(i).half_length * (flat_direction(pose) - placed_direction_[i]);
+  const Vec2 turn = shadow(i).half_length * (flat_direction(pose) - places_[i].direction);
   return 0.5 * skin_ - std::sqrt(std::max((shift + turn).squaredNorm(), (shift - turn).squaredNorm()));
 }
 
 bool NeighborList::is_due(std::span<const Pose> poses) const {
-  if (placed_center_.size() != poses.size()) return true;
+  if (places_.size() != poses.size()) return true;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     if (slack(static_cast<int>(i), poses[i]) < 0) return true;
   }
@@ -99,12 +98,12 @@ void NeighborList::for_candidates(int i, const Each& each) const {
 }
 
 bool NeighborList::are_near(int i, int j) const {
-  const Vec2 apart = (placed_center_[i] - placed_center_[j]).cwiseAbs();
+  const Vec2 apart = (places_[i].center - places_[j].center).cwiseAbs();
   const Vec2 in_nearest_image = apart.cwiseMin(box_.sides() - apart);
   const double centers = shadow(i).half_length + shadow(j).half_length + reach(i, j);
   if (in_nearest_image.squaredNorm() > centers * centers) return false;
   const auto level = [](const Vec2& v) { return Vec3(v.x(), v.y(), 0); };
-  const Vec3 nearest = nearest_image(level(placed_center_[i]), level(placed_center_[j]), box_);
+  const Vec3 nearest = nearest_image(level(places_[i].center), level(places_[j].center), box_);
   // of two rods in a small box, it may be the ends of an image further away that come near
   for (int x = -n_images_[0]; x <= n_images_[0]; ++x) {
     for (int y = -n_images_[1]; y <= n_images_[1]; ++y) {
@@ -117,7 +116,7 @@ bool NeighborList::are_near(int i, int j) const {
 bool NeighborList::are_near(int i, int j, const Vec3& D) const {
   const auto level = [](const Vec2& v) { return Vec3(v.x(), v.y(), 0); };
   const double near = reach(i, j);
-  return segment_distance_squared(D, level(placed_direction_[i]), shadow(i).half_length, level(placed_direction_[j]),
+  return segment_distance_squared(D, level(places_[i].direction), shadow(i).half_length, level(places_[j].direction),
                                   shadow(j).half_length) <= near * near;
 }
 
@@ -159,13 +158,12 @@ int NeighborList::add_pair(int i, int j) {
 
 void NeighborList::build(std::span<const Pose> poses) {
   const int n = static_cast<int>(poses.size());
-  placed_center_.resize(n);
-  placed_direction_.resize(n);
+  places_.resize(n);
   cell_.resize(n);
   members_.assign(static_cast<std::size_t>(n_cells_[0]) * n_cells_[1], {});
   for (int i = 0; i < n; ++i) {
     note_place(i, poses[i]);
-    put_into_cell(i, cell_of(placed_center_[i]));
+    put_into_cell(i, cell_of(places_[i].center));
   }
   pairs_.clear();
   unused_.clear();
@@ -185,7 +183,7 @@ void NeighborList::build(std::span<const Pose> poses) {
 
 void NeighborList::place(int i, const Pose& pose) {
   note_place(i, pose);
-  const int cell = cell_of(placed_center_[i]);
+  const int cell = cell_of(places_[i].center);
   if (cell == cell_[i]) return;
   auto& old = members_[cell_[i]];
   *std::find(old.begin(), old.end(), i) = old.back();
@@ -194,6 +192,7 @@ void NeighborList::place(int i, const Pose& pose) {
 }
 
 void NeighborList::find_near(int i, std::vector<int>& rods) const {
+  for_candidates(i, [&](int j) { prefetch_place(j); });
   for_candidates(i, [&](int j) {
     if (are_near(i, j)) rods.push_back(j);
   });

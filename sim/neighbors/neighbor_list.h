@@ -70,11 +70,8 @@ class NeighborList {
   std::span<const int> pairs_of(int i) const {
     return {pairs_of_.data() + static_cast<std::size_t>(i) * stride_, static_cast<std::size_t>(n_pairs_of_[i])};
   }
-  /// Asks for the numbers of the pairs of rod i, which will be needed soon.
-  void prefetch(int i) const {
-    shaken::prefetch(n_pairs_of_[i]);
-    shaken::prefetch(pairs_of_[static_cast<std::size_t>(i) * stride_]);
-  }
+  /// Asks for what `slack` needs of rod i.
+  void prefetch_place(int i) const { shaken::prefetch(places_[i]); }
   /// Heap memory held.
   std::size_t bytes() const;
 
@@ -83,6 +80,11 @@ class NeighborList {
   struct Shadow {
     double half_length;
     double radius;
+  };
+  /// Where the shadow of a rod was when it was last placed; one line of memory holds it.
+  struct alignas(32) Place {
+    Vec2 center;     ///< in the box
+    Vec2 direction;  ///< of the segment
   };
   const Shadow& shadow(int i) const { return shadows_[shape_of_rod_[i]]; }
   /// How near the segments of two rods must be to make a pair.
@@ -108,8 +110,7 @@ class NeighborList {
       n_images_;  ///< to each side of the nearest that may be near; 0 where the box is twice as wide as pairs
                   ///< are long
 
-  std::vector<Vec2> placed_center_;        ///< in the box
-  std::vector<Vec2> placed_direction_;     ///< of the segment
+  std::vector<Place> places_;              ///< (n_rods)
   std::vector<int> cell_;                  ///< (n_rods) cell of each rod
   std::vector<std::vector<int>> members_;  ///< (n_cells) rods of each cell
 

@@ -70,10 +70,10 @@ class GapBudgets {
     shaken::prefetch(block(rod, 0));
     if (n_lanes_[rod] > kInBlock) shaken::prefetch(block(rod, kInBlock));
   }
-  /// Asks the memory for what `left`, `added_rate` and `set` need.
+  /// Asks the memory for what `left`, `added_rate` and `set` need: at most two lines.
   void prefetch(int rod, int lane) const {
-    shaken::prefetch(block(rod, lane).left);
-    shaken::prefetch(block(rod, lane).until);
+    prefetch_line(block(rod, lane).left);
+    prefetch_line(block(rod, lane).until);
   }
   std::size_t bytes() const;
 

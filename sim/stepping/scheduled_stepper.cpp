@@ -293,15 +293,21 @@ void ScheduledStepper::detect_due(const World& world, Tick now, Share& share) {
   const auto due = std::remove_if(up, share.detected.pairs.end(), [&](int p) { return pairs_.defer(p, now); });
   share.counts.count(WorkKind::kPairsDeferred, share.detected.pairs.end() - due);
   share.detected.pairs.erase(due, share.detected.pairs.end());
-  for (const int p : share.detected.pairs) pairs_.set_detected(p, now);
+  for (const int p : share.detected.pairs) {
+    pairs_.set_detected(p, now);
+    for (const int i : pairs_.rods(p)) prefetch(marks_[i]);
+  }
   for (const int i : share.met.hit) {  // as in detect_touching, which finds the rest
-    if (pairs_.n_touching(i) == 0) continue;
+    int n_left = pairs_.n_touching(i);
     for (const int p : neighbors_.pairs_of(i)) {
-      if (static_cast<std::size_t>(pairs_.owner(p)) != share.number) continue;
-      if (!pairs_.is_touching(p) || pairs_.detected_at(p) == now) continue;
+      if (n_left == 0) break;
+      if (static_cast<std::size_t>(pairs_.owner(p)) != share.number || !pairs_.is_touching(p)) continue;
+      --n_left;
+      if (pairs_.detected_at(p) == now) continue;
       pairs_.set_detected(p, now);
       share.detected.pairs.push_back(p);
     }
+    if (n_left == 0) marks_[i].searched_at = now;
   }
   share.to_pose.clear();
   for (const int p : share.detected.pairs) {
@@ -379,16 +385,19 @@ void ScheduledStepper::detect(int p, const World& world, Tick now) {
 // the very tick, though, so wherever a rod may be hit, its touching pairs take part in that tick's response.
 void ScheduledStepper::detect_touching(const World& world, Tick now) {
   may_change_.clear();
+  const auto note = [&](int i) {
+    if (marks_[i].searched_at == now) return;
+    marks_[i].searched_at = now;
+    may_change_.push_back(i);
+  };
   for (const Share& share : loops_.shares()) {
-    for (const int i : share.met.hit) {
-      if (pairs_.n_touching(i) > 0) may_change_.push_back(i);
-    }
+    for (const int i : share.met.hit) note(i);
   }
   std::size_t n_seen = 0;
   const auto note_contacts = [&] {
     for (; n_seen < contacts_.size(); ++n_seen) {
       for (const int i : {contacts_[n_seen].i, contacts_[n_seen].j}) {
-        if (pairs_.n_touching(i) > 1) may_change_.push_back(i);  // in more than this pair
+        if (pairs_.n_touching(i) > 1) note(i);  // in more than this pair
       }
     }
   };
@@ -473,6 +482,7 @@ void ScheduledStepper::schedule_rods(const World& world, Tick now, Share& share)
   share.counts.count(WorkKind::kRodsBounded, std::ssize(share.stored.to_schedule));
   groups.in_lanes(share.stored.to_schedule, [&](std::span<const int> rods) {
     Tick ticks[kLanes];
+    for (const int i : rods) neighbors_.prefetch_place(i);
     off_surface_ticks(rods, world, rods_, now, kHorizon, rules_, share.plate_lanes, ticks);
     for (std::size_t lane = 0; lane < rods.size(); ++lane) {
       const int i = rods[lane];
@@ -527,6 +537,7 @@ void ScheduledStepper::shorten_bounds(Tick now, Share& share) {
         ++n_shortened;
       } else {
         pairs_.list(p, share.stored.to_bound);
+        for (const int i : pairs_.rods(p)) prefetch(marks_[i]);
       }
     });
     overspent.clear();

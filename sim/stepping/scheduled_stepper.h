@@ -56,11 +56,12 @@ class ScheduledStepper final : public Stepper {
 
  private:
   struct RodMarks {
-    Tick posed_at = -1;    ///< tick for which rods_ holds the rod
-    Tick listed_at = -1;   ///< tick at which it was last to be scheduled
-    Tick changed_at = -1;  ///< tick at which it was last hit
-    Tick rests_at = -1;    ///< last tick at which a surface hit it when it had been hit in the tick before
-    Tick bounded_at = -1;  ///< tick for which flight_bounds_ holds the rod
+    Tick posed_at = -1;     ///< tick for which rods_ holds the rod
+    Tick listed_at = -1;    ///< tick at which it was last to be scheduled
+    Tick changed_at = -1;   ///< tick at which it was last hit
+    Tick rests_at = -1;     ///< last tick at which a surface hit it when it had been hit in the tick before
+    Tick bounded_at = -1;   ///< tick for which flight_bounds_ holds the rod
+    Tick searched_at = -1;  ///< tick in which all of its pairs that touch are searched for contacts
   };
   /// What the surfaces phase leaves to the phases after it.
   struct Met {
@@ -167,7 +168,7 @@ class ScheduledStepper final : public Stepper {
 
   // lists of one tick
   std::vector<PairContact> contacts_;
-  std::vector<int> may_change_;     ///< rods that touch another and may yet be hit in this tick
+  std::vector<int> may_change_;     ///< rods that touch another and may yet be hit in this tick, each once
   std::vector<int> gained_, lost_;  ///< pairs, by the neighbour list
   bool have_placed_ = false;        ///< there are rods with a new place
   bool was_complete_ = true;        ///< pairs gained in this tick cannot touch yet
