@@ -6,9 +6,16 @@
 namespace shaken {
 
 VelocityJump VelocityJump::unknown() {
-  VelocityJump change(Vec3::Zero(), Vec3::Zero(), Vec3::UnitX(), 0, 0, 0, 0);
+  VelocityJump change(Vec3::Zero(), Vec3::Zero(), 0, 0, 0);
   change.rounding_ = change.any_direction_ = 1e30F;
   return change;
+}
+
+void VelocityJump::displace(const Vec3& position, const Vec3& director, double half_length) {
+  has_displaced_ = true;
+  set_vector(shift_, position);
+  set_vector(tip_shift_, half_length * director);
+  shift_rounding_ = margins::kJump * (size(shift_) + size(tip_shift_));
 }
 
 FlightBound flight_bound(const Flight& flight, const Vec3& velocity, const Vec3& director, float slow) {

@@ -12,13 +12,6 @@ namespace shaken {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-/// Slip that is as small as this fraction of the velocity at the start is stopped at once.
-constexpr double kTrace = 1e-9;
-/// Slip counts as straight if its direction is wrong by no more than this times the square of `turn`; for a stop it is
-/// weighed with the part of the impact that it takes.
-constexpr double kStraight = 1.0 / 64;
-/// What is left of a phase may be done by the leg before, if it is no more than this part of it.
-constexpr double kStretch = 0.05;
 /// After so many legs times `turn` what is left goes without friction. Never reached by any impact tried.
 constexpr double kMaxTurns = 100;
 

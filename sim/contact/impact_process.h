@@ -31,6 +31,13 @@ class ImpactProcess {
   /// average and 4 % at worst at mu = 1, where slip turns most, by 0.06 % at worst at mu = 0.05; the error falls with
   /// the square of it (ImpactProcess.ConvergesWithShorterLegs).
   static constexpr double kTurn = 0.25;
+  /// Slip that is as small as this fraction of the velocity at the start is stopped at once.
+  static constexpr double kTrace = 1e-9;
+  /// Slip counts as straight if its direction is wrong by no more than this times the square of `turn`; for a stop it
+  /// is weighed with the part of the impact that it takes.
+  static constexpr double kStraight = 1.0 / 64;
+  /// What is left of a phase may be done by the leg before, if it is no more than this part of it.
+  static constexpr double kStretch = 0.05;
 
   ImpactProcess(const Mat3& K, const Vec3& normal, const Vec3& u, double friction, double turn = kTurn);
 

@@ -14,4 +14,8 @@ namespace shaken {
   return v <= 1 ? 1.0 - (1.0 - restitution) * fifth_root(v) : restitution / std::sqrt(std::sqrt(v));
 }
 
+[[gnu::noinline]] void restitution_at(const ContactParameters& contact, std::span<double> speeds) {
+  for (double& speed : speeds) speed = restitution_at(contact, speed);
+}
+
 }  // namespace shaken

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
+
 #include "sim/system.h"
 
 namespace shaken {
@@ -19,5 +21,8 @@ inline double restitution_at(const ContactParameters& contact, double speed) {
   if (!contact.has_restitution_speed()) return contact.restitution;
   return falling_restitution(contact.restitution, speed, contact.restitution_speed);
 }
+
+/// The same of several contacts, in place of their speeds.
+void restitution_at(const ContactParameters& contact, std::span<double> speeds);
 
 }  // namespace shaken

@@ -44,6 +44,11 @@ SHAKEN_INLINE D absolute(const D& x) {
   using Masks = typename DoubleVector<sizeof(D) / sizeof(double)>::Masks;
   return reinterpret_cast<D>(reinterpret_cast<Masks>(x) & 0x7fffffffffffffff);
 }
+/// `then` where `condition` is above zero, `otherwise` elsewhere.
+template <class D>
+SHAKEN_INLINE D where_positive(const D& condition, const D& then, const D& otherwise) {
+  return condition > 0.0 ? then : otherwise;
+}
 template <class D>
 SHAKEN_INLINE D square_root(const D& x) {
   constexpr int W = sizeof(D) / sizeof(double);
@@ -78,6 +83,11 @@ SHAKEN_INLINE Triple<D> operator*(const D& s, const Triple<D>& a) {
 template <class D>
 SHAKEN_INLINE Triple<D> operator/(const Triple<D>& a, const D& s) {
   return {a.x / s, a.y / s, a.z / s};
+}
+template <class D>
+SHAKEN_INLINE Triple<D> where_positive(const D& condition, const Triple<D>& then, const Triple<D>& otherwise) {
+  return {where_positive(condition, then.x, otherwise.x), where_positive(condition, then.y, otherwise.y),
+          where_positive(condition, then.z, otherwise.z)};
 }
 
 /// Triples of kDoubleLanes things, component by component.

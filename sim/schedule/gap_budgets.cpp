@@ -37,13 +37,21 @@ struct GapBudgets::SpendKernel {
                               lanes::load<W>(block.direction[2] + l)};
     const F along = jump.along(d);
     const F speed = lanes::dot(d, d) > 0.5F ? along : lanes::all<W>(jump.any_direction());
-    const F more = speed + jump.curvature() * (rest + kMostBeyond * dt + jump.displaced_for());
+    const F more = speed + jump.curvature() * (rest + kMostBeyond * dt);
     const F before = lanes::load<W>(block.left + l);
-    const F left = before - margins::kBudget * lanes::abs(before) - more * rest -
-                   lanes::not_below_zero(more) * jump.displaced_for() - (rest > 0.0F ? F{} : lanes::all<W>(kEndsNow));
+    const F rate = lanes::load<W>(block.rate + l) + more;
+    F left =
+        before - margins::kBudget * lanes::abs(before) - more * rest - (rest > 0.0F ? F{} : lanes::all<W>(kEndsNow));
+    lanes::store(block.rate + l, rate);
+    if (!jump.has_displaced()) {
+      lanes::store(block.left + l, left);
+      return lanes::below_zero(left);
+    }
+    left -= lanes::dot(d, d) > 0.5F ? jump.shift_along(d) : lanes::all<W>(jump.shift_in_any_direction());
     lanes::store(block.left + l, left);
-    lanes::store(block.added_rate + l, lanes::load<W>(block.added_rate + l) + more);
-    return lanes::below_zero(left);
+    const F closes = rate * rest;
+    const F left_now = left + closes - margins::kCancelled * (lanes::abs(left) + lanes::abs(closes));
+    return lanes::below_zero(lanes::smaller(left, left_now));
   }
 };
 
@@ -83,7 +91,7 @@ int GapBudgets::remove(int rod, int lane) {
   const int m = lane % kInBlock;
   for (int c = 0; c < 3; ++c) to.direction[c][m] = from.direction[c][l];
   to.left[m] = from.left[l];
-  to.added_rate[m] = from.added_rate[l];
+  to.rate[m] = from.rate[l];
   to.until[m] = from.until[l];
   to.pair[m] = from.pair[l];
   block(rod, last).left[l] = kUnlimited;
@@ -95,16 +103,16 @@ void GapBudgets::set_direction(int rod, int lane, const Direction& direction, fl
   for (std::size_t c = 0; c < 3; ++c) in.direction[c][lane % kInBlock] = sign * direction[c];
 }
 
-void GapBudgets::set(int rod, int lane, float budget, Tick until) {
+void GapBudgets::set(int rod, int lane, float budget, float rate, Tick until) {
   Block& in = block(rod, lane);
   in.left[lane % kInBlock] = budget;
-  in.added_rate[lane % kInBlock] = 0;
+  in.rate[lane % kInBlock] = rate;
   in.until[lane % kInBlock] = static_cast<std::int32_t>(until);
 }
 
-void GapBudgets::set_empty(int rod, int lane) { set(rod, lane, kEmpty, 0); }
+void GapBudgets::set_empty(int rod, int lane) { set(rod, lane, kEmpty, 0, 0); }
 
-void GapBudgets::set_unlimited(int rod, int lane) { set(rod, lane, kUnlimited, 0); }
+void GapBudgets::set_unlimited(int rod, int lane) { set(rod, lane, kUnlimited, 0, 0); }
 
 std::uint32_t GapBudgets::spend_from(Block& block, const VelocityJump& jump, Tick now) const {
   const SpendKernel kernel{jump, block, static_cast<std::int32_t>(now), dt_};

@@ -24,7 +24,9 @@ using Direction = std::array<float, 3>;
 /// Model:  a bound says that the gap of a pair is still open at tick `until`, by some residual. Half of the residual is
 ///         the budget of each of the two rods. A hit at `now` that makes the gap close faster by f spends
 ///         f (until - now) of the budget of the rod that was hit, or returns it if f < 0. While neither budget is
-///         overspent, the bound holds, and the pair need not be looked at.
+///         overspent, the bound holds, and the pair need not be looked at. With half of the rate at which the gap
+///         closes, a budget tells the rod's share of the gap at any tick before `until`: a straight line. A hit that
+///         displaced the rod must leave it at `now`, too.
 /// Layout: a rod has a row of lanes, one for each of its pairs, so that a hit spends all of its budgets at once.
 class GapBudgets {
  public:
@@ -40,27 +42,25 @@ class GapBudgets {
 
   /// Sets the direction from the rod to the other one; 0: not known.
   void set_direction(int rod, int lane, const Direction& direction, float sign);
-  /// Sets the budget that hits may spend until then [mm].
-  void set(int rod, int lane, float budget, Tick until);
+  /// Sets the budget that hits may spend until then [mm], and the rod's share of the rate at which the gap closes
+  /// without them [mm/s].
+  void set(int rod, int lane, float budget, float rate, Tick until);
   /// Sets a budget that any hit overspends.
   void set_empty(int rod, int lane);
   /// Sets a budget that no hit overspends.
   void set_unlimited(int rod, int lane);
   /// What is left of the budget; < 0: it is overspent [mm].
   float left(int rod, int lane) const { return block(rod, lane).left[lane % kInBlock]; }
-  /// By how much faster hits have made the gap close since `set` [mm/s].
-  float added_rate(int rod, int lane) const { return block(rod, lane).added_rate[lane % kInBlock]; }
+  /// The rod's share of the rate at which the gap closes, with the hits since `set` [mm/s].
+  float rate(int rod, int lane) const { return block(rod, lane).rate[lane % kInBlock]; }
 
-  /// Spends what a hit on the rod costs, of all its budgets. Calls each(pair) for those that are overspent, and for
-  /// every pair of a rod that was displaced: its gap may be less now than when the bound ends.
+  /// Spends what a hit on the rod costs, of all its budgets. Calls each(pair) for those that are overspent.
   template <class Each>
   void spend(int rod, const VelocityJump& jump, Tick now, const Each& each) {
-    const bool is_displaced = jump.displaced_for() > 0.0F;
     for (int first = 0; first < n_lanes_[rod]; first += kInBlock) {
       Block& in = block(rod, first);
       const std::uint32_t all = (1U << std::min(kInBlock, n_lanes_[rod] - first)) - 1;
-      const std::uint32_t overspent = spend_from(in, jump, now);
-      std::uint32_t lanes = is_displaced ? all : overspent & all;
+      std::uint32_t lanes = spend_from(in, jump, now) & all;
       for (; lanes != 0; lanes &= lanes - 1) each(in.pair[std::countr_zero(lanes)]);
     }
   }
@@ -70,7 +70,7 @@ class GapBudgets {
     shaken::prefetch(block(rod, 0));
     if (n_lanes_[rod] > kInBlock) shaken::prefetch(block(rod, kInBlock));
   }
-  /// Asks the memory for what `left`, `added_rate` and `set` need: at most two lines.
+  /// Asks the memory for what `left`, `rate` and `set` need: at most two lines.
   void prefetch(int rod, int lane) const {
     prefetch_line(block(rod, lane).left);
     prefetch_line(block(rod, lane).until);
@@ -82,7 +82,7 @@ class GapBudgets {
   static constexpr int kInBlock = 8;
   struct alignas(32) Block {
     float left[kInBlock];
-    float added_rate[kInBlock];
+    float rate[kInBlock];
     std::int32_t until[kInBlock];  ///< the tick's last 32 bits
     std::int32_t pair[kInBlock];
     float direction[3][kInBlock];

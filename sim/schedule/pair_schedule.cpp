@@ -98,20 +98,20 @@ void PairSchedule::set_budgets(int p, Tick now, const Remaining& bound) {
   const int waits = bound.ticks - (kept < kLeastKept ? 0 : kept);
   const Tick until = now + waits;
   const float left = bound.gap - bound.rate * (static_cast<float>(waits) * dt_) - margins::rounding_of_gap(bound.gap);
-  pair.rate = bound.rate;
   pair.end = static_cast<std::int32_t>(now + bound.ticks);
   pair.until = static_cast<std::int32_t>(until);
-  for (std::size_t r = 0; r < 2; ++r) budgets_.set(pair.rods[r], pair.lanes[r], 0.5F * std::max(0.0F, left), until);
+  for (std::size_t r = 0; r < 2; ++r)
+    budgets_.set(pair.rods[r], pair.lanes[r], 0.5F * std::max(0.0F, left), 0.5F * bound.rate, until);
   set_due(p, until + 1);
 }
 
 PairSchedule::Remaining PairSchedule::remaining(int p, Tick now) const {
   const Pair& pair = pairs_[p];
   if ((pair.marks & kSurvivesHits) == 0) return {0, 0, 0};
-  float rate = pair.rate;
+  float rate = 0;
   float left = 0;
   for (std::size_t r = 0; r < 2; ++r) {
-    rate += budgets_.added_rate(pair.rods[r], pair.lanes[r]);
+    rate += budgets_.rate(pair.rods[r], pair.lanes[r]);
     left += budgets_.left(pair.rods[r], pair.lanes[r]);
   }
   const float more_now = rate * (static_cast<float>(ticks_to(pair.until, now)) * dt_);

@@ -99,7 +99,6 @@ class PairSchedule {
   struct Pair {
     PairRods rods = kUnused;
     Direction direction{};
-    float rate = 0;                        ///< at which the gap closes, without the hits since the bound [mm/s]
     std::int32_t end = 0;                  ///< tick at which the bound ends, its last 32 bits
     std::int32_t until = 0;                ///< the pair comes up at the tick after it; budgets last until then
     std::array<std::uint16_t, 2> lanes{};  ///< of its rods, in budgets_

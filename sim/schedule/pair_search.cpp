@@ -73,7 +73,7 @@ void PairSearch::bound(std::span<const PairRods> pairs, const std::vector<RodAtT
     float gap = hull.gap[lane];
     float left = hull.left[lane];
     bool isotropic = false;
-    bounds.hulls_overlap[lane] = time <= 0.0F;
+    bounds.may_overlap[lane] = time <= 0.0F;
     bounds.direction[lane] = {hull.direction[0][lane], hull.direction[1][lane], hull.direction[2][lane]};
     bounds.by_beads[lane] = time < kShortBound * dt;
     if (bounds.by_beads[lane]) {
@@ -83,6 +83,7 @@ void PairSearch::bound(std::span<const PairRods> pairs, const std::vector<RodAtT
         gap = beads.gap;
         left = gap > 0.0F ? 0.0F : -1.0F;
         isotropic = true;
+        if (gap > 0.0F) bounds.may_overlap[lane] = false;
       }
     }
     if (!(i.slow && j.slow && images_stay_away(D[lane], rules_.box, reach, slow_, horizon))) {

@@ -17,9 +17,9 @@ inline constexpr float kBeadHorizon = 250;
 /// For up to kLanes pairs: ticks for which nothing can happen, and what the bound rests on.
 struct PairBounds {
   int ticks[kLanes];
-  GapBound gap[kLanes];        ///< for as long as the bound lasts
-  bool hulls_overlap[kLanes];  ///< beads may overlap already
-  bool by_beads[kLanes];       ///< beads were looked at
+  GapBound gap[kLanes];      ///< for as long as the bound lasts
+  bool may_overlap[kLanes];  ///< beads may overlap already
+  bool by_beads[kLanes];     ///< beads were looked at
   Direction direction[kLanes];
 };
 

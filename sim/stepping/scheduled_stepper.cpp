@@ -163,10 +163,10 @@ void ScheduledStepper::meet_surfaces_due(World& world, const PlateState& plates,
     if (trouble && (!share.met.trouble || trouble->rods < share.met.trouble->rods))
       share.met.trouble = std::move(trouble);
   };
-  const auto begin_visit = [&](int i) {  // before a plate displaces the rod
+  const auto begin_visit = [&](int i) {
     marks_[i].posed_at = marks_[i].listed_at = now;
     if (skin_budgets_[i].left(now, rules_.dt) >= SkinBudget::kLeast) return;
-    skin_budgets_[i].measure(neighbors_, i, rods_[i].pose, now);
+    skin_budgets_[i].measure(neighbors_, i, flight_pose(i), now);
     if (skin_budgets_[i].left(now, rules_.dt) < SkinBudget::kLeast) share.met.to_place.push_back(i);
   };
   const auto meet_all = [&](int i) {
@@ -181,21 +181,17 @@ void ScheduledStepper::meet_surfaces_due(World& world, const PlateState& plates,
     if (!has_sound_motion(rods_[i], rules_)) share.met.failed.push_back(i);
   };
   const auto meet_in_lanes = [&](std::span<const int> rods) {
-    const LeftByLanes left = meet_plates_in_lanes(rods, world.rods, rods_, plates, now, rules_, share.met.counters);
+    const std::uint32_t left =
+        meet_plates_in_lanes(rods, world.rods, rods_, flight_pose_, plates, now, rules_, share.met.counters);
     for (std::size_t lane = 0; lane < rods.size(); ++lane) {
       const int i = rods[lane];
-      const bool is_left = (left.all >> lane & 1U) != 0;
+      const bool is_left = (left >> lane & 1U) != 0;
       if (is_left) {
         pose_rod(i, world, now);
-      } else if (!flight_pose_.empty()) {
-        flight_pose_[i] = rods_[i].pose;
       }
       begin_visit(i);
       if (is_left) {
         meet_all(i);
-      } else if ((left.hits >> lane & 1U) != 0) {
-        note_trouble(
-            meet_surfaces_from(left.beads[lane], i, rods_[i], world.rods[i], plates, now, rules_, share.met.counters));
       } else if (rules_.has_uprights()) {
         note_trouble(meet_uprights(i, rods_[i], world.rods[i], plates, now, rules_, share.met.counters));
       }
@@ -450,15 +446,21 @@ void ScheduledStepper::store_changed(World& world, Tick now, Share& share) {
     store(i, flight, rods_[i], now, rules_);
     const bool displaced = rods_[i].displaced;
     if (displaced) skin_budgets_[i].measure(neighbors_, i, rods_[i].pose, now);
-    if (marks_[i].rests_at == now)
-      skin_budgets_[i].cover_tick(flight, rules_.species_of(i).half_length, now, rules_.dt, pull);
-    // A rod that was displaced twice is where no flight with one hit led it. One that is fast may come near another
-    // image, which the bound on the gap leaves out.
-    const bool fast = std::max(std::abs(flight.velocity.x()), std::abs(flight.velocity.y())) >= slow;
-    jumps_[i] = (displaced && rods_[i].hit_again) || fast
-                    ? VelocityJump::unknown()
-                    : VelocityJump(flight.velocity - velocity, flight.precession - precession, flight.director, rate,
-                                   flight.rate, rules_.species_of(i).half_length, displaced ? rules_.dt : 0);
+    const double half_length = rules_.species_of(i).half_length;
+    if (marks_[i].rests_at == now) skin_budgets_[i].cover_tick(flight, half_length, now, rules_.dt, pull);
+    // one that is fast may come near another image, which the bound on the gap leaves out
+    if (std::max(std::abs(flight.velocity.x()), std::abs(flight.velocity.y())) >= slow) {
+      jumps_[i] = VelocityJump::unknown();
+    } else if (displaced) {
+      const Pose& undisplaced = flight_pose_[i];
+      const Vec3 turning = flight.precession.cross(flight.director) - precession.cross(undisplaced.director);
+      jumps_[i] = VelocityJump(flight.velocity - velocity, turning, rate, flight.rate, half_length);
+      jumps_[i].displace(rods_[i].pose.position - undisplaced.position, rods_[i].pose.director - undisplaced.director,
+                         half_length);
+    } else {
+      const Vec3 turning = (flight.precession - precession).cross(flight.director);
+      jumps_[i] = VelocityJump(flight.velocity - velocity, turning, rate, flight.rate, half_length);
+    }
   }
 }
 
@@ -589,9 +591,9 @@ void ScheduledStepper::bound_pairs(std::span<const int> pairs, Tick now, Share& 
   search_.bound({rods, pairs.size()}, rods_, flight_bounds_, share.pair_lanes, bounds);
   for (std::size_t lane = 0; lane < pairs.size(); ++lane) {
     // Whether a pair is touching was found where free flight had brought its rods. Displaced since, they may overlap
-    // and recede without being marked, if their hulls do: to be visited again at once.
+    // and recede without being marked: to be visited again at once.
     const auto& [i, j] = rods[lane];
-    const bool unmarked = bounds.hulls_overlap[lane] && (rods_[i].displaced || rods_[j].displaced);
+    const bool unmarked = bounds.may_overlap[lane] && (rods_[i].displaced || rods_[j].displaced);
     share.counts.count(WorkKind::kBoundsByBeads, bounds.by_beads[lane] ? 1 : 0);
     share.counts.count(WorkKind::kBoundsOfNoTick, bounds.ticks[lane] == 0 ? 1 : 0);
     pairs_.unlist(pairs[lane]);

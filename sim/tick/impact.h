@@ -40,12 +40,12 @@ struct Bead {
   /// Any impulse P.
   void apply(const Vec3& P) const {
     apply_impulse(rod.motion, species.inverse, rod.pose.director, arm, P);
-    rod.note_hit();
+    rod.changed = true;
   }
   /// One along the normal.
   void apply_along_normal(const Vec3& P) const {
     apply_normal_impulse(rod.motion, species.inverse, rod.pose.director, offset, P);
-    rod.note_hit();
+    rod.changed = true;
   }
 };
 

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <string_view>
 
-#include "base/core/sincos.h"
-#include "sim/contact/cofactors.h"
+#include "sim/contact/impact_process_lanes.h"
+#include "sim/motion/flight_lanes.h"
+#include "sim/tick/rotational_noise.h"
 
 namespace shaken {
 namespace {
@@ -39,29 +40,16 @@ constexpr std::string_view kKnownEffects[] = {"gravity",
                                               "restitution_speed",
                                               "species_contacts"};
 
+using lanes::ComplianceOf;
 using lanes::Doubles;
+using lanes::FlightLanes;
+using lanes::ImpulseOf;
 using lanes::kDoubleLanes;
+using lanes::MotionOf;
+using lanes::PoseOf;
 using lanes::Triple;
-
 using lanes::TripleLanes;
-
-/// Flights of several rods, component by component: what poses and motions at a later tick follow from.
-struct FlightLanes {
-  TripleLanes position, velocity, along, across, turned, precession;
-  alignas(64) double spin[kDoubleLanes];
-  alignas(64) double rate[kDoubleLanes];
-
-  void set(int lane, const Flight& flight) {
-    position.set(lane, flight.position);
-    velocity.set(lane, flight.velocity);
-    along.set(lane, flight.along);
-    across.set(lane, flight.across);
-    turned.set(lane, flight.turned);
-    precession.set(lane, flight.precession);
-    spin[lane] = flight.spin;
-    rate[lane] = flight.rate;
-  }
-};
+using lanes::where_positive;
 
 /// What the plates do to several rods at a tick.
 struct PlateHits {
@@ -69,51 +57,28 @@ struct PlateHits {
   struct OfPlate {
     TripleLanes impulse;
     alignas(64) double lost[kDoubleLanes];     ///< energy
+    alignas(64) double given[kDoubleLanes];    ///< by the plate
+    alignas(64) double noise[kDoubleLanes];    ///< energy that rotational noise gives
     alignas(64) double overlap[kDoubleLanes];  ///< of the bead in the plate; 0: none
     alignas(64) double is_hit[kDoubleLanes];   ///< > 0: yes, where there is an overlap
-    alignas(64) double bead[kDoubleLanes];     ///< its number, where impulses are left to others
+    alignas(64) double ago[kDoubleLanes];      ///< > 0: the hit took place so long before the tick [s]
   };
-  TripleLanes position, director, velocity, angular_velocity;  ///< of the rods after the hits, if they are given here
+  TripleLanes position, director, velocity, angular_velocity;  ///< of the rods after the hits
+  TripleLanes flight_position, flight_director;                ///< before them, where hits displace rods
   OfPlate of_plate[2];                                         ///< base, lid
   alignas(64) double is_other[kDoubleLanes];                   ///< >= 0: what happens is not known here
+  bool has_noise, are_at_instant;
 
   bool is_known(int lane) const { return is_other[lane] < 0; }
   bool meets(int lane, int plate) const { return of_plate[plate].overlap[lane] > 0; }
   bool is_hit(int lane, int plate) const { return meets(lane, plate) && of_plate[plate].is_hit[lane] > 0; }
 
   /// Counts the lane's hits.
-  void count(int lane, const Vec3& base_velocity, const Vec3& lid_velocity, Counters& counters) const;
+  void count(int lane, Counters& counters) const;
   /// The lane's rod after them; its motion only where a bead is in a plate.
   void get(int lane, RodAtTick& rod) const;
-  /// The lane's rod before them, and which beads they are going to hit, where impulses are left to others.
-  void get_before(int lane, RodAtTick& rod) const;
-  BeadsInPlates beads(int lane) const;
+  void get_flight_pose(int lane, Pose& pose) const;
 };
-
-/// A symmetric matrix, as point_compliance (contact/impulse.h) makes it.
-template <class D>
-struct Compliance {
-  D xx, xy, xz, yx, yy, yz, zx, zy, zz;
-
-  SHAKEN_INLINE Triple<D> operator*(const Triple<D>& v) const {
-    return {xx * v.x + (xy * v.y + xz * v.z), yx * v.x + (yy * v.y + yz * v.z), zx * v.x + (zy * v.y + zz * v.z)};
-  }
-};
-
-template <class D>
-SHAKEN_INLINE Compliance<D> compliance_at(const InverseInertia& inverse, const Triple<D>& director,
-                                          const Triple<D>& arm) {
-  const Triple<D> lever = director.cross(arm);
-  const double more = inverse.par - inverse.perp;
-  const Triple<D> l{more * lever.x, more * lever.y, more * lever.z};
-  const Triple<D> a{inverse.perp * arm.x, inverse.perp * arm.y, inverse.perp * arm.z};
-  const D round = inverse.mass + inverse.perp * arm.squared_norm();
-  return {(l.x * lever.x - a.x * arm.x) + round, l.x * lever.y - a.x * arm.y,
-          l.x * lever.z - a.x * arm.z,           l.y * lever.x - a.y * arm.x,
-          (l.y * lever.y - a.y * arm.y) + round, l.y * lever.z - a.y * arm.z,
-          l.z * lever.x - a.z * arm.x,           l.z * lever.y - a.z * arm.y,
-          (l.z * lever.z - a.z * arm.z) + round};
-}
 
 /// Where a rod meets a plate.
 struct PlateMet {
@@ -123,14 +88,48 @@ struct PlateMet {
   const ContactParameters& contact;
 };
 
-/// `kGivesImpulses`: or else hits are left to meet_surfaces_from.
-template <bool kGivesImpulses>
+/// Several rods during one tick.
+template <class D>
+struct RodsOf {
+  PoseOf<D> pose;
+  MotionOf<D> motion;
+  D other;   ///< >= 0: what happens to them is not known here
+  D is_hit;  ///< > 0: a plate has hit them; for noise
+};
+
+/// Of each rod the bead in a plate.
+template <class D>
+struct BeadsOf {
+  D n{};        ///< how many there are; the others' sizes are of one of them
+  D overlap{};  ///< 0: there is none
+  D offset{};
+  D radius = D{} + 1.0;
+};
+
+/// Beads where a plate hits them.
+template <class D>
+struct ContactsOf {
+  Triple<D> plate_velocity, normal, arm;
+  Triple<D> u;  ///< velocity relative to the plate [mm/s]
+  D u_n;        ///< of that along the normal
+};
+
+template <class D>
+SHAKEN_INLINE Triple<D> in_lanes(const Vec3& v) {
+  return {D{} + v.x(), D{} + v.y(), D{} + v.z()};
+}
+
+/// `kIsUsual`: plates act as `are_usual` says, and nothing rarer need be asked for. One kernel for all is too long for
+/// the usual hits, which it makes half again as slow.
+template <bool kIsUsual>
 struct PlateHitKernel {
   const SpeciesMechanics& species;
   const TickRules& rules;
-  const PlateState& plates;
+  const PlateMet (&plates_met)[2];  ///< base, lid
+  Tick now;
   const FlightLanes& flights;
   const double* since;  ///< how long each has flown [s]
+  const double* sign;   ///< of its noise
   int n;
   PlateHits& hits;
 
@@ -142,131 +141,248 @@ struct PlateHitKernel {
   template <int W>
   SHAKEN_INLINE void meet(int l) const {
     using D = Doubles<W>;
+    const lanes::FlightOf<D> flight = flights.load<W>(l);
     const D tau = lanes::load<W>(since + l);
-    const D angle = lanes::load<W>(flights.rate + l) * tau;
-    const SinCosOf<D> turn = sincos_of_small(angle);
-    const Triple<D> start_velocity = flights.velocity.load<W>(l);
-    Triple<D> position = flights.position.load<W>(l) + tau * start_velocity;
-    const Gravity& gravity = rules.gravity;
-    position.z -= 0.5 * gravity.down * tau * tau;
-    if (gravity.is_inclined) [[unlikely]] {
-      position.x += 0.5 * gravity.along.x() * tau * tau;
-      position.y += 0.5 * gravity.along.y() * tau * tau;
-    }
-    const Triple<D> director =
-        flights.along.load<W>(l) + turn.cos * flights.across.load<W>(l) + turn.sin * flights.turned.load<W>(l);
-    hits.position.store(l, position);
-    hits.director.store(l, director);
-
-    Triple<D> velocity = start_velocity;
-    velocity.z -= gravity.down * tau;
-    if (gravity.is_inclined) [[unlikely]] {
-      velocity.x += gravity.along.x() * tau;
-      velocity.y += gravity.along.y() * tau;
-    }
-    const D spin = (1.0 - species.inertia_ratio) * lanes::load<W>(flights.spin + l);
-    Triple<D> angular_velocity = flights.precession.load<W>(l) + spin * director;
-
+    RodsOf<D> rods;
+    rods.pose = pose_after(flight, tau, rules.gravity);
+    rods.motion = motion_after(flight, tau, rules.gravity, rods.pose.director, species.inertia_ratio);
     // Not known here: a large turn, or several beads in one plate. Of a rod that the base hits in a way that is not
     // known, what comes next is no number, which `larger` passes over where it stands first.
-    D other = lanes::absolute(angle) - kLargestSmallAngle;
-    const auto meet_plate = [&](const PlateMet& plate, PlateHits::OfPlate& hit) __attribute__((always_inline)) {
-      // as meet_plates passes over rods that are out of reach
-      const D at_ends = species.end_radius + species.half_length * lanes::absolute(director.z);
-      const D extent = lanes::larger(lanes::all<W>(species.mid_radius), at_ends);
-      const D within_reach = plate.side * plate.height - plate.side * (position.z - plate.side * extent);
-      D overlap{}, offset{}, n_overlapping{};
-      D radius = lanes::all<W>(1.0);
-      [[maybe_unused]] D found{};
-      for (const int bead : species.outer_beads) {
-        const double r = species.bead_radius[bead];
-        const D above = plate.side * (position.z + species.bead_offset[bead] * director.z - plate.height);
-        const D deep = r - above;
-        const D overlaps = lanes::smaller(deep, within_reach);
-        n_overlapping = overlaps > 0.0 ? n_overlapping + 1.0 : n_overlapping;
-        offset = overlaps > 0.0 ? lanes::all<W>(species.bead_offset[bead]) : offset;
-        radius = overlaps > 0.0 ? lanes::all<W>(r) : radius;
-        overlap = overlaps > 0.0 ? deep : overlap;
-        if constexpr (!kGivesImpulses) found = overlaps > 0.0 ? lanes::all<W>(static_cast<double>(bead)) : found;
-      }
-      other = lanes::larger(n_overlapping - 1.5, other);
-      other = lanes::larger(overlap - kMaxOverlapFraction * radius, other);
-      lanes::store(hit.overlap + l, overlap);
-      if constexpr (!kGivesImpulses) {
-        lanes::store(hit.bead + l, found);
-        return;
-      }
-      bool is_met = false;
-      for (int lane = 0; lane < W; ++lane) is_met |= overlap[lane] > 0;
-      if (!is_met) return;  // as a rule a vector of rods meets one plate, where they rest
+    rods.other = lanes::absolute(flight.rate * tau) - kLargestSmallAngle;
+    rods.is_hit = D{} - 1.0;
+    if (is_at_instant()) {
+      hits.flight_position.store(l, rods.pose.position);
+      hits.flight_director.store(l, rods.pose.director);
+    }
+    // one copy of the code: it must fit into the cache
+    for (int k = rules.has_base ? 0 : 1; k < (rules.has_lid ? 2 : 1); ++k) {
+      meet_plate<W>(l, plates_met[k], rods, hits.of_plate[k]);
+    }
+    hits.position.store(l, rods.pose.position);
+    hits.director.store(l, rods.pose.director);
+    hits.velocity.store(l, rods.motion.velocity);
+    hits.angular_velocity.store(l, rods.motion.angular_velocity);
+    lanes::store(hits.is_other + l, rods.other);
+  }
 
-      const D zero{};
-      const Triple<D> normal{zero, zero, lanes::all<W>(plate.side)};
-      const Triple<D> arm = offset * director - radius * normal;
-      Triple<D> u = velocity + angular_velocity.cross(arm);
-      u.z -= plate.velocity.z();
-      if (rules.has_horizontal_vibration) {
-        u.x -= plate.velocity.x();
-        u.y -= plate.velocity.y();
-      }
-      const D u_n = u.dot(normal);
-      const D is_hit = lanes::smaller(overlap, -u_n);
+  template <int W>
+  SHAKEN_INLINE void meet_plate(int l, const PlateMet& plate, RodsOf<Doubles<W>>& rods, PlateHits::OfPlate& hit) const {
+    using D = Doubles<W>;
+    const BeadsOf<D> beads = beads_in(plate, rods.pose);
+    rods.other = lanes::larger(D(beads.n - 1.5), rods.other);
+    rods.other = lanes::larger(D(beads.overlap - kMaxOverlapFraction * beads.radius), rods.other);
+    lanes::store(hit.overlap + l, beads.overlap);
+    bool is_met = false;
+    for (int lane = 0; lane < W; ++lane) is_met |= beads.overlap[lane] > 0;
+    if (!is_met) return;  // as a rule a vector of rods meets one plate, where they rest
 
-      // newton_coulomb_impulse
-      const Compliance<D> K = compliance_at(species.inverse, director, arm);
-      const double mu = plate.contact.friction;
-      const D bounce = -(1.0 + plate.contact.restitution) * u_n;
-      const Triple<D> u_t = u - u_n * normal;
-      const Triple<D> wanted = bounce * normal - u_t;
-      const auto stick =
-          Cofactors<D>(K.xx, K.yy, K.zz, K.xy, K.xz, K.yz).template solve<Triple<D>>(wanted.x, wanted.y, wanted.z);
-      const D stick_n = stick.dot(normal);
-      const Triple<D> stick_t = stick - stick_n * normal;
-      const D stick_t2 = stick_t.squared_norm();
-      const D speed_t = lanes::square_root(u_t.squared_norm());
-      const Triple<D> cone = normal - (mu / speed_t) * u_t;
-      const D gain = normal.dot(K * cone);
-      const Triple<D> slip = (bounce / gain) * cone;
-      const D in_cone = mu * mu * stick_n * stick_n - stick_t2;
-      const D sticks = stick_n > 0.0 ? in_cone : -1.0 - stick_t2;  // >= 0: yes
-      const auto if_sticks = [&](const D& then, const D& otherwise) __attribute__((always_inline)) {
-        return sticks >= 0.0 ? then : otherwise;
-      };
-      const Triple<D> P{if_sticks(stick.x, slip.x), if_sticks(stick.y, slip.y), if_sticks(stick.z, slip.z)};
-      // slip without a direction, or one that jams
-      const D slips_well = lanes::smaller(gain, speed_t - 1e-12 * lanes::absolute(u_n));
-      other = lanes::larger(if_sticks(-1.0 - overlap, -slips_well), other);
+    D rest_speed{};
+    if (rests(plate)) rest_speed = rules.rest.half_fall + rules.rest.rise_rate * beads.overlap;
+    ContactsOf<D> contacts = contacts_of(plate, beads, in_lanes<D>(plate.velocity), rods);
+    const D is_hit = lanes::smaller(beads.overlap, D(rest_speed - contacts.u_n));
+    const D speed = lanes::absolute(contacts.u_n);
+    D ago{};
+    if (is_at_instant()) {
+      ago = time_since_touch(beads, D(-contacts.u_n));
+      fly(D(-ago), rods);
+      contacts = contacts_of(plate, beads, velocities_before<W>(plate, ago), rods);
+      rods.other = lanes::larger(where_positive(ago, D(contacts.u_n - rest_speed), D(-1.0 - ago)), rods.other);
+    }
+    give_impulse<W>(l, plate, beads, contacts, rest_speed, is_hit, rods, hit);
+    if (is_at_instant()) {
+      fly(ago, rods);
+      lanes::store(hit.ago + l, ago);
+      rods.other = lanes::larger(others_overlap(plate, beads, rods.pose), rods.other);
+    }
+    lanes::store(hit.is_hit + l, is_hit);
+    if (has_noise()) turn_at_random<W>(l, speed, is_hit, rods, hit);
+  }
 
+  /// As meet_plates finds them.
+  template <class D>
+  SHAKEN_INLINE BeadsOf<D> beads_in(const PlateMet& plate, const PoseOf<D>& pose) const {
+    // as it passes over rods that are out of reach
+    const D at_ends = species.end_radius + species.half_length * lanes::absolute(pose.director.z);
+    const D extent = lanes::larger(D(D{} + species.mid_radius), at_ends);
+    const D within_reach = plate.side * plate.height - plate.side * (pose.position.z - plate.side * extent);
+    BeadsOf<D> beads;
+    for (const int bead : species.outer_beads) {
+      const double r = species.bead_radius[bead];
+      const D above = plate.side * (pose.position.z + species.bead_offset[bead] * pose.director.z - plate.height);
+      const D deep = r - above;
+      const D overlaps = lanes::smaller(deep, within_reach);
+      beads.n = where_positive(overlaps, D(beads.n + 1.0), beads.n);
+      beads.offset = where_positive(overlaps, D(D{} + species.bead_offset[bead]), beads.offset);
+      beads.radius = where_positive(overlaps, D(D{} + r), beads.radius);
+      beads.overlap = where_positive(overlaps, deep, beads.overlap);
+    }
+    return beads;
+  }
+
+  /// > 0: there is another bead in the plate beside the one that is known.
+  template <class D>
+  SHAKEN_INLINE D others_overlap(const PlateMet& plate, const BeadsOf<D>& known, const PoseOf<D>& pose) const {
+    D deepest = D{} - 1.0;
+    for (const int bead : species.outer_beads) {
+      const double offset = species.bead_offset[bead];
+      const D above = plate.side * (pose.position.z + offset * pose.director.z - plate.height);
+      const D deep = species.bead_radius[bead] - above;
+      deepest = where_positive(lanes::absolute(known.offset - offset), lanes::larger(deep, deepest), deepest);
+    }
+    return where_positive(known.overlap, deepest, D(-1.0 - known.overlap));
+  }
+
+  template <class D>
+  SHAKEN_INLINE ContactsOf<D> contacts_of(const PlateMet& plate, const BeadsOf<D>& beads, const Triple<D>& velocity,
+                                          const RodsOf<D>& rods) const {
+    ContactsOf<D> contacts;
+    contacts.plate_velocity = velocity;
+    contacts.normal = {D{}, D{}, D{} + plate.side};
+    contacts.arm = beads.offset * rods.pose.director - beads.radius * contacts.normal;
+    contacts.u = rods.motion.velocity + rods.motion.angular_velocity.cross(contacts.arm);
+    contacts.u.z -= velocity.z;
+    if (rules.has_horizontal_vibration) {
+      contacts.u.x -= velocity.x;
+      contacts.u.y -= velocity.y;
+    }
+    contacts.u_n = contacts.u.dot(contacts.normal);
+    return contacts;
+  }
+
+  bool is_at_instant() const { return !kIsUsual && rules.impacts_at_instant; }
+  bool has_noise() const { return !kIsUsual && species.has_rotational_noise(); }
+  bool rests(const PlateMet& plate) const {
+    return !kIsUsual && rules.rest.matters() && plate.contact.restitution < 1 && plate.side > 0;
+  }
+
+  /// As in tick/impact.h; 0: none within this tick [s].
+  template <class D>
+  SHAKEN_INLINE D time_since_touch(const BeadsOf<D>& beads, const D& speed) const {
+    const D left = beads.overlap > 0.0 ? speed * rules.dt - beads.overlap : -1.0 - beads.overlap;
+    return left >= 0.0 ? beads.overlap / speed : D{};
+  }
+
+  /// impact::fly, of rods whose time is not 0. Not known here: a large turn, or none.
+  template <class D>
+  SHAKEN_INLINE void fly(const D& seconds, RodsOf<D>& rods) const {
+    const lanes::FlightOf<D> flight = lanes::flight_of(rods.pose, rods.motion, species.inertia_ratio);
+    const PoseOf<D> pose = pose_after(flight, seconds, rules.gravity);
+    const MotionOf<D> motion = motion_after(flight, seconds, rules.gravity, pose.director, species.inertia_ratio);
+    const D flies = lanes::absolute(seconds);
+    const D turn = lanes::absolute(flight.rate * seconds);
+    rods.other = lanes::larger(
+        where_positive(flies, lanes::larger(D(turn - kLargestSmallAngle), D(-flight.rate)), D(-1.0 - flies)),
+        rods.other);
+    rods.pose.position = where_positive(flies, pose.position, rods.pose.position);
+    rods.pose.director = where_positive(flies, pose.director, rods.pose.director);
+    rods.motion.velocity = where_positive(flies, motion.velocity, rods.motion.velocity);
+    rods.motion.angular_velocity = where_positive(flies, motion.angular_velocity, rods.motion.angular_velocity);
+  }
+
+  /// Of the plate, so long before the tick.
+  template <int W>
+  SHAKEN_INLINE Triple<Doubles<W>> velocities_before(const PlateMet& plate, const Doubles<W>& ago) const {
+    TripleLanes velocities;
+    for (int lane = 0; lane < W; ++lane)
+      velocities.set(lane, ago[lane] > 0 ? velocity_before(plate, ago[lane]) : plate.velocity);
+    return velocities.load<W>(0);
+  }
+  Vec3 velocity_before(const PlateMet& plate, double ago) const {
+    const PlateState then = rules.plates.before(now, ago);
+    return plate.side > 0 ? rules.plates.velocity(then) : rules.plates.lid_velocity(then);
+  }
+
+  /// `collide` of surface_impacts.cpp, of the rods that are hit.
+  template <int W>
+  SHAKEN_INLINE void give_impulse(int l, const PlateMet& plate, const BeadsOf<Doubles<W>>& beads,
+                                  const ContactsOf<Doubles<W>>& contacts, const Doubles<W>& rest_speed,
+                                  const Doubles<W>& is_hit, RodsOf<Doubles<W>>& rods, PlateHits::OfPlate& hit) const {
+    using D = Doubles<W>;
+    Triple<D> P, turns;
+    D lost{};
+    if (kIsUsual || plate.contact.has_friction()) {
+      const ComplianceOf<D> K = lanes::point_compliance(species.inverse, rods.pose.director, contacts.arm);
+      const ImpulseOf<D> impulse = impulse_with_friction(plate, contacts, K, rest_speed);
+      rods.other = lanes::larger(where_positive(is_hit, impulse.other, D(-1.0 - beads.overlap)), rods.other);
+      P = impulse.P;
       // work_lost
-      D lost{};
+      const Triple<D>& u = contacts.u;
       lost -= P.x * (u.x + 0.5 * (K.xx * P.x + K.xy * P.y + K.xz * P.z));
       lost -= P.y * (u.y + 0.5 * (K.yx * P.x + K.yy * P.y + K.yz * P.z));
       lost -= P.z * (u.z + 0.5 * (K.zx * P.x + K.zy * P.y + K.zz * P.z));
-      lanes::store(hit.lost + l, lost);
-      lanes::store(hit.is_hit + l, is_hit);
-      hit.impulse.store(l, P);
-
       // apply_impulse
-      const Triple<D> torque = arm.cross(P);
-      const D about_axis = (species.inverse.par - species.inverse.perp) * torque.dot(director);
-      const Triple<D> more = lanes::all<W>(species.inverse.mass) * P;
-      const Triple<D> turns = lanes::all<W>(species.inverse.perp) * torque + about_axis * director;
-      const auto add = [&](const D& before, const D& change) __attribute__((always_inline)) {
-        return is_hit > 0.0 ? before + change : before;
-      };
-      velocity = {add(velocity.x, more.x), add(velocity.y, more.y), add(velocity.z, more.z)};
-      angular_velocity = {add(angular_velocity.x, turns.x), add(angular_velocity.y, turns.y),
-                          add(angular_velocity.z, turns.z)};
-    };
-    if (rules.has_base) meet_plate({1.0, plates.base, rules.plates.velocity(plates), species.base}, hits.of_plate[0]);
-    if (rules.has_lid) meet_plate({-1.0, plates.lid, rules.plates.lid_velocity(plates), species.lid}, hits.of_plate[1]);
-    hits.velocity.store(l, velocity);
-    hits.angular_velocity.store(l, angular_velocity);
-    lanes::store(hits.is_other + l, other);
+      const Triple<D> torque = contacts.arm.cross(P);
+      const D about_axis = (species.inverse.par - species.inverse.perp) * torque.dot(rods.pose.director);
+      turns = lanes::all<W>(species.inverse.perp) * torque + about_axis * rods.pose.director;
+    } else {
+      // normal_compliance and impulse_without_friction
+      const D along = rods.pose.director.dot(contacts.normal);
+      const D compliance =
+          species.inverse.mass + species.inverse.perp * (beads.offset * beads.offset * (1.0 - along * along));
+      const D e = lanes::restitution_at(plate.contact, D(-contacts.u_n));
+      const D bounced = -(1.0 + e) * contacts.u_n / compliance;
+      const D risen = (rest_speed - contacts.u_n) / compliance;
+      const D p = where_positive(D(rest_speed + e * contacts.u_n), risen, bounced);
+      P = p * contacts.normal;
+      lost = -p * (contacts.u_n + 0.5 * p * compliance);
+      // apply_normal_impulse
+      turns = D(species.inverse.perp * beads.offset) * rods.pose.director.cross(P);
+    }
+    const Triple<D> more = lanes::all<W>(species.inverse.mass) * P;
+    MotionOf<D>& motion = rods.motion;
+    motion.velocity = where_positive(is_hit, motion.velocity + more, motion.velocity);
+    motion.angular_velocity = where_positive(is_hit, motion.angular_velocity + turns, motion.angular_velocity);
+    hit.impulse.store(l, P);
+    lanes::store(hit.lost + l, lost);
+    lanes::store(hit.given + l, P.dot(contacts.plate_velocity));
+  }
+
+  template <class D>
+  SHAKEN_INLINE ImpulseOf<D> impulse_with_friction(const PlateMet& plate, const ContactsOf<D>& contacts,
+                                                   const ComplianceOf<D>& K, const D& rest_speed) const {
+    Triple<D> u = contacts.u;
+    if (rests(plate)) {
+      const D e = lanes::restitution_at(plate.contact, lanes::larger(D(-contacts.u_n), D{}));
+      const D rise = lanes::larger(D((rest_speed + e * contacts.u_n) / (1.0 + e)), D{});
+      u = contacts.u - rise * contacts.normal;
+    }
+    ImpulseOf<D> impulse = impulse_by_law(plate, contacts.normal, u, K);
+    if (rests(plate)) {
+      const D lacking = rest_speed - contacts.normal.dot(contacts.u + K * impulse.P);
+      const Triple<D> more = D(lacking / contacts.normal.dot(K * contacts.normal)) * contacts.normal;
+      impulse.P = where_positive(lacking, impulse.P + more, impulse.P);
+    }
+    return impulse;
+  }
+
+  template <class D>
+  SHAKEN_INLINE ImpulseOf<D> impulse_by_law(const PlateMet& plate, const Triple<D>& normal, const Triple<D>& u,
+                                            const ComplianceOf<D>& K) const {
+    if (kIsUsual) return lanes::newton_coulomb_impulse(K, normal, u, plate.contact.friction, plate.contact.restitution);
+    const D e = lanes::restitution_at(plate.contact, D(-u.dot(normal)));
+    if (rules.impulse == &newton_coulomb_impulse)
+      return lanes::newton_coulomb_impulse(K, normal, u, plate.contact.friction, e);
+    return lanes::impulse_of_process(rules.impulse == &energetic_impulse, K, plate.side, u, plate.contact.friction, e);
+  }
+
+  /// As tick/rotational_noise.h does; the hits of both plates in one tick draw two numbers, which are not known here.
+  template <int W>
+  SHAKEN_INLINE void turn_at_random(int l, const Doubles<W>& speed, const Doubles<W>& is_hit, RodsOf<Doubles<W>>& rods,
+                                    PlateHits::OfPlate& hit) const {
+    using D = Doubles<W>;
+    rods.other = lanes::larger(where_positive(is_hit, rods.is_hit, D(D{} - 1.0)), rods.other);
+    const Triple<D>& director = rods.pose.director;
+    Triple<D>& w = rods.motion.angular_velocity;
+    const D kick = lanes::load<W>(sign + l) * species.rotational_noise * speed;
+    const Triple<D> up{D{}, D{}, D{} + 1.0};
+    const Triple<D> turn = kick * (up - director.z * director);
+    lanes::store(hit.noise + l, D(species.inertia_perp * (w + D(D{} + 0.5) * turn).dot(turn)));
+    w = where_positive(is_hit, w + turn, w);
+    rods.is_hit = where_positive(is_hit, is_hit, rods.is_hit);
   }
 };
 
-void PlateHits::count(int lane, const Vec3& base_velocity, const Vec3& lid_velocity, Counters& counters) const {
+void PlateHits::count(int lane, Counters& counters) const {
   for (int plate = 0; plate < 2; ++plate) {
     if (!meets(lane, plate)) continue;
     const OfPlate& hit = of_plate[plate];
@@ -274,40 +390,38 @@ void PlateHits::count(int lane, const Vec3& base_velocity, const Vec3& lid_veloc
     if (!is_hit(lane, plate)) continue;
     ++(plate == 0 ? counters.impulses_rod_base : counters.impulses_rod_lid);
     counters.ledger.lost_surfaces.add(hit.lost[lane]);
-    const Vec3 impulse(hit.impulse.x[lane], hit.impulse.y[lane], hit.impulse.z[lane]);
-    counters.ledger.given.add(impulse.dot(plate == 0 ? base_velocity : lid_velocity));
-    for (std::size_t c = 0; c < 3; ++c) counters.ledger.momentum[c].add(impulse[static_cast<Eigen::Index>(c)]);
+    counters.ledger.given.add(hit.given[lane]);
+    counters.ledger.momentum[0].add(hit.impulse.x[lane]);
+    counters.ledger.momentum[1].add(hit.impulse.y[lane]);
+    counters.ledger.momentum[2].add(hit.impulse.z[lane]);
+    if (are_at_instant && hit.ago[lane] > 0) ++counters.impacts_at_instant;
+    if (!has_noise) continue;
+    counters.ledger.noise.add(hit.noise[lane]);
+    ++counters.noise_kicks;
   }
 }
 
-void PlateHits::get_before(int lane, RodAtTick& rod) const {
-  rod.changed = rod.displaced = rod.hit_again = false;
+void PlateHits::get(int lane, RodAtTick& rod) const {
+  rod.changed = rod.displaced = false;
   position.get(lane, rod.pose.position);
   director.get(lane, rod.pose.director);
   rod.has_motion = meets(lane, 0) || meets(lane, 1);
   if (!rod.has_motion) return;
   velocity.get(lane, rod.motion.velocity);
   angular_velocity.get(lane, rod.motion.angular_velocity);
-}
-
-void PlateHits::get(int lane, RodAtTick& rod) const {
-  get_before(lane, rod);
   for (int plate = 0; plate < 2; ++plate) {
-    if (is_hit(lane, plate)) rod.note_hit();
+    if (!is_hit(lane, plate)) continue;
+    rod.changed = true;
+    if (are_at_instant && of_plate[plate].ago[lane] > 0) rod.displaced = true;
   }
 }
 
-BeadsInPlates PlateHits::beads(int lane) const {
-  BeadsInPlates beads;
-  for (std::size_t plate = 0; plate < 2; ++plate) {
-    const OfPlate& hit = of_plate[plate];
-    beads.bead[plate] = hit.overlap[lane] > 0 ? static_cast<int>(hit.bead[lane]) : -1;
-    beads.overlap[plate] = hit.overlap[lane];
-  }
-  return beads;
+void PlateHits::get_flight_pose(int lane, Pose& pose) const {
+  flight_position.get(lane, pose.position);
+  flight_director.get(lane, pose.director);
 }
 
-/// Whether the lanes give impulses as these plates do to rods of a species.
+/// Whether plates ask for nothing beside friction, by Newton's law, of rods of a species.
 bool are_usual(const TickRules& rules, const SpeciesMechanics& species) {
   const auto is_usual = [](const ContactParameters& contact) {
     return contact.has_friction() && !contact.has_restitution_speed();
@@ -317,9 +431,21 @@ bool are_usual(const TickRules& rules, const SpeciesMechanics& species) {
          !rules.rest.matters();
 }
 
+/// The compiler asks for every law; one that the kernel does not compute is to return false.
+bool is_in_lanes(ImpulseLaw law) {
+  switch (law) {
+    case ImpulseLaw::kNewton:
+    case ImpulseLaw::kPoisson:
+    case ImpulseLaw::kEnergetic:
+      return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 bool lanes_know(const System& system, std::span<const Effect> effects) {
+  if (!is_in_lanes(system.law)) return false;
   const auto is_known = [](const Effect& effect) { return std::ranges::count(kKnownEffects, effect.name) > 0; };
   for (const Effect& effect : effects) {
     if (effect.is_on(system) && !is_known(effect)) return false;
@@ -327,43 +453,40 @@ bool lanes_know(const System& system, std::span<const Effect> effects) {
   return true;
 }
 
-LeftByLanes meet_plates_in_lanes(std::span<const int> rods, const std::vector<Flight>& flights,
-                                 std::vector<RodAtTick>& at_tick, const PlateState& plates, Tick now,
-                                 const TickRules& rules, Counters& counters) {
+std::uint32_t meet_plates_in_lanes(std::span<const int> rods, const std::vector<Flight>& flights,
+                                   std::vector<RodAtTick>& at_tick, std::vector<Pose>& flight_pose,
+                                   const PlateState& plates, Tick now, const TickRules& rules, Counters& counters) {
   const int n = static_cast<int>(rods.size());
+  const SpeciesMechanics& species = rules.species_of(rods.front());
+  PlateHits hits;
+  hits.has_noise = species.has_rotational_noise();
+  hits.are_at_instant = rules.impacts_at_instant;
+  for (PlateHits::OfPlate& of_plate : hits.of_plate) std::fill_n(of_plate.overlap, kDoubleLanes, 0.0);
   thread_local FlightLanes in{};  // lanes beyond n hold rods of before, which count for nothing
   alignas(64) double since[kDoubleLanes]{};
+  alignas(64) double sign[kDoubleLanes]{};
   for (int lane = 0; lane < n; ++lane) {
     const Flight& flight = flights[rods[lane]];
     in.set(lane, flight);
     since[lane] = static_cast<double>(now - flight.since) * rules.dt;
+    if (hits.has_noise) sign[lane] = sign_of_noise(rods[lane], 0, now, rules);
   }
-  PlateHits hits;
-  for (PlateHits::OfPlate& of_plate : hits.of_plate) std::fill_n(of_plate.overlap, kDoubleLanes, 0.0);
-  const SpeciesMechanics& species = rules.species_of(rods.front());
-  const bool gives_impulses = are_usual(rules, species);
-  const Vec3 base_velocity = rules.plates.velocity(plates);
-  const Vec3 lid_velocity = rules.plates.lid_velocity(plates);
-  if (gives_impulses) {
-    lanes::with_widest_doubles(PlateHitKernel<true>{species, rules, plates, in, since, n, hits});
+  const PlateMet plates_met[2] = {{1.0, plates.base, rules.plates.velocity(plates), species.base},
+                                  {-1.0, plates.lid, rules.plates.lid_velocity(plates), species.lid}};
+  if (are_usual(rules, species)) {
+    lanes::with_widest_doubles(PlateHitKernel<true>{species, rules, plates_met, now, in, since, sign, n, hits});
   } else {
-    lanes::with_widest_doubles(PlateHitKernel<false>{species, rules, plates, in, since, n, hits});
+    lanes::with_widest_doubles(PlateHitKernel<false>{species, rules, plates_met, now, in, since, sign, n, hits});
   }
-  LeftByLanes left;
-  left.all = left.hits = 0;
+  std::uint32_t left = 0;
   for (int lane = 0; lane < n; ++lane) {
-    RodAtTick& rod = at_tick[rods[lane]];
     if (!hits.is_known(lane)) {
-      left.all |= 1U << lane;
-    } else if (gives_impulses) {
-      hits.get(lane, rod);
-      hits.count(lane, base_velocity, lid_velocity, counters);
-    } else {
-      hits.get_before(lane, rod);
-      if (!rod.has_motion) continue;
-      left.hits |= 1U << lane;
-      left.beads[static_cast<std::size_t>(lane)] = hits.beads(lane);
+      left |= 1U << lane;
+      continue;
     }
+    hits.get(lane, at_tick[rods[lane]]);
+    if (hits.are_at_instant) hits.get_flight_pose(lane, flight_pose[rods[lane]]);
+    hits.count(lane, counters);
   }
   return left;
 }

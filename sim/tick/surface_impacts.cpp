@@ -182,9 +182,10 @@ struct PlateVisit {
     return side > 0 ? rod.pose.position.z() - extent >= plates.base : rod.pose.position.z() + extent <= plates.lid;
   }
 
-  /// The beads that a plate meets, the deepest first, but for those that it has `met`.
-  std::optional<NumericalTrouble> meet_all(double side, std::bitset<kMostBeads> met) {
+  /// The beads that a plate meets, the deepest first.
+  std::optional<NumericalTrouble> meet_all(double side) {
     const double plate = side > 0 ? plates.base : plates.lid;
+    std::bitset<kMostBeads> met;
     for (bool done = false; !done;) {  // one bead after the other, the deepest first, as the rod is by then
       Deepest deepest(rod.pose.director);
       for (const int bead : species.outer_beads) {
@@ -211,29 +212,7 @@ struct PlateVisit {
 std::optional<NumericalTrouble> meet_plates(PlateVisit visit) {
   for (const double side : {1.0, -1.0}) {
     if (!(side > 0 ? visit.rules.has_base : visit.rules.has_lid) || visit.is_out_of_reach(side)) continue;
-    if (auto trouble = visit.meet_all(side, {})) return trouble;
-  }
-  return {};
-}
-
-/// The same from the beads on that flight has brought into the plates.
-std::optional<NumericalTrouble> meet_plates(PlateVisit visit, const BeadsInPlates& found) {
-  bool has_moved = false;
-  for (const std::size_t plate : {0, 1}) {
-    const double side = plate == 0 ? 1.0 : -1.0;
-    if (!(side > 0 ? visit.rules.has_base : visit.rules.has_lid)) continue;
-    std::bitset<kMostBeads> met;
-    if (has_moved) {
-      if (visit.is_out_of_reach(side)) continue;
-    } else {
-      const int bead = found.bead[plate];
-      if (bead < 0) continue;
-      visit.meet(side, bead, found.overlap[plate]);
-      if (PlateVisit::pose_stays(visit.rules)) continue;
-      has_moved = true;
-      met.set(static_cast<std::size_t>(bead));
-    }
-    if (auto trouble = visit.meet_all(side, met)) return trouble;
+    if (auto trouble = visit.meet_all(side)) return trouble;
   }
   return {};
 }
@@ -325,14 +304,6 @@ std::optional<NumericalTrouble> meet_surfaces(int index, RodAtTick& rod, const F
   if (rules.has_base || rules.has_lid) {
     if (auto trouble = meet_plates({index, rod, flight, plates, now, rules, counters})) return trouble;
   }
-  if (rules.has_uprights()) return meet_uprights(index, rod, flight, plates, now, rules, counters);
-  return {};
-}
-
-std::optional<NumericalTrouble> meet_surfaces_from(const BeadsInPlates& found, int index, RodAtTick& rod,
-                                                   const Flight& flight, const PlateState& plates, Tick now,
-                                                   const TickRules& rules, Counters& counters) {
-  if (auto trouble = meet_plates({index, rod, flight, plates, now, rules, counters}, found)) return trouble;
   if (rules.has_uprights()) return meet_uprights(index, rod, flight, plates, now, rules, counters);
   return {};
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <optional>
 
 #include "sim/tick/tick.h"
@@ -13,15 +12,6 @@ namespace shaken {
 /// Returns trouble if a bead is too deep in one of them.
 std::optional<NumericalTrouble> meet_surfaces(int index, RodAtTick& rod, const Flight& flight, const PlateState& plates,
                                               Tick now, const TickRules& rules, Counters& counters);
-/// The bead that is in each plate, where there is one only.
-struct BeadsInPlates {
-  std::array<int, 2> bead;        ///< of base and lid; -1: there is none
-  std::array<double, 2> overlap;  ///< [mm]
-};
-/// The same where it is known which beads flight has brought into the plates: at most one in each, and not too deep.
-std::optional<NumericalTrouble> meet_surfaces_from(const BeadsInPlates& found, int index, RodAtTick& rod,
-                                                   const Flight& flight, const PlateState& plates, Tick now,
-                                                   const TickRules& rules, Counters& counters);
 /// Its last part: side walls and posts.
 std::optional<NumericalTrouble> meet_uprights(int index, RodAtTick& rod, const Flight& flight, const PlateState& plates,
                                               Tick now, const TickRules& rules, Counters& counters);

@@ -89,12 +89,6 @@ struct RodAtTick {
   bool has_motion = false;  ///< `motion` has been evaluated
   bool changed = false;     ///< an impulse changed `motion`
   bool displaced = false;   ///< one changed `pose` too, by taking place earlier within the tick
-  bool hit_again = false;   ///< there was more than one
-
-  void note_hit() {
-    hit_again = changed;
-    changed = true;
-  }
 };
 
 /// Overlap beyond this fraction of the smaller radius ends the run: the contact's normal would soon lose its meaning.
@@ -102,12 +96,8 @@ struct RodAtTick {
 inline constexpr double kMaxOverlapFraction = 0.5;
 
 inline RodAtTick rod_at_tick(const Flight& flight, Tick now, const TickRules& rules) {
-  return {pose_after(flight, static_cast<double>(now - flight.since) * rules.dt, rules.gravity),
-          {},
-          false,
-          false,
-          false,
-          false};
+  return {
+      pose_after(flight, static_cast<double>(now - flight.since) * rules.dt, rules.gravity), {}, false, false, false};
 }
 
 /// Velocity of the rod's centre at the tick [mm/s].

@@ -27,7 +27,7 @@ struct Approach {
   /// The rod on the left (0) or on the right (1) flies faster to the right by so much [mm/s]. False: a new bound is
   /// due.
   bool hit(int rod, double more, Tick after) {
-    const VelocityJump change({more, 0, 0}, Vec3::Zero(), Vec3::UnitY(), 0, 0, 1, 0);
+    const VelocityJump change({more, 0, 0}, Vec3::Zero(), 0, 0, 1);
     bool holds = true;
     table.spend(rod, change, kStart + after, [&](int p) { holds = table.shorten_bound(p, kStart + after); });
     return holds;

@@ -451,8 +451,9 @@ struct WaitingPair {
     }
     begin_flight(f, 0, {f.position, f.director}, motion, 1e9, pair.ratio);
     fly(f, ago);
-    const VelocityJump change(f.velocity - before.velocity, f.precession - before.precession, f.director, before.rate,
-                              f.rate, pair.species.half_length, ago > 0 ? dt : 0.0);
+    const Vec3 turning = f.precession.cross(f.director) - before.precession.cross(before.director);
+    VelocityJump change(f.velocity - before.velocity, turning, before.rate, f.rate, pair.species.half_length);
+    if (ago > 0) change.displace(f.position - before.position, f.director - before.director, pair.species.half_length);
     bool is_used_up = false;
     table.spend(r, change, now, [&](int) { is_used_up = true; });
     if (!is_used_up) return true;

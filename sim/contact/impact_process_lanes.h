@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "sim/contact/impact_process.h"
+#include "sim/contact/impulse_lanes.h"
+
+/// Impacts in their course (contact/impact_process.h) at several contacts with one plate at a time: each lane has the
+/// bits of poisson_impulse or energetic_impulse.
+namespace shaken::lanes {
+
+/// What most impacts by plates are: each phase is one leg of the midpoint rule, or slips straight, perhaps until it
+/// sticks, or sticks from the start. Others are marked as such.
+template <class D>
+class ImpactProcesses {
+ public:
+  /// `side`: +1: the normal points up; -1: down.
+  SHAKEN_INLINE ImpactProcesses(const ComplianceOf<D>& K, double side, const Triple<D>& u, double friction)
+      : side_(side), mu_(friction) {
+    const D across = side * K.yx;
+    nn_ = K.zz;
+    nt_ = {side * K.xz, K.yz};
+    tt_ = {K.xx, across, K.yy};
+    const D det = K.xx * K.yy - across * across;
+    softness_ = {K.yy / det, -across / det, K.xx / det};
+    hold_ = softness_ * nt_;
+    u_n_ = side * u.z;
+    u_t_ = {u.x, side * u.y};
+    trace_ = ImpactProcess::kTrace * square_root(u.squared_norm());
+    scale_ = -u_n_ / nn_;
+  }
+
+  SHAKEN_INLINE void compress() {
+    run([&](const D& rate) __attribute__((always_inline)) {
+      return where_positive(rate, larger(D(-u_n_ / rate), D{}), D(D{} + kNever));
+    });
+    u_n_ = D{};
+  }
+  SHAKEN_INLINE void restore_impulse(const D& impulse) {
+    const D goal = p_ + impulse;
+    run([&](const D& rate) __attribute__((always_inline)) {
+      const D left = larger(D(goal - p_), D{});
+      return where_positive(D(-rate), smaller(left, larger(D(-u_n_ / rate), D{})), left);
+    });
+  }
+  SHAKEN_INLINE void restore_work(const D& work) {
+    const D goal = work_ + work;
+    run([&](const D& rate) __attribute__((always_inline)) {
+      const D left = larger(D(goal - work_), D{});
+      const D u_n = larger(u_n_, D{});
+      const D square = u_n * u_n + 2.0 * rate * left;
+      const D denominator = u_n + square_root(square);
+      const D length = where_positive(denominator, D(2.0 * left / denominator), D{});
+      return where_positive(D(-square), D(-u_n / rate), length);
+    });
+  }
+
+  SHAKEN_INLINE Triple<D> impulse() const { return {D{} + p_t_.x, D{} + side_ * p_t_.y, side_ * p_}; }
+  const D& normal_impulse() const { return p_; }
+  const D& normal_work() const { return work_; }
+  const D& other() const { return other_; }  ///< >= 0: it is
+
+ private:
+  static constexpr double kNever = std::numeric_limits<double>::infinity();
+  static constexpr double kLongest = std::numeric_limits<double>::max();
+  static constexpr double kStraight = ImpactProcess::kStraight * ImpactProcess::kTurn * ImpactProcess::kTurn;
+
+  /// In the tangent plane.
+  struct Pair {
+    D x, y;
+
+    SHAKEN_INLINE D dot(const Pair& b) const { return x * b.x + y * b.y; }
+    SHAKEN_INLINE Pair operator+(const Pair& b) const { return {x + b.x, y + b.y}; }
+    SHAKEN_INLINE Pair operator/(const D& s) const { return {x / s, y / s}; }
+    SHAKEN_INLINE Pair operator-() const { return {-x, -y}; }
+    SHAKEN_INLINE friend Pair operator*(const D& s, const Pair& a) { return {s * a.x, s * a.y}; }
+  };
+  struct Symmetric {
+    D xx, xy, yy;
+
+    SHAKEN_INLINE Pair operator*(const Pair& v) const { return {xx * v.x + xy * v.y, xy * v.x + yy * v.y}; }
+  };
+
+  /// A stretch of constant friction, where it is what slipping_leg chooses.
+  struct Leg {
+    Pair q;
+    D limit;   ///< the longest that what is left of the phase may be
+    D is_it;   ///< >= 0: it is known to be chosen
+    D is_not;  ///< > 0: it is known not to be
+  };
+
+  SHAKEN_INLINE D rate_n(const Pair& q) const { return nn_ + nt_.dot(q); }
+  SHAKEN_INLINE Pair rate_t(const Pair& q) const { return nt_ + tt_ * q; }
+
+  SHAKEN_INLINE void advance(const Pair& q, const D& length) {
+    const D change = rate_n(q) * length;
+    work_ += (u_n_ + 0.5 * change) * length;
+    u_n_ += change;
+    u_t_ = u_t_ + length * rate_t(q);
+    p_ += length;
+    p_t_ = p_t_ + length * q;
+  }
+
+  /// The straight way to u_t = 0. `larger` and `smaller` pass on what is no number where it comes last, and pass it
+  /// over where it comes first.
+  template <class End>
+  SHAKEN_INLINE Leg straight_leg(const D& speed, const End& end) const {
+    const Pair g = softness_ * u_t_;
+    const D A = hold_.dot(hold_) - mu_ * mu_;
+    const D B = hold_.dot(g);
+    const D C = g.dot(g);
+    const D discriminant = B * B - A * C;
+    const D x = C / (square_root(discriminant) - B);
+    const Pair q = -(g / x + hold_);
+    const Pair bend = q / (D{} + mu_) + u_t_ / speed;
+    const D part = smaller(x, end(rate_n(q))) / scale_;
+    const D too_bent = square_root(bend.dot(bend)) * part - kStraight;
+    const D wrong = larger(q.dot(u_t_), too_bent);
+    return {q, x, smaller(discriminant, smaller(smaller(x, D(kLongest - x)), D(-wrong))),
+            larger(wrong, D(-discriminant))};
+  }
+
+  /// One by the midpoint rule, where no direction of slip keeps itself up.
+  template <class End>
+  SHAKEN_INLINE Leg midpoint_leg(const D& speed, const End& end) const {
+    const D minus_mu = D{} - mu_;
+    const Pair direction = u_t_ / speed;
+    const Pair across{-direction.y, direction.x};
+    const Pair q_here = minus_mu * direction;
+    const Pair rate = rate_t(q_here);
+    const D along = rate.dot(direction);
+    const D aside = rate.dot(across);
+    const D settling = mu_ * (direction.dot(tt_ * direction) - across.dot(tt_ * across)) - nt_.dot(direction);
+    const D turns = larger(settling, D(absolute(aside) + kStraight * settling));  // > 0
+    const D change = absolute(settling) + larger(D(-2.0 * along), D{});
+    const D slow =
+        smaller(D(ImpactProcess::kTurn * speed / absolute(aside)), D(4.0 * ImpactProcess::kTurn * speed / change));
+    const D length = smaller(end(rate_n(q_here)), slow);
+    const D half = 0.5 * length;
+    const Pair middle = u_t_ + half * rate;
+    const Pair q = minus_mu * (middle / square_root(middle.dot(middle)));
+    const D limit = (1.0 + ImpactProcess::kStretch) * length;
+    const D half_limit = 0.5 * limit;
+    const Pair furthest = u_t_ + half_limit * rate_t(q);
+    const D makes_energy = larger(q.dot(u_t_), q.dot(furthest));  // > 0
+    return {q, limit, turns > 0.0 ? -makes_energy : -1.0 - speed, makes_energy};
+  }
+
+  /// A phase, or a mark.
+  template <class End>
+  SHAKEN_INLINE void run(const End& end) {
+    const D speed2 = u_t_.dot(u_t_);
+    const D speed = square_root(speed2);
+    const D slips = absolute(u_t_.x) + absolute(u_t_.y);  // > 0
+    const Leg straight = straight_leg(speed, end);
+    const Leg midpoint = midpoint_leg(speed, end);
+    const Pair holding = -hold_;
+    const D holds = mu_ * mu_ - hold_.dot(hold_);  // >= 0: it sticks, once at rest
+    const auto choose = [&](const D& if_straight, const D& otherwise, const D& at_rest) __attribute__((always_inline)) {
+      const D slipping = straight.is_it >= 0.0 ? if_straight : otherwise;
+      return where_positive(slips, slipping, at_rest);
+    };
+    const Pair q{choose(straight.q.x, midpoint.q.x, holding.x), choose(straight.q.y, midpoint.q.y, holding.y)};
+    const D limit = choose(straight.limit, midpoint.limit, D(D{} + kNever));
+    const D left = end(rate_n(q));
+    // what is no number, or lasts forever, does not
+    const D fits = smaller(D(limit < left ? D{} - 1.0 : limit), D(kLongest - left));  // >= 0
+
+    // what stops slipping before the end sticks for the rest
+    const D sticks = choose(D(-fits), D{} - 1.0, D(D{} - 1.0));  // > 0
+    advance(q, sticks > 0.0 ? limit : left);
+    u_t_ = {choose(where_positive(sticks, D{}, u_t_.x), u_t_.x, D{}),
+            choose(where_positive(sticks, D{}, u_t_.y), u_t_.y, D{})};
+    bool any_sticks = false;
+    for (std::size_t l = 0; l < sizeof(D) / sizeof(double); ++l) any_sticks |= sticks[l] > 0;
+    if (any_sticks) {
+      advance(holding, where_positive(sticks, end(rate_n(holding)), D{}));
+      u_t_ = {where_positive(sticks, D{}, u_t_.x), where_positive(sticks, D{}, u_t_.y)};
+    }
+
+    const D midpoint_known = straight.is_not > 0.0 ? smaller(fits, midpoint.is_it) : D{} - 1.0;
+    const D straight_known = where_positive(sticks, holds, fits);
+    const D slipping_known = choose(straight_known, midpoint_known, holds);
+    const D is_trace = trace_ * trace_ - speed2;  // >= 0, where it slips
+    const D known = is_trace >= 0.0 ? where_positive(slips, D{} - 1.0, slipping_known) : slipping_known;
+    other_ = known >= 0.0 ? other_ : D{};
+  }
+
+  double side_, mu_;
+  D nn_, trace_, scale_, u_n_;
+  D p_{}, work_{};
+  D other_ = D{} - 1.0;
+  Pair nt_, hold_, u_t_;
+  Pair p_t_{};
+  Symmetric tt_, softness_;
+};
+
+/// poisson_impulse or, `by_work`, energetic_impulse, with friction.
+template <class D>
+SHAKEN_INLINE ImpulseOf<D> impulse_of_process(bool by_work, const ComplianceOf<D>& K, double side, const Triple<D>& u,
+                                              double friction, const D& restitution) {
+  ImpactProcesses<D> impacts(K, side, u, friction);
+  impacts.compress();
+  if (by_work) {
+    impacts.restore_work(-restitution * restitution * impacts.normal_work());
+  } else {
+    impacts.restore_impulse(restitution * impacts.normal_impulse());
+  }
+  return {impacts.impulse(), impacts.other()};
+}
+
+}  // namespace shaken::lanes
