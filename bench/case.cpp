@@ -102,11 +102,9 @@ Case make_case(double length, double area_fraction, double side, double dt, doub
 }
 
 void CaseOptions::declare(CLI::App& app) {
-  CLI::Option* file = add_path(app, "--scene", scene, "FILE", "A scene of yours; how long it runs is left out");
-  file->excludes(
-      add_number(app, "--length", length, "MM", limits_of("rods.length"), "Rod length [mm]"),
-      add_number(app, "--area-fraction", area_fraction, "PHI", limits_of("rods.area_fraction"), "Area fraction"),
-      add_number(app, "--side", side, "MM", limits_of("box.side"), "Side of the box [mm]"));
+  add_number(app, "--length", length, "MM", limits_of("rods.length"), "Rod length [mm]");
+  add_number(app, "--area-fraction", area_fraction, "PHI", limits_of("rods.area_fraction"), "Area fraction");
+  add_number(app, "--side", side, "MM", limits_of("box.side"), "Side of the box [mm]");
   add_number(app, "--warm-up", warm_up, "S", kWarmUps, "Simulated seconds before anything is measured");
 }
 

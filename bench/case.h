@@ -93,12 +93,9 @@ struct CaseOptions {
   double warm_up = 0.5;
   double length = 4.5;
   double area_fraction = 0.75;
-  std::string scene{};  ///< a file, in place of length, area fraction and side; empty: none
 
   void declare(CLI::App& app);
-  Case read() const {
-    return scene.empty() ? make_case(length, area_fraction, side, kPaperStep, warm_up) : read_case(scene, warm_up);
-  }
+  Case read() const { return make_case(length, area_fraction, side, kPaperStep, warm_up); }
 };
 
 }  // namespace shaken::bench

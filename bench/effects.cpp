@@ -132,20 +132,25 @@ state.
 }
 
 struct EffectsBench {
-  CaseOptions scene{.side = 41.865};
+  CaseOptions rods{.side = 41.865};
+  std::string scene;  ///< a file, in place of these rods; empty: none
   Effort effort{.cpu = 0.5};
   std::optional<double> measure;  ///< simulated, of each scene [s]
   Cache cache;
   Output output;
 
   void declare(CLI::App& app) {
-    scene.declare(app);
+    rods.declare(app);
+    CLI::Option* file = add_path(app, "--scene", scene, "FILE", "A scene of yours; how long it runs is left out");
+    for (const char* name : {"--length", "--area-fraction", "--side"}) file->excludes(app.get_option(name));
     effort.declare(app);
     add_number(app, "--measure", measure, "S", {0.01, 1e6},
                "Compare averages over so many simulated seconds, not CPU times");
     cache.declare(app);
     output.declare(app);
   }
+
+  Case read() const { return scene.empty() ? rods.read() : read_case(scene, rods.warm_up); }
 
   ExitCode run() const {
     if (measure) {
@@ -157,7 +162,7 @@ struct EffectsBench {
   }
 
   void give_averages() const {
-    const Case everything = scene.read();
+    const Case everything = read();
     Report report("effects_averages", "effects averages");
     report.json["warm_up_s"] = everything.warm_up;
     report.json["measured_s"] = *measure;
@@ -171,7 +176,7 @@ struct EffectsBench {
   }
 
   void give_costs() const {
-    const Case everything = scene.read();
+    const Case everything = read();
     Report report("effects", "effects");
     report.json["warm_up_s"] = everything.warm_up;
     report.json["repeat"] = effort.repeat;

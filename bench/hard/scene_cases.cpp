@@ -35,7 +35,7 @@ const std::vector<std::pair<const char*, std::vector<std::string>>> kFiles{
     {"order", {"order-sorted", "order-reversed", "order-shuffled"}},
 };
 
-/// Standard deviation of the speed at the start, three components (sim/start/initial.cpp) [mm/s].
+/// Root mean square of the speed at the start, of three components (sim/motion/start_motion.h) [mm/s].
 constexpr double kStartSpeed = 20.0 * 1.7320508;
 /// The energy balance must close to this, as a fraction of all that changed hands; and to a rounding for each impulse.
 constexpr double kLedgerLimit = 1e-12;

@@ -178,17 +178,20 @@ def test_layers_of_a_strip_stand_beside_those_of_the_square_box():
     strips = [layers("strip", value, side=21.0, aspect=6, n_rods=850) for value in (14.0, 14.0, 14.0)]
     first, second = rows(beyond_paper.strip(Evidence([square, *strips])))
     # three waves of 14 mm fit into 42 mm, nine into 126: the next are 42 / 4 and 126 / 10
-    assert first[:3] == ["4.5 mm", "0.8", "42 mm"] and second[2:4] == ["21 × 126 mm", "3 × 200 s"]
-    assert first[7] == "3.5" and second[7] == "1.4"
+    assert first[:4] == ["4.5 mm", "0.8", "42 mm", "rows"] and second[2] == "21 × 126 mm" and second[4] == "3 × 200 s"
+    assert first[8] == "3.5" and second[8] == "1.4"
     # a uniform error over the step, 42 / 2.5 - 42 / 3.5 and 126 / 8.5 - 126 / 9.5, besides that of each run
-    for cell, step, runs_ in ((first[6], 4.8, 1), (second[6], 1.56, 3)):
+    for cell, step, runs_ in ((first[7], 4.8, 1), (second[7], 1.56, 3)):
         error = math.hypot(step / math.sqrt(12), 0.1) / math.sqrt(runs_)
         assert float(cell.split(" ± ")[1]) == pytest.approx(error, rel=0.15)
 
 
 def test_blunt_rods_from_rows_stand_beside_those_from_a_fluid():
     def rods(sweep, end, psi_6, packing=0.85):
-        return run(sweep, {"psi_6": (psi_6, 0.01)}, length=4.0, packing=packing, end=end)
+        made = run(sweep, {"psi_6": (psi_6, 0.01)}, length=4.0, packing=packing, end=end)
+        if sweep == "fluid-start":
+            made.summary["start"] = {"run": "0123456789abcdef", "time": 30.0}
+        return made
 
     made = [rods("layer-trends", 0.4, 0.03), rods("layer-trends", 0.5, 0.76), rods("fluid-start", 0.5, 0.5),
             rods("fluid-start", 0.5, 0.02, 0.70)]

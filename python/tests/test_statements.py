@@ -385,13 +385,20 @@ def test_layers_are_asked_for_in_the_widest_box():
 
 def test_layers_of_blunt_rods_that_depend_on_the_start_are_open():
     def rods(end, numbers, sweep):
-        return layers(0.85, numbers, sweep, length=4.0, end=end)
+        found = layers(0.85, numbers, sweep, length=4.0, end=end)
+        for run in found if sweep == "fluid-start" else []:
+            run.summary["start"] = {"run": "0123456789abcdef", "time": 30.0}
+        return found
 
     rows = rods(0.4, LAYERED, "layer-trends") + rods(0.6, PLAIN, "layer-trends")
     assert verdict("peaks-end", rows) == rules.DISAGREES
     assert verdict("peaks-end", rows + rods(0.6, PLAIN, "fluid-start")) == rules.DISAGREES
     found = CHECKS["peaks-end"].check(Evidence(rows + rods(0.6, LAYERED, "fluid-start")))
     assert found.verdict == rules.OPEN and found.why == "d = 0.6 mm (it depends on the start)"
+    assert found.found.count("(from a fluid)") == 1
+    # a trend is of one start: ends of 0.4 mm from rows and of 0.6 mm from a fluid are two points of two
+    found = CHECKS["angle-end"].check(Evidence(rows + rods(0.6, LAYERED, "fluid-start")))
+    assert found.verdict == rules.OPEN and "fewer than two points" in found.why
 
 
 def test_the_end_of_a_rise_is_judged_where_rods_are_dense():

@@ -109,6 +109,21 @@ def test_every_set_has_its_sweep_at_every_scale(programs):
             programs.shaken("validate", file)
 
 
+def test_numbers_of_rods_grow_with_the_boxes():
+    def scaled(scale, name):
+        return sets.scaled(sets.sweep_file(SOURCE / "configs" / "figures" / "desk", name), sets.SCALES[scale])
+
+    fluid = scaled("paper", "fluid-start")["sweep"][0]
+    assert fluid["zip"] == {"rods.end_diameter": [0.4, 0.5, 0.6], "rods.count": [2704, 2484, 2292]}
+    assert fluid["stages"][1] == {"rods.area_fraction": [0.85], "time.steady": ["360 s"], "time.measure": ["840 s"]}
+    strip = scaled("paper", "strip")
+    assert strip["scene"]["box"] == {"side": "42 mm", "aspect": 6}, "as wide as the paper's box is large"
+    assert strip["sweep"][1]["zip"]["rods.count"] == [4 * n for n in (1159, 1021, 902)]
+    tiny = scaled("tiny", "strip")
+    assert tiny["scene"]["box"]["side"] == "16.5 mm"
+    assert tiny["sweep"][1]["zip"]["rods.count"] == [round(n * (16.5 / 21) ** 2) for n in (1159, 1021, 902)]
+
+
 def test_every_statement_belongs_to_a_figure():
     words = {word for figure in FIGURES for word in (figure.number, figure.name) if word}
     assert {statement.figure for statement in STATEMENTS} <= words

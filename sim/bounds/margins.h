@@ -69,8 +69,8 @@ inline constexpr double kWallTime = 1e-9;
 
 // ---- hits (bounds/velocity_jump.h)
 
-/// The speed that a hit adds to the closing of a gap, at any speed [mm/s]. It covers the rounding of the sum of all
-/// hits since the bound, for as long as that sum stays below 1,700 mm/s.
+/// The speed that a hit adds to the closing of a gap, at any speed [mm/s]. It covers the rounding of the rate to which
+/// it is added (half of the bound's own and all hits since), for as long as that stays below 1,700 mm/s.
 inline constexpr float kJumpSpeed = 1e-4F;
 /// And of itself.
 inline constexpr float kJump = 1e-6F;

@@ -21,12 +21,12 @@ namespace shaken {
 class VelocityJump {
  public:
   VelocityJump() = default;
-  /// Of the velocity [mm/s], and of the director's rate of change; the rate of precession was `rate_before` and is
-  /// `rate` now [rad/s].
+  /// By how much the velocity [mm/s] and the director's rate of change, `turning` [1/s], have changed; the rate of
+  /// precession was `rate_before` and is `rate` now [rad/s]. half_length: of the rod [mm].
   VelocityJump(const Vec3& velocity, const Vec3& turning, double rate_before, double rate, double half_length);
   /// A jump of unknown size, after which every bound must be made anew.
   static VelocityJump unknown();
-  /// Adds that the rod was displaced, and its director turned by so much.
+  /// Adds that the rod was displaced by `position` [mm], and its director, a unit vector, by `director`.
   void displace(const Vec3& position, const Vec3& director, double half_length);
 
   /// The added speed along unit vectors from this rod to others, in every lane [mm/s].

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limits>
+
 #include "sim/contact/impact_process.h"
 #include "sim/contact/impulse_lanes.h"
 

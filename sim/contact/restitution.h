@@ -22,7 +22,7 @@ inline double restitution_at(const ContactParameters& contact, double speed) {
   return falling_restitution(contact.restitution, speed, contact.restitution_speed);
 }
 
-/// The same of several contacts, in place of their speeds.
+/// The same of several contacts: speeds [mm/s] go in, restitutions come out in their places.
 void restitution_at(const ContactParameters& contact, std::span<double> speeds);
 
 }  // namespace shaken

@@ -448,15 +448,17 @@ void ScheduledStepper::store_changed(World& world, Tick now, Share& share) {
     if (displaced) skin_budgets_[i].measure(neighbors_, i, rods_[i].pose, now);
     const double half_length = rules_.species_of(i).half_length;
     if (marks_[i].rests_at == now) skin_budgets_[i].cover_tick(flight, half_length, now, rules_.dt, pull);
-    // one that is fast may come near another image, which the bound on the gap leaves out
-    if (std::max(std::abs(flight.velocity.x()), std::abs(flight.velocity.y())) >= slow) {
+    // One that is fast may come near another image, which the bound on the gap leaves out; so may one that was fast
+    // between two hits of this tick, which displaced it by more than a slow one flies meanwhile.
+    const Vec3 shift = displaced ? Vec3(rods_[i].pose.position - flight_pose_[i].position) : Vec3::Zero();
+    const auto in_plane = [](const Vec3& v) { return std::max(std::abs(v.x()), std::abs(v.y())); };
+    if (in_plane(flight.velocity) >= slow || in_plane(shift) >= slow * rules_.dt) {
       jumps_[i] = VelocityJump::unknown();
     } else if (displaced) {
       const Pose& undisplaced = flight_pose_[i];
       const Vec3 turning = flight.precession.cross(flight.director) - precession.cross(undisplaced.director);
       jumps_[i] = VelocityJump(flight.velocity - velocity, turning, rate, flight.rate, half_length);
-      jumps_[i].displace(rods_[i].pose.position - undisplaced.position, rods_[i].pose.director - undisplaced.director,
-                         half_length);
+      jumps_[i].displace(shift, rods_[i].pose.director - undisplaced.director, half_length);
     } else {
       const Vec3 turning = (flight.precession - precession).cross(flight.director);
       jumps_[i] = VelocityJump(flight.velocity - velocity, turning, rate, flight.rate, half_length);

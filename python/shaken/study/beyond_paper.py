@@ -10,8 +10,8 @@ import numpy as np
 
 from ..estimate import Estimate, derived
 from ..run import Run
-from .evidence import (BEADS, END, FREQUENCY, GAMMA, LENGTH, PACKING, SIDE, Evidence, Runs, box_of, box_text, key_of,
-                       number_of)
+from .evidence import (BEADS, END, FREQUENCY, GAMMA, LENGTH, PACKING, SIDE, Evidence, Runs, box_of, box_text,
+                       is_from_a_fluid, key_of, number_of)
 from .layer_checks import layered, wavelength
 from .motion_checks import late_velocity_correlation, papers_diffusion, speed_between
 from .rules import text
@@ -45,6 +45,7 @@ def seeds(runs: Runs) -> str:
 
 PACKED, LONG, BOX = key("φ", PACKING), key("ℓ", LENGTH, " mm"), ("box", lambda runs: box_text(runs[0]))
 SEEDS: Column = ("runs", seeds)
+START: Column = ("start", lambda runs: "a fluid" if is_from_a_fluid(runs[0]) else "rows")
 STEP = "time.step"
 
 
@@ -245,13 +246,11 @@ def elastic(evidence: Evidence) -> str:
 
 def blunt(evidence: Evidence) -> str:
     """Rods of 4 mm with ends of several diameters: crystalline order and P(theta), from rows and from a fluid."""
-    starts = [("rows", evidence["layer-trends"].at(4.0)), ("a fluid", evidence["fluid-start"].at(4.0))]
-    points = [(name, here) for name, runs in starts
-              for here in by(Runs(run for run in runs if key_of(run, PACKING) > 0.78), END, PACKING)]
-    named = {id(here): name for name, here in points}
-    return table([here for _, here in sorted(points, key=lambda point: (key_of(point[1][0], END),
-                                                                        key_of(point[1][0], PACKING)))], [
-        key("d", END, " mm"), PACKED, ("start", lambda here: named[id(here)]), SEEDS, number("S", "S"),
+    points = [here for name in ("layer-trends", "fluid-start")
+              for here in by(Runs(run for run in evidence[name].at(4.0) if key_of(run, PACKING) > 0.78), END, PACKING)]
+    points.sort(key=lambda here: (key_of(here[0], END), key_of(here[0], PACKING)))
+    return table(points, [
+        key("d", END, " mm"), PACKED, START, SEEDS, number("S", "S"),
         number("ψ₆", "psi_6"), number("Bragg peak", "bragg_peak"), number("P(0)/maximum", "dip"),
         number("layer order", "layer_order"), number("D along (mm²/s)", "diffusion_along_mm2_s")])
 
@@ -272,7 +271,7 @@ def strip(evidence: Evidence) -> str:
     both = [runs for there in by(strips, LENGTH, PACKING)
             for runs in (squares.at(key_of(there[0], LENGTH), key_of(there[0], PACKING), end=0.4), there)]
     return "The same rods in a strip, along whose length more wavelengths fit:\n\n" + table(both, [
-        LONG, PACKED, BOX, SEEDS, number("S", "S"), number("θ_m (°)", "theta_m_deg"),
+        LONG, PACKED, BOX, START, SEEDS, number("S", "S"), number("θ_m (°)", "theta_m_deg"),
         ("λ (mm)", lambda here: text(layered(here).of(wavelength))), ("step of λ (mm)", step),
         number("layer order", "layer_order")])
 

@@ -49,6 +49,11 @@ def box_text(run: Run) -> str:
     return f"{x:.3g} mm" if x == y else f"{x:.3g} × {y:.3g} mm"
 
 
+def is_from_a_fluid(run: Run) -> bool:
+    """Whether the run goes on from another one, in which the rows of its start have melted."""
+    return run.summary.get("start") is not None
+
+
 def number_of(run: Run, name: str) -> Estimate:
     """A number of a run. One that does not know whether it is steady, such as a diffusion constant, is as steady as its
     run."""

@@ -10,11 +10,8 @@ from ..plots import names
 from ..plots.panel import Panel
 from ..plots.sheet import Sheet
 from .layer_checks import layered, wavelength
-from .evidence import END, GAP, LENGTH, PACKING, SIDE, Runs, key_of
+from .evidence import END, GAP, LENGTH, PACKING, SIDE, Runs, box_text, key_of
 from .material import Material, angle_bar, draw_curves, draw_points, draw_rods, first_snapshot, packing_scale
-
-#: The box of the set `strip`, in a legend.
-STRIP = "21 × 126 mm"
 
 
 def g2(material: Material) -> Sheet:
@@ -150,16 +147,19 @@ def layers(material: Material) -> Sheet:
     sheet[1].reference(x=10, label="10°").reference(x=-10)
     material.stamp(sheet[1], "layers")
     by_end = evidence["layer-trends"].at(4.0, 0.85)
+    fluid = evidence["fluid-start"].at(4.0, 0.85)
     _angles(sheet[2], by_end, END, "ℓ = 4 mm, φ = 0.85")
     material.stamp(sheet[2], "peaks-end")
     by_length = [(trends.at(packing=packing, end=0.4), f"φ = {packing:g}, L = 42 mm") for packing in (0.80, 0.85)]
-    by_length.append((evidence["strip"].at(packing=0.85, end=0.4), f"φ = 0.85, {STRIP}"))
+    strips = evidence["strip"].at(packing=0.85, end=0.4)
+    by_length += [(strips, f"φ = 0.85, {box_text(strips[0])}")] if strips else []
     wide = [(evidence["wavelength-length"], "φ = 0.85, L = 84 mm"), *by_length]
-    wide_ends = [(evidence.joined("wavelength-end", "larger-box").at(4.0, 0.85), "L = 84 mm"), (by_end, "L = 42 mm")]
+    wide_ends = [(evidence.joined("wavelength-end", "larger-box").at(4.0, 0.85), "L = 84 mm"), (by_end, "L = 42 mm"),
+                 (fluid, "from a fluid")]
     _against(sheet[3], by_length, LENGTH, "theta_m_deg", "angle")
     sheet[3].reference(y=10, label="the paper: about 10°")
     material.stamp(sheet[3], "angle-length")
-    _against(sheet[4], [(by_end, "φ = 0.85")], END, "theta_m_deg", "angle, ℓ = 4 mm")
+    _against(sheet[4], [(by_end, "φ = 0.85"), (fluid, "from a fluid")], END, "theta_m_deg", "angle, ℓ = 4 mm")
     material.stamp(sheet[4], "angle-end")
     _cuts_across(sheet[5], long_, scale)
     material.stamp(sheet[5], "g2-oscillates")
@@ -190,7 +190,7 @@ def layer_trends(material: Material) -> Sheet:
     trends = material.evidence.joined("layers", "layer-trends")
     series = [(trends.at(length, end=0.4), names.value_label(LENGTH, length)) for length in (4.0, 4.5)]
     strips = Runs(run for run in material.evidence["strip"].at(4.5) if key_of(run, PACKING) > 0.78)
-    series.append((strips, f"{names.value_label(LENGTH, 4.5)}, {STRIP}"))
+    series += [(strips, f"{names.value_label(LENGTH, 4.5)}, {box_text(strips[0])}")] if strips else []
     sheet = material.sheet(3)
     for panel, name, statement in zip(sheet, ("theta_m_deg", "wavelength_mm", "layer_order"),
                                       ("angle-packing", "wavelength-packing", "")):

@@ -9,15 +9,14 @@ import numpy as np
 
 from ..estimate import Estimate
 from ..run import Run
-from .evidence import END, GAP, LENGTH, PACKING, Evidence, Runs, box_of, box_text, key_of, number_of
+from .evidence import (END, GAP, LENGTH, PACKING, Evidence, Runs, box_of, box_text, is_from_a_fluid,
+                       key_of, number_of)
 from .rules import (NOT_RUN, Answer, Finding, above, below, close_to, conclude, larger, listed, no, refutable, text,
                     trend, unknown, yes)
 
 #: P(0) over the maximum of P(theta): below it there are two peaks, above it there is one.
 TWO_PEAKS = 0.95
 
-#: What is said of runs that start as a nematic fluid, which was compressed, in place of the rows of the others.
-FLUID = " (from a fluid)"
 
 
 def two_peaks(runs: Runs) -> Answer:
@@ -49,6 +48,12 @@ def _angle_text(runs: Runs) -> str:
     return f"θ_m = ±{text(theta)}°" if theta.is_known else f"no second peak, dip to {text(runs.number('dip'))}"
 
 
+def _start_text(runs: Runs) -> str:
+    """What is said of runs of which some do not start in rows."""
+    n = sum(is_from_a_fluid(run) for run in runs)
+    return " (from a fluid)" if n == len(runs) else " (in part from a fluid)" if n else ""
+
+
 def _gap_text(runs: Runs) -> str:
     return (f"w = {key_of(runs[0], GAP):g} mm: {_angle_text(runs)}, layer order {text(runs.number('layer_order'))}, "
             f"Bragg peak {text(runs.number('bragg_peak'))}")
@@ -57,7 +62,7 @@ def _gap_text(runs: Runs) -> str:
 def _widest(runs: Runs) -> Runs:
     """Those in the box that is widest across the director, into which most layers fit."""
     width = max((box_of(run)[1] for run in runs), default=0.0)
-    return Runs(run for run in runs if box_of(run)[1] == width)
+    return Runs(run for run in runs if box_of(run)[1] > 0.99 * width)
 
 
 def layers_when_dense(evidence: Evidence) -> Finding:
@@ -74,7 +79,7 @@ def layers_when_dense(evidence: Evidence) -> Finding:
         else:
             answer = close_to(runs.number("theta_m_deg"), 10, 4) if two.word else two
         answers.append(answer.placed(f"{packing:g}"))
-        found.append(f"φ = {packing:g}: {_angle_text(runs)} in {box_text(runs[0])}")
+        found.append(f"φ = {packing:g}: {_angle_text(runs)} in {box_text(runs[0])}{_start_text(runs)}")
     return conclude(answers, "; ".join(found))
 
 
@@ -144,7 +149,7 @@ def _trend(series: list[tuple[Runs, str]], name: str, rising: bool, unit: str) -
             continue
         where = ", ".join(f"{symbols[other]} = {key_of(runs[0], other):g}" for other in (LENGTH, PACKING)
                           if other != key)
-        where += f", {box_text(runs[0])}"
+        where += f", {box_text(runs[0])}{_start_text(runs)}"
         answers.append((trend(points, rising) if len(points) > 1 else unknown("layers at fewer than two points"))
                        .placed(where))
         found.append(f"{where}: " + (listed(points, symbols[key], unit) or "no layers"))
@@ -164,7 +169,7 @@ def _by_length(evidence: Evidence) -> list[tuple[Runs, str]]:
 
 
 def _by_end(evidence: Evidence) -> list[tuple[Runs, str]]:
-    return [(evidence.joined("layer-trends", "fluid-start").at(4.0, 0.85), END)]
+    return [(evidence[name].at(4.0, 0.85), END) for name in ("layer-trends", "fluid-start")]
 
 
 def angle_grows_with_packing(evidence: Evidence) -> Finding:
@@ -188,13 +193,12 @@ def _whatever_the_start(answers: list[Answer]) -> Answer:
 
 def two_peaks_at_every_end(evidence: Evidence) -> Finding:
     answers, found = [], []
-    [(runs, _)] = _by_end(evidence)
-    for end in runs.values(END) if len(runs.values(END)) > 1 else []:
-        starts = [(here, name) for name in ("layer-trends", "fluid-start")
-                  if (here := evidence[name].at(4.0, 0.85, end=end))]
-        answers.append(_whatever_the_start([two_peaks(here) for here, _ in starts]).placed(f"d = {end:g} mm"))
-        found.append(f"d = {end:g} mm: " + ", ".join(_angle_text(here) + (FLUID if name == "fluid-start" else "")
-                                                     for here, name in starts))
+    series = [runs for runs, _ in _by_end(evidence)]
+    ends = sorted({end for runs in series for end in runs.values(END)})
+    for end in ends if len(ends) > 1 else []:
+        starts = [here for runs in series if (here := runs.at(end=end))]
+        answers.append(_whatever_the_start([two_peaks(here) for here in starts]).placed(f"d = {end:g} mm"))
+        found.append(f"d = {end:g} mm: " + ", ".join(_angle_text(here) + _start_text(here) for here in starts))
     return conclude(answers, "; ".join(found), everywhere=True)
 
 

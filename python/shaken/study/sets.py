@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -28,7 +29,8 @@ class Scale:
     """What is done to the sweeps, which are written for a desk, at another scale.
 
     accuracy: of all points but the controls, which are left out where it is the paper's
-    side:     factor on the sides of the boxes; `least_side` [mm] is the smallest side that results
+    side:     factor on the sides of the boxes; no side becomes less than `least_side` [mm], and no box smaller than a
+              square of side `least_square` [mm]
     time:     factor on all times; replicas: the most of a point
     """
 
@@ -36,6 +38,7 @@ class Scale:
     accuracy: str
     side: float = 1.0
     least_side: float = 0.0
+    least_square: float = 0.0
     time: float = 1.0
     replicas: int = 1000
     shown: str = ""
@@ -43,8 +46,8 @@ class Scale:
 
 SCALES = {scale.name: scale for scale in (
     Scale("tiny", "draft", side=0.3, least_side=16.5, time=0.01, replicas=2, shown="minutes: to see that all is there"),
-    Scale("desk", "desk", shown="some 30 hours of one core: what decides the statements"),
-    Scale("paper", "paper", side=2.0, least_side=83.73, time=3.0,
+    Scale("desk", "desk", shown="some 50 hours of one core: what decides the statements"),
+    Scale("paper", "paper", side=2.0, least_square=83.73, time=3.0,
           shown="the paper's box, times and step: a cluster's"))}
 
 
@@ -65,10 +68,12 @@ def scaled(sweep: dict[str, Any], scale: Scale) -> dict[str, Any]:
     found = json.loads(json.dumps(sweep))
     found["name"] = found["name"].rpartition("-")[0] + "-" + scale.name
     scene = found["scene"]
-    side = scene.get("box", {}).get("side", SIDE_OF_COUNTS)
-    area = (_number(_side(side, scale)) / _number(side)) ** 2
-    if "side" in scene.get("box", {}):
-        scene["box"]["side"] = _side(side, scale)
+    box = scene.get("box", {})
+    aspect = box.get("aspect", 1.0)
+    side = box.get("side", SIDE_OF_COUNTS)
+    area = (_number(_side(side, scale, aspect)) / _number(side)) ** 2
+    if "side" in box:
+        box["side"] = _side(side, scale, aspect)
     if scale.name == "tiny" and "movie" in scene:
         scene["trajectory"]["every"] = scene["movie"]["every"] = "20 ms"
     if "accuracy" in scene:
@@ -82,7 +87,9 @@ def scaled(sweep: dict[str, Any], scale: Scale) -> dict[str, Any]:
             continue  # the controls
         for factor in (part["grid"], part.get("zip", {}), *part.get("stages", [])):
             for key, values in factor.items():
-                factor[key] = _scaled_values(key, values, scale, area)
+                factor[key] = _scaled_values(key, values, scale, aspect, area)
+            if "box.side" in factor and factor is part["grid"]:
+                factor["box.side"] = list(dict.fromkeys(factor["box.side"]))
         if "replicas" in part:
             part["replicas"] = min(part["replicas"], scale.replicas)
         parts.append(part)
@@ -90,12 +97,14 @@ def scaled(sweep: dict[str, Any], scale: Scale) -> dict[str, Any]:
     return found
 
 
-def _scaled_values(key: str, values: list[Any], scale: Scale, area: float) -> list[Any]:
+def _scaled_values(key: str, values: list[Any], scale: Scale, aspect: float, area: float) -> list[Any]:
     """The values of a swept key at another scale, at which the boxes have `area` times their area."""
+    if isinstance(values, str):
+        return values  # a range
     if key == "accuracy":
         return [scale.accuracy]
     if key == "box.side":
-        return list(dict.fromkeys(None if value is None else _side(value, scale) for value in values))
+        return [None if value is None else _side(value, scale, aspect) for value in values]
     if key in ("time.steady", "time.measure"):
         return [_time(value, scale) for value in values]
     if key == "time.seed":
@@ -107,8 +116,10 @@ def _number(value: str | float) -> float:
     return float(str(value).split()[0])
 
 
-def _side(value: str | float, scale: Scale) -> str:
-    return f"{max(_number(value) * scale.side, scale.least_side):g} mm"
+def _side(value: str | float, scale: Scale, aspect: float) -> str:
+    """The side along x of a box whose other side is `aspect` times as long."""
+    least = max(scale.least_side, scale.least_square / math.sqrt(aspect))
+    return f"{max(_number(value) * scale.side, least):g} mm"
 
 
 def _time(value: str | float, scale: Scale) -> str:
