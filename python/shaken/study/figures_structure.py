@@ -153,19 +153,17 @@ def layers(material: Material) -> Sheet:
     by_length = [(trends.at(packing=packing, end=0.4), f"φ = {packing:g}, L = 42 mm") for packing in (0.80, 0.85)]
     strips = evidence["strip"].at(packing=0.85, end=0.4)
     by_length += [(strips, f"φ = 0.85, {box_text(strips[0])}")] if strips else []
-    wide = [(evidence["wavelength-length"], "φ = 0.85, L = 84 mm"), *by_length]
-    wide_ends = [(evidence.joined("wavelength-end", "larger-box").at(4.0, 0.85), "L = 84 mm"), (by_end, "L = 42 mm"),
-                 (fluid, "from a fluid")]
+    starts = [(by_end, "from rows"), (fluid, "from a fluid")]
     _against(sheet[3], by_length, LENGTH, "theta_m_deg", "angle")
     sheet[3].reference(y=10, label="the paper: about 10°")
     material.stamp(sheet[3], "angle-length")
-    _against(sheet[4], [(by_end, "φ = 0.85"), (fluid, "from a fluid")], END, "theta_m_deg", "angle, ℓ = 4 mm")
+    _against(sheet[4], starts, END, "theta_m_deg", "angle, ℓ = 4 mm")
     material.stamp(sheet[4], "angle-end")
     _cuts_across(sheet[5], long_, scale)
     material.stamp(sheet[5], "g2-oscillates")
-    _against(sheet[6], wide, LENGTH, "wavelength_mm", "wavelength")
+    _against(sheet[6], by_length, LENGTH, "wavelength_mm", "wavelength")
     material.stamp(sheet[6], "wavelength-length")
-    _against(sheet[7], wide_ends, END, "wavelength_mm", "wavelength, ℓ = 4 mm")
+    _against(sheet[7], starts, END, "wavelength_mm", "wavelength, ℓ = 4 mm")
     material.stamp(sheet[7], "wavelength-end")
     panel = sheet[8].titles("wave number $q_⊥$ (1/mm)", "spectrum of sin 2(θ − θ$_N$)", "across the director")
     panel.scale(y="log")
@@ -200,8 +198,7 @@ def layer_trends(material: Material) -> Sheet:
                 draw_points(panel, runs.points(PACKING, name), label, k)
             panel.range(y=(0, None))
             continue
-        wide = [(material.evidence["wavelength-packing"], "ℓ = 4 mm, L = 126 mm")] if name == "wavelength_mm" else []
-        _against(panel, series + wide, PACKING, name, "angle" if name == "theta_m_deg" else "wavelength")
+        _against(panel, series, PACKING, name, "angle" if name == "theta_m_deg" else "wavelength")
         material.stamp(panel, statement)
     return sheet
 
@@ -209,7 +206,7 @@ def layer_trends(material: Material) -> Sheet:
 def larger_box(material: Material) -> Sheet:
     """Layers of 4 mm rods in a box twice as wide."""
     small = material.evidence["layer-trends"].at(4.0, 0.85, end=0.4)
-    large = material.evidence.joined("larger-box", "wavelength-length").at(4.0, 0.85, end=0.4)
+    large = material.evidence["larger-box"].at(4.0, 0.85, end=0.4)
     both = Runs([*small, *large])
     sheet = material.sheet(4, columns=2, height=58)
     for panel, runs in ((sheet[0], small), (sheet[1], large)):

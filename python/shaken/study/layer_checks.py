@@ -203,20 +203,19 @@ def two_peaks_at_every_end(evidence: Evidence) -> Finding:
 
 
 def wavelength_falls_with_packing(evidence: Evidence) -> Finding:
-    return _trend([(evidence["wavelength-packing"], PACKING), *_by_packing(evidence)], "wavelength_mm", False, " mm")
+    return _trend(_by_packing(evidence), "wavelength_mm", False, " mm")
 
 
 def wavelength_grows_with_length(evidence: Evidence) -> Finding:
-    return _trend([(evidence["wavelength-length"], LENGTH), *_by_length(evidence)], "wavelength_mm", True, " mm")
+    return _trend(_by_length(evidence), "wavelength_mm", True, " mm")
 
 
 def wavelength_grows_with_end(evidence: Evidence) -> Finding:
-    wide = evidence.joined("wavelength-end", "larger-box", "wavelength-length").at(4.0, 0.85)
-    return _trend([(wide, END), *_by_end(evidence)], "wavelength_mm", True, " mm")
+    return _trend(_by_end(evidence), "wavelength_mm", True, " mm")
 
 
 def larger_box(evidence: Evidence) -> Finding:
-    large = evidence.joined("larger-box", "wavelength-length").at(4.0, 0.85, end=0.4)
+    large = evidence["larger-box"].at(4.0, 0.85, end=0.4)
     small = evidence["layer-trends"].at(4.0, 0.85, end=0.4)
     if not large or not small:
         return Finding()

@@ -16,8 +16,7 @@ ORDER: tuple[tuple[str, str], ...] = (
     ("A", "long-rods"), ("B", "dilute"), ("G", "layers"), ("C", "mechanism"), ("D", "shaking"), ("E", "crossings"),
     ("F", "size"), ("H", "gaps"), ("J", "diffusion-along"), ("AA", "strip"), ("I", "layer-trends"), ("K", "short-rods"),
     ("AB", "fluid-start"), ("M", "larger-box"), ("U", "frequency"), ("V", "phases"), ("X", "beads"),
-    ("R", "elasticity"), ("S", "turned"), ("P", "wavelength-end"), ("Q", "long-range"), ("L", "no-order"),
-    ("O", "wavelength-length"), ("N", "wavelength-packing"), ("W", "density"), ("T", "diffusion"),
+    ("R", "elasticity"), ("S", "turned"), ("Q", "long-range"), ("L", "no-order"), ("W", "density"), ("T", "diffusion"),
     ("Y", "equilibrium"), ("Z", "movies"))
 
 #: Side [mm] of the boxes of those sets that give a number of rods in place of a side.
@@ -46,7 +45,7 @@ class Scale:
 
 SCALES = {scale.name: scale for scale in (
     Scale("tiny", "draft", side=0.3, least_side=16.5, time=0.01, replicas=2, shown="minutes: to see that all is there"),
-    Scale("desk", "desk", shown="some 50 hours of one core: what decides the statements"),
+    Scale("desk", "desk", shown="some 40 hours of one core: what decides the statements"),
     Scale("paper", "paper", side=2.0, least_square=83.73, time=3.0,
           shown="the paper's box, times and step: a cluster's"))}
 
