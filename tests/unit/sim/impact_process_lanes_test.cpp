@@ -93,7 +93,7 @@ TEST(ImpactProcessLanes, HaveTheBitsOfOneImpactAfterTheOther) {
     }
   }
   for (const Way one : {kAny, kStraight, kSticking}) {
-    EXPECT_GT(n_known_of[one], n_of[one] / 3) << one;
+    EXPECT_GT(n_known_of[one], n_of[one] / 4) << one;
     EXPECT_LT(n_known_of[one], n_of[one]) << one;
   }
 }

@@ -191,7 +191,7 @@ TEST(PlateImpacts, InLanesAreBitForBitThoseOfOneRodAfterTheOther) {
   }
   // most are dealt with, in every way there is
   EXPECT_LT(n_left, n_rods / 3);
-  EXPECT_GT(n_hit, n_rods / 10);
+  EXPECT_GT(n_hit, n_rods / 12);
   for (const int n : n_hit_of) EXPECT_GT(n, n_hit / 100);
   EXPECT_GT(n_met, n_rods / 100);
   EXPECT_GT(n_displaced, n_rods / 2000);
