@@ -448,17 +448,18 @@ void ScheduledStepper::store_changed(World& world, Tick now, Share& share) {
     if (displaced) skin_budgets_[i].measure(neighbors_, i, rods_[i].pose, now);
     const double half_length = rules_.species_of(i).half_length;
     if (marks_[i].rests_at == now) skin_budgets_[i].cover_tick(flight, half_length, now, rules_.dt, pull);
-    // One that is fast may come near another image, which the bound on the gap leaves out; so may one that was fast
-    // between two hits of this tick, which displaced it by more than a slow one flies meanwhile.
-    const Vec3 shift = displaced ? Vec3(rods_[i].pose.position - flight_pose_[i].position) : Vec3::Zero();
+    // one that is fast may come near another image, which the bound on the gap leaves out
     const auto in_plane = [](const Vec3& v) { return std::max(std::abs(v.x()), std::abs(v.y())); };
-    if (in_plane(flight.velocity) >= slow || in_plane(shift) >= slow * rules_.dt) {
+    if (in_plane(flight.velocity) >= slow) {
       jumps_[i] = VelocityJump::unknown();
     } else if (displaced) {
       const Pose& undisplaced = flight_pose_[i];
       const Vec3 turning = flight.precession.cross(flight.director) - precession.cross(undisplaced.director);
       jumps_[i] = VelocityJump(flight.velocity - velocity, turning, rate, flight.rate, half_length);
+      const Vec3 shift = rods_[i].pose.position - undisplaced.position;
       jumps_[i].displace(shift, rods_[i].pose.director - undisplaced.director, half_length);
+      // so may one that was fast between two hits of this tick, which moved it by more than a slow one flies meanwhile
+      if (in_plane(shift) >= slow * rules_.dt) jumps_[i] = VelocityJump::unknown();
     } else {
       const Vec3 turning = (flight.precession - precession).cross(flight.director);
       jumps_[i] = VelocityJump(flight.velocity - velocity, turning, rate, flight.rate, half_length);

@@ -154,9 +154,17 @@ struct PlateHitKernel {
       hits.flight_position.store(l, rods.pose.position);
       hits.flight_director.store(l, rods.pose.director);
     }
-    // one copy of the code: it must fit into the cache
-    for (int k = rules.has_base ? 0 : 1; k < (rules.has_lid ? 2 : 1); ++k) {
-      meet_plate<W>(l, plates_met[k], rods, hits.of_plate[k]);
+    if constexpr (kIsUsual) {  // a copy for each plate, in which its side is a constant
+      const auto met = [&](double side, int k) __attribute__((always_inline)) {
+        const PlateMet& plate = plates_met[k];
+        meet_plate<W>(l, PlateMet{side, plate.height, plate.velocity, plate.contact}, rods, hits.of_plate[k]);
+      };
+      if (rules.has_base) met(1.0, 0);
+      if (rules.has_lid) met(-1.0, 1);
+    } else {  // one copy: it must fit into the cache
+      for (int k = rules.has_base ? 0 : 1; k < (rules.has_lid ? 2 : 1); ++k) {
+        meet_plate<W>(l, plates_met[k], rods, hits.of_plate[k]);
+      }
     }
     hits.position.store(l, rods.pose.position);
     hits.director.store(l, rods.pose.director);
