@@ -396,6 +396,8 @@ def test_layers_of_blunt_rods_that_depend_on_the_start_are_open():
     found = CHECKS["peaks-end"].check(Evidence(rows + rods(0.6, LAYERED, "fluid-start")))
     assert found.verdict == rules.OPEN and found.why == "d = 0.6 mm (it depends on the start)"
     assert found.found.count("(from a fluid)") == 1
+    frozen = layers(0.85, LAYERED, "fluid-start", length=4.0, end=0.6, S=0.2)
+    assert "froze without order" in CHECKS["peaks-end"].check(Evidence(rows + frozen)).why
     # a trend is of one start: ends of 0.4 mm from rows and of 0.6 mm from a fluid are two points of two
     found = CHECKS["angle-end"].check(Evidence(rows + rods(0.6, LAYERED, "fluid-start")))
     assert found.verdict == rules.OPEN and "fewer than two points" in found.why

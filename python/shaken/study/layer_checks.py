@@ -184,6 +184,11 @@ def angle_falls_with_end(evidence: Evidence) -> Finding:
     return _trend(_by_end(evidence), "theta_m_deg", False, "°")
 
 
+def _two_peaks_in_order(runs: Runs) -> Answer:
+    """As two_peaks, of rods that have an order to which layers could be turned."""
+    return two_peaks(runs) if runs.number("S").value > 0.5 else unknown("the rods froze without order")
+
+
 def _whatever_the_start(answers: list[Answer]) -> Answer:
     """The answer of runs from several starts, where they say the same."""
     open_ = [answer for answer in answers if answer.word is None]
@@ -197,7 +202,7 @@ def two_peaks_at_every_end(evidence: Evidence) -> Finding:
     ends = sorted({end for runs in series for end in runs.values(END)})
     for end in ends if len(ends) > 1 else []:
         starts = [here for runs in series if (here := runs.at(end=end))]
-        answers.append(_whatever_the_start([two_peaks(here) for here in starts]).placed(f"d = {end:g} mm"))
+        answers.append(_whatever_the_start([_two_peaks_in_order(here) for here in starts]).placed(f"d = {end:g} mm"))
         found.append(f"d = {end:g} mm: " + ", ".join(_angle_text(here) + _start_text(here) for here in starts))
     return conclude(answers, "; ".join(found), everywhere=True)
 
