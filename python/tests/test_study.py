@@ -15,7 +15,7 @@ from conftest import PROGRAMS
 from shaken.archive import Snapshot
 from shaken.errors import ShakenError
 from shaken.estimate import Estimate
-from shaken.study import sets, time_step
+from shaken.study import running, sets, time_step
 from shaken.study.evidence import Evidence
 from shaken.study.figures import FIGURES
 from shaken.study.material import defects_of
@@ -107,6 +107,33 @@ def test_every_set_has_its_sweep_at_every_scale(programs):
             file.write_text(json.dumps(sweep))
             assert sweep["name"] == f"{name}-{scale.name}"
             programs.shaken("validate", file)
+
+
+@pytest.mark.parametrize("scale", ["desk", "tiny"])
+def test_what_is_missing_is_what_is_submitted(programs, tmp_path, scale):
+    program = str(PROGRAMS / "shaken")
+    every = running.Plan(program, sets.sweeps(SOURCE / "configs" / "figures" / "desk", sets.SCALES[scale]), tmp_path)
+    assert len({point.set for point in every.missing}) == len(sets.ORDER)
+    for name in every.sweeps:
+        submitted = [point["id"] for point in running.points_of(program, every.sweep_of_missing(name))]
+        assert sorted(submitted) == sorted(point.id for point in every.missing if point.set == name)
+    every.missing = [point for point in every.missing if point.id == every.missing[-1].id
+                     or (point.set == "fluid-start" and point.parameters["stage"] == 2
+                         and point.parameters["rods.end_diameter"] == 0.5)]
+    chains = running.points_of(program, every.sweep_of_missing("fluid-start"))
+    assert {point.id for point in every.missing if point.set == "fluid-start"} < {point["id"] for point in chains}
+    assert {point["parameters"]["rods.end_diameter"] for point in chains} == {0.5}, "what lacks nothing is not run anew"
+    assert len(running.points_of(program, every.sweep_of_missing("movies"))) == 1
+
+
+def test_an_error_beside_a_daemon_is_reported_as_it_is(programs, tmp_path):
+    said = []
+    for _ in range(2):
+        with pytest.raises(ShakenError, match="^no such point$"):
+            with running.daemon_at(tmp_path, str(PROGRAMS / "shaken"), said.append):
+                with running.daemon_at(tmp_path, str(PROGRAMS / "shaken"), said.append):
+                    raise ShakenError("no such point")
+    assert len(said) == 2 and all("one has been started" in line for line in said)
 
 
 def test_numbers_of_rods_grow_with_the_boxes():

@@ -31,10 +31,12 @@ _SPEED = ((0.45, 0.65, 0.75, 0.85), (860.0, 560.0, 420.0, 350.0))
 class Missing:
     """A point of a set that is not in the archive.
 
+    part: which of the products of the set's sweep it is of, from 0
     cost: [CPU s], by the speed of the runs that are
     """
 
     set: str
+    part: int
     id: str
     parameters: dict[str, Any]
     rods: int
@@ -72,9 +74,13 @@ class Plan:
         self.order: dict[str, int] = {}  # id -> place of the run in its sweep
         self.n_points = 0
         for name, sweep in self.sweeps.items():
-            for place, point in enumerate(points_of(shaken, sweep)):
+            points: dict[str, tuple[int, dict[str, Any]]] = {}
+            for part, product in enumerate(sweep["sweep"]):
+                for point in points_of(shaken, {**sweep, "sweep": product}):
+                    points.setdefault(point["id"], (part, point))
+            self.n_points += len(points)
+            for place, (part, point) in enumerate(points.values()):
                 self.order.setdefault(point["id"], place)
-                self.n_points += 1
                 seconds = float(point["sim_seconds"])
                 run = have.get(point["id"])
                 if run is not None and run.summary["sim_seconds"] >= seconds * (1 - 1e-9):
@@ -84,8 +90,25 @@ class Plan:
                 rods = int(point["n_rods"])
                 per = speed(have.values(), float(point["area_fraction"]))
                 fine = 1.6e-5 / (seconds / int(point["ticks"]))
-                self.missing.append(Missing(name, point["id"], parameters, rods, seconds,
+                self.missing.append(Missing(name, part, point["id"], parameters, rods, seconds,
                                             rods * seconds / per * (1 if fine < 1.5 else 1.7)))
+
+    def sweep_of_missing(self, name: str) -> dict[str, Any]:
+        """The sweep of what a set lacks: single runs, and chains of stages from their first stage on, for each stage
+        begins where the one before has ended."""
+        products = []
+        for part, product in enumerate(self.sweeps[name]["sweep"]):
+            stages = product.get("stages", [])
+            of_stages = {"stage", *(key for stage in stages for key in stage)}
+            entries: list[dict[str, Any]] = []
+            for point in self.missing:
+                entry = {**dict.fromkeys(product.get("grid", {})), **point.parameters}  # null is no parameter
+                entry = {key: value for key, value in entry.items() if key not in of_stages}
+                if (point.set, point.part) == (name, part) and entry not in entries:
+                    entries.append(entry)
+            if entries:
+                products.append({"list": entries, **({"stages": stages} if stages else {})})
+        return {**self.sweeps[name], "sweep": products}
 
     def cost(self, name: str | None = None) -> float:
         """CPU seconds of what is missing; of one set if it is named."""
@@ -131,13 +154,12 @@ def run_plan(plan: Plan, daemon: Daemon, budget: float = math.inf, *, say: Calla
             return []
         if waiting and "queued" not in states:
             name = waiting.pop(0)
-            points = [point for point in plan.missing if point.set == name]
-            sweep = plan.sweeps[name]
-            submitted = daemon.submit({**sweep, "sweep": {"list": [point.parameters for point in points]}},
-                                      name=sweep["name"], soft_limit_s=_SOFT_LIMIT, time_limit_s=_TIME_LIMIT)
+            sweep = plan.sweep_of_missing(name)
+            submitted = daemon.submit(sweep, name=sweep["name"], soft_limit_s=_SOFT_LIMIT, time_limit_s=_TIME_LIMIT)
             daemon.ask("POST", f"/v1/sweeps/{submitted}/resume")  # of what was held when a budget had ended
             at_work[submitted] = sweep["name"]
-            say(f"{sweep['name']}: {len(points)} runs, about {plan.cost(name) / 3600:.2f} CPU-h")
+            say(f"{sweep['name']}: {sum(point.set == name for point in plan.missing)} runs, about "
+                f"{plan.cost(name) / 3600:.2f} CPU-h")
             continue
         if not waiting and all(state in ENDED for state in states):
             return [f"{job['id'][:8]} {name} {job['label']}: {job['state']}: {job['reason']}"
@@ -185,31 +207,32 @@ class _Spent:
         return sum(now - self._first[job] for job, now in self._now.items())
 
 
+def _is_served(daemon: Daemon) -> bool:
+    try:
+        daemon.status()
+    except ShakenError:
+        return False
+    return True
+
+
 @contextlib.contextmanager
 def daemon_at(root: Path | None, shaken: str, say: Callable[[str], None] = print) -> Iterator[Daemon]:
     """The daemon of a root; where none serves it, one of our own, which goes with us."""
     daemon = Daemon(root)
-    try:
-        daemon.status()
+    if _is_served(daemon):
         yield daemon
         return
-    except ShakenError:
-        pass
     program_ = Path(shaken).with_name("shakend")
     daemon.root.mkdir(parents=True, exist_ok=True)
     ours = subprocess.Popen([str(program_), "--root", str(daemon.root), "--quiet", "--no-lcm"], start_new_session=True,
                             stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     try:
         end = time.monotonic() + 60
-        while True:
-            try:
-                daemon.status()
-                break
-            except ShakenError:
-                if ours.poll() is not None or time.monotonic() > end:
-                    words = ours.stderr.read().strip() if ours.stderr else ""
-                    raise ShakenError(f"no daemon could be started: {words}") from None
-                time.sleep(0.1)
+        while not _is_served(daemon):
+            if ours.poll() is not None or time.monotonic() > end:
+                words = ours.stderr.read().strip() if ours.stderr else ""
+                raise ShakenError(f"no daemon could be started: {words}")
+            time.sleep(0.1)
         say(f"no daemon served {daemon.root}: one has been started, which ends with this command")
         yield daemon
     finally:

@@ -15,8 +15,8 @@ from ..errors import ShakenError
 ORDER: tuple[tuple[str, str], ...] = (
     ("A", "long-rods"), ("B", "dilute"), ("G", "layers"), ("C", "mechanism"), ("D", "shaking"), ("E", "crossings"),
     ("F", "size"), ("H", "gaps"), ("J", "diffusion-along"), ("AA", "strip"), ("I", "layer-trends"), ("K", "short-rods"),
-    ("AB", "fluid-start"), ("M", "larger-box"), ("U", "frequency"), ("V", "phases"), ("X", "beads"),
-    ("R", "elasticity"), ("S", "turned"), ("Q", "long-range"), ("L", "no-order"), ("W", "density"), ("T", "diffusion"),
+    ("AB", "fluid-start"), ("S", "turned"), ("Q", "long-range"), ("M", "larger-box"), ("U", "frequency"),
+    ("V", "phases"), ("X", "beads"), ("R", "elasticity"), ("L", "no-order"), ("W", "density"), ("T", "diffusion"),
     ("Y", "equilibrium"), ("Z", "movies"))
 
 #: Side [mm] of the boxes of those sets that give a number of rods in place of a side.
