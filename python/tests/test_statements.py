@@ -67,6 +67,17 @@ def cuts(along, across, error=0.005, g_along=1.05, g_across=1.3, n=40):
     return found
 
 
+def waves(bend, splay, error=0.05, turned=0.1):
+    """Power of the director's fluctuations at the waves of a square box whose sides the director is `turned` from."""
+    m, n = (axis.ravel() for axis in np.meshgrid(np.arange(-3, 4), np.arange(0, 4)))
+    along, across = m * np.cos(turned) + n * np.sin(turned), n * np.cos(turned) - m * np.sin(turned)
+    chosen = along**2 + across**2 > 0
+    along, across = along[chosen], across[chosen]
+    power = 1 / (along**2 / bend + across**2 / splay)
+    return {"/frank/q_along_per_mm": 0.1 * along, "/frank/q_across_per_mm": 0.1 * across, "/frank/power_mm2": power,
+            "/frank/power_sem_mm2": error * power}
+
+
 def wave(amplitude, error=0.005):
     r = np.linspace(0.3, 13, 40)
     return cuts(0.5, 0.5 + amplitude * np.cos(2 * np.pi * r / 5), error)
@@ -235,9 +246,8 @@ CASES = {
                   runs("dilute", 0.45, arrays=cuts(0.1, 0.1, 0.2))),
     "anisotropy": (runs("layers", 0.75, arrays=cuts(0.8, 0.7)), runs("layers", 0.75, arrays=cuts(0.7, 0.8)),
                    runs("layers", 0.75, arrays=cuts(0.8, 0.75, 0.2))),
-    "splay-bend": (runs("elasticity", 0.65, {"frank_ratio": (0.6, 0.05), "frank_chi2": 1.1}),
-                   runs("elasticity", 0.65, {"frank_ratio": (1.6, 0.05), "frank_chi2": 1.1}),
-                   runs("elasticity", 0.65, {"frank_ratio": (0.6, 0.05), "frank_chi2": 11.0})),
+    "splay-bend": tuple(runs("elasticity", 0.65, arrays=waves(*powers))
+                        for powers in ((2.0, 1.0), (1.0, 2.0), (2.0, 1.0, 1.0))),
     "layers": (layers(0.75, PLAIN) + layers(0.80, LAYERED) + layers(0.85, LAYERED),
                layers(0.75, LAYERED) + layers(0.80, PLAIN) + layers(0.85, PLAIN),
                layers(0.75, VAGUE) + layers(0.80, VAGUE) + layers(0.85, LAYERED)),

@@ -12,6 +12,7 @@ from ..plots.sheet import Sheet
 from .layer_checks import layered, wavelength
 from .evidence import END, GAP, LENGTH, PACKING, SIDE, Runs, box_text, key_of
 from .material import Material, angle_bar, draw_curves, draw_points, draw_rods, first_snapshot, packing_scale
+from .structure_checks import opposite_waves
 
 
 def g2(material: Material) -> Sheet:
@@ -263,14 +264,12 @@ def elasticity(material: Material) -> Sheet:
     ratio = Runs([*runs, *material.evidence["long-rods"]])
     sheet = material.sheet(2, columns=2, height=55)
     panel = sheet[0].titles("wave number q (1/mm)", "power of the director (mm²)", "φ = 0.65").scale("log", "log")
-    for run in runs[:1]:
-        q_along, q_across = np.asarray(run["/frank/q_along_per_mm"]), np.asarray(run["/frank/q_across_per_mm"])
-        power, error = np.asarray(run["/frank/power_mm2"]), np.asarray(run["/frank/power_mm2"].error)
-        turned = np.degrees(np.arctan2(abs(q_across), abs(q_along)))
-        for k, (label, chosen) in enumerate((("along: bend", turned < 25), ("across: splay", turned > 65))):
-            order = np.argsort(np.hypot(q_along, q_across)[chosen])
-            panel.curve(np.hypot(q_along, q_across)[chosen][order], power[chosen][order], error[chosen][order],
-                        label=label, colour=k, look="points", joined=False)
+    for waves in [opposite_waves(run) for run in runs[:1]]:
+        for k, label in enumerate(("along: bend", "across: splay")):
+            powers = [wave[1 + k] for wave in waves]
+            panel.curve(np.array([wave[0] for wave in waves]), np.array([power.value for power in powers]),
+                        np.array([power.error for power in powers]), label=label, colour=k, look="points",
+                        joined=False)
     panel = sheet[1].titles(names.axis_title(PACKING), "K₃/K₁ (bend over splay)", "elastic constants")
     draw_points(panel, ratio.at(side=33.492).points(PACKING, "frank_ratio"), "L = 33.5 mm", 0)
     draw_points(panel, runs.points(PACKING, "frank_ratio"), "L = 67 mm", 1)

@@ -68,8 +68,8 @@ STATEMENTS: tuple[Statement, ...] = (
     Statement("splay-bend", "elasticity", "Splay costs more than bend, K₁ > K₃",
               structure_checks.splay_stiffer_than_bend,
               "the paper concludes it from G₂ falling faster across the director; in linear theory, "
-              "⟨δθ²⟩ ~ 1/(K₁q_across² + K₃q_along²), that means the reverse. Asked at 0.65, where there are no layers "
-              "and the law can hold"),
+              "⟨δθ²⟩ ~ 1/(K₁q_across² + K₃q_along²), that means the reverse. Asked of waves of the director along and "
+              "across it, of the same length: what costs more fluctuates less, also where that law fails"),
     Statement("layers", "8", "Layers at ±θ_m, about 10°, for ℓ = 4.5 mm from 0.80 on, and none at 0.75",
               layer_checks.layers_when_dense),
     Statement("g2-oscillates", "8", "Where there are layers, G₂ oscillates across the director",
