@@ -112,45 +112,47 @@ Json job_report(const Job& job, const std::filesystem::path& runs) {
           {"progress", has_progress ? progress_of(job, directory) : Json(nullptr)}};
 }
 
-Json sweep_report(const Sweep& sweep, std::span<const Job> begun, std::optional<double> mean_duration, int slots,
+Json sweep_report(const Sweep& sweep, std::span<const Job> begun, const SweepWork& work, int slots,
                   const std::filesystem::path& runs) {
-  const std::int64_t n_jobs = sweep.counts.total();
-  const std::int64_t n_queued = sweep.counts[JobState::kQueued];
-  auto finished = static_cast<double>(sweep.counts[JobState::kDone]);
+  double finished = work.done;
   double longest = 0;  // wall seconds to the end of the last active job that tells
   double sum = 0;
   int n_tell = 0;
-  std::int64_t n_wait = n_queued;
-  bool any_active = false;
+  double waiting = work.queued;  // work that is yet to begin
+  bool any_active = false, any_handed_over = false;
   for (const Job& job : begun) {
     const run::RunDirectory directory{runs / job.id};
     const auto progress = run::read_progress(directory.progress());
     const bool it_tells = progress && tells(job, progress->state, directory);
-    if (it_tells) finished += std::clamp(progress->fraction(), 0.0, 1.0);
+    const double done = it_tells ? job.work * std::clamp(progress->fraction(), 0.0, 1.0) : 0;
+    finished += done;
+    if (job.state == JobState::kQueued) waiting -= done;
     if (!is_active(job)) continue;
     any_active = true;
     if (it_tells && progress->eta >= 0) {
       ++n_tell;
       longest = std::max(longest, progress->eta);
       sum += progress->eta;
-    } else {
-      ++n_wait;  // handed over to a cluster, and waits there, or has just begun
+    } else {  // handed over to a cluster, and waits there, or has just begun
+      any_handed_over = true;
+      waiting += job.work;
     }
   }
-  const bool known = n_wait == 0 || (mean_duration && (n_tell > 0 || !any_active));
+  const bool any_waits = sweep.counts[JobState::kQueued] > 0 || any_handed_over;
+  const bool known = !any_waits || (work.seconds_per_work && (n_tell > 0 || !any_active));
   // where some wait that have been handed over, as many are at work as can be
-  const int at_once = n_wait > n_queued ? n_tell : std::max(n_tell, slots);
-  const double all = sum + static_cast<double>(n_wait) * mean_duration.value_or(0);
+  const int at_once = any_handed_over ? n_tell : std::max(n_tell, slots);
+  const double all = sum + std::max(waiting, 0.0) * work.seconds_per_work.value_or(0);
   return {{"id", sweep_word(sweep.id)},
           {"name", sweep.name},
           {"created_utime", sweep.created},
-          {"n_jobs", n_jobs},
+          {"n_jobs", sweep.counts.total()},
           {"counts", counts_report(sweep.counts)},
           {"at_most", sweep.at_most > 0 ? Json(sweep.at_most) : Json(nullptr)},
           {"after", sweep.after},
           {"stop_if", sweep.stop_if.empty() ? Json(nullptr) : Json(sweep.stop_if)},
           {"stopped", sweep.stopped},
-          {"progress", n_jobs > 0 ? finished / static_cast<double>(n_jobs) : 1.0},
+          {"progress", work.all > 0 ? std::min(finished / work.all, 1.0) : 1.0},
           {"eta_s", known ? std::max(longest, all / std::max(1, at_once)) : -1.0}};
 }
 

@@ -21,7 +21,7 @@ Json job_report(const Job& job, const std::filesystem::path& runs);
 std::string reason_of(const Job& job, const std::filesystem::path& runs);
 
 /// SWEEP of docs/protocol.md. `begun`: its jobs that have not ended, and were started.
-Json sweep_report(const Sweep& sweep, std::span<const Job> begun, std::optional<double> mean_duration, int slots,
+Json sweep_report(const Sweep& sweep, std::span<const Job> begun, const SweepWork& work, int slots,
                   const std::filesystem::path& runs);
 
 /// A row of the results table of docs/protocol.md.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "server/queue/database_schema.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <string>
 
@@ -101,6 +103,11 @@ CREATE INDEX jobs_that_wait ON jobs(sweep) WHERE waits & 1;
 )sql");
 }
 
+void jobs_have_work(Database& database) {
+  database.execute("ALTER TABLE jobs ADD COLUMN work REAL NOT NULL DEFAULT 1");  // rods times simulated seconds
+  database.execute(update_of_work("1").c_str());
+}
+
 std::string damage(Database& database) {
   Query query = database.query("PRAGMA quick_check(1)");
   query.next();
@@ -110,8 +117,20 @@ std::string damage(Database& database) {
 }  // namespace
 
 std::span<const Migration> migrations() {
-  static constexpr std::array<Migration, 1> kMigrations{jobs_start_from_jobs};
+  static constexpr std::array<Migration, 2> kMigrations{jobs_start_from_jobs, jobs_have_work};
   return kMigrations;
+}
+
+std::string update_of_work(std::string_view condition) {
+  // Every species has a key: rods, rods_2, ...
+  return fmt::format(R"sql(
+UPDATE jobs SET work = COALESCE((
+  SELECT NULLIF(
+      (SELECT TOTAL(json_extract(scene, '$.' || key || '.count')) FROM json_each(scene) WHERE key GLOB 'rods*') *
+      (COALESCE(json_extract(scene, '$.time.steady'), 0) + COALESCE(json_extract(scene, '$.time.measure'), 0)), 0)
+  FROM scenes WHERE job = number AND json_valid(scene)), 1)
+WHERE {})sql",
+                     condition);
 }
 
 void prepare_schema(Database& database, std::span<const Migration> upgrades) {

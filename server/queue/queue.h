@@ -91,8 +91,7 @@ class Queue {
   /// The canonical scene of a job.
   std::string scene(const std::string& id) const { return read(&QueueStore::scene, id); }
   JobCounts counts() const { return read(&QueueStore::counts); }
-  /// Mean wall seconds of the done jobs of a sweep, all attempts of each together; none if none is done.
-  std::optional<double> mean_duration(std::int64_t sweep) const { return read(&QueueStore::mean_duration, sweep); }
+  SweepWork work_of(std::int64_t sweep) const { return read(&QueueStore::work_of, sweep); }
 
   /// Asks jobs to go on for as long as a scene says, pairs of id and canonical scene. Done ones are queued again.
   /// Returns how many were asked for more than before.

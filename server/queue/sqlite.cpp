@@ -49,6 +49,7 @@ bool Query::next() {
   return false;
 }
 
+double Query::real(int column) const { return sqlite3_column_double(statement_, column); }
 std::int64_t Query::integer(int column) const { return sqlite3_column_int64(statement_, column); }
 
 std::string Query::text(int column) const {

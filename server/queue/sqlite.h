@@ -36,6 +36,7 @@ class Query {
   /// Goes to the next row; false after the last.
   bool next();
   std::int64_t integer(int column) const;
+  double real(int column) const;
   std::string text(int column) const;
 
  private:

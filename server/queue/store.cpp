@@ -42,7 +42,7 @@ std::string members_of(const Target& target) {
 const std::string kColumns =
     ", j.id, j.state, j.hold, j.after_stop, j.reason, j.attempt, j.pid, j.created_utime, j.started_utime, "
     "j.finished_utime, j.priority, j.not_before_utime, j.soft_limit_ms, j.time_limit_ms, j.wall_ms, j.sweep, j.waits, "
-    "j.crashes, j.longer, j.worker, j.starts_from ";
+    "j.crashes, j.longer, j.worker, j.starts_from, j.work ";
 const std::string kSelectJobs = "SELECT j.sweep, j.label, j.parameters, j.replica" + kColumns + "FROM jobs j ";
 const std::string kSelectMembers = "SELECT m.sweep, m.label, m.parameters, m.replica" + kColumns +
                                    "FROM members m JOIN jobs j ON j.number = m.job WHERE m.sweep = ?1 ";
@@ -86,7 +86,8 @@ Job read_job(const Query& query) {
           .crashes = as_int(query, 21),
           .longer = query.integer(22) != 0,
           .worker = query.text(23),
-          .starts_from = query.text(24)};
+          .starts_from = query.text(24),
+          .work = query.real(25)};
 }
 
 Sweep read_sweep(const Query& query) {
@@ -237,14 +238,22 @@ JobCounts QueueStore::counts_of(const Target& target) const {
       std::get<std::int64_t>(target)));
 }
 
-std::optional<double> QueueStore::mean_duration(std::int64_t sweep) const {
+SweepWork QueueStore::work_of(std::int64_t sweep) const {
   Query query = database_.query(
-      "SELECT COUNT(*), SUM(j.wall_ms) FROM members m JOIN jobs j ON j.number = m.job "
-      "WHERE m.sweep = ?1 AND j.state = 'done' AND j.attempt > 0",
+      "SELECT j.state, TOTAL(j.work), TOTAL(j.work) FILTER (WHERE j.attempt > 0), "
+      "TOTAL(j.wall_ms) FILTER (WHERE j.attempt > 0) FROM members m JOIN jobs j ON j.number = m.job "
+      "WHERE m.sweep = ?1 GROUP BY j.state",
       sweep);
-  query.next();
-  if (query.integer(0) == 0) return std::nullopt;
-  return 1e-3 * static_cast<double>(query.integer(1)) / static_cast<double>(query.integer(0));
+  SweepWork work;
+  while (query.next()) {
+    const JobState state = stored_state(query.text(0));
+    work.all += query.real(1);
+    if (state == JobState::kQueued) work.queued = query.real(1);
+    if (state != JobState::kDone) continue;
+    work.done = query.real(1);
+    if (query.real(2) > 0) work.seconds_per_work = 1e-3 * query.real(3) / query.real(2);
+  }
+  return work;
 }
 
 std::vector<Change> QueueStore::history(const std::string& id) const {
@@ -413,7 +422,9 @@ bool QueueStore::add_job(const NewJob& job, int priority, std::int64_t sweep, co
       job.id, priority, utime_now(), sweep, job.label, job.parameters, job.replica, terms.soft_limit.count(),
       terms.time_limit.count(), state, is_done ? utime_now() : 0, job.starts_from);
   if (added == 0) return false;
-  database_.run("INSERT INTO scenes(job, scene) VALUES(?1, ?2)", database_.last_row_id(), job.scene);
+  const std::int64_t number = database_.last_row_id();
+  database_.run("INSERT INTO scenes(job, scene) VALUES(?1, ?2)", number, job.scene);
+  database_.run(update_of_work("number = ?1"), number);
   add_to_journal(job.id, "", state, 0, cause + (is_done ? "; its results were there already" : ""));
   return true;
 }
@@ -428,6 +439,7 @@ void QueueStore::update_request(const NewJob& job, int priority, std::int64_t sw
 
 void QueueStore::set_scene(const std::string& id, const std::string& scene) {
   database_.run("UPDATE scenes SET scene = ?2 WHERE job = (SELECT number FROM jobs WHERE id = ?1)", id, scene);
+  database_.run(update_of_work("id = ?1"), id);
 }
 
 void QueueStore::set_phase(const Job& job, JobPhase to, const std::string& reason, const std::string& cause) {

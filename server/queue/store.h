@@ -42,6 +42,15 @@ struct Change {
   std::string cause;
 };
 
+/// What the jobs of a sweep ask for, in rods times simulated seconds (Job::work).
+struct SweepWork {
+  double all = 0;
+  double queued = 0;
+  double done = 0;
+  /// Wall seconds of the done jobs, all attempts of each together, by their work; none where none has run.
+  std::optional<double> seconds_per_work{};
+};
+
 /// What an executor does not take at the moment.
 struct ExecutorRefusal {
   std::string executor;
@@ -74,7 +83,7 @@ class QueueStore {
   std::string settings(const std::string& id) const;  ///< of the sweep that asked for it last
   JobCounts counts() const;
   JobCounts counts_of(const Target& target) const;
-  std::optional<double> mean_duration(std::int64_t sweep) const;
+  SweepWork work_of(std::int64_t sweep) const;
   std::vector<Change> history(const std::string& id) const;
   std::vector<Change> changes_since(std::int64_t sequence, int limit) const;
   std::int64_t last_change() const;

@@ -75,7 +75,7 @@ STATEMENTS: tuple[Statement, ...] = (
     Statement("g2-oscillates", "8", "Where there are layers, G₂ oscillates across the director",
               layer_checks.g2_oscillates),
     Statement("gap", "gap", "No layers at gaps of 1.4 and 1.6 mm", layer_checks.no_layers_at_wide_gaps,
-              "asked of P(θ), as at 0.75; the layer order that is left there is the same at 0.75, where there are none"),
+              "asked of P(θ), as at 0.75; the layer order there is that of 0.75, where there are none"),
     Statement("crystal", "gap", "At a gap of 0.9 mm a crystal, without layers", layer_checks.crystal_at_a_narrow_gap,
               "all runs start as a crystal: one that melts would refute it"),
     Statement("angle-packing", "layer-trends", "θ_m grows with packing", layer_checks.angle_grows_with_packing),

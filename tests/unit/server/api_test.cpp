@@ -2,6 +2,7 @@
 // The contract of docs/protocol.md, over a real socket.
 #include "server/api.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <httplib.h>
@@ -75,6 +76,14 @@ class ApiTest : public testing::Test {
     const Response response = submit({{"text", kSweep}, {"name", name}});
     for (const Json& job : response.json["jobs"]) ids.push_back(job["id"]);
     return ids;
+  }
+
+  /// The part that jobs have in the work of their sweep s1.
+  double part(std::initializer_list<std::string> ids) const {
+    double work = 0, all = 0;
+    for (const std::string& id : ids) work += queue_.job(id)->work;
+    for (const Job& job : queue_.jobs(1, std::nullopt)) all += job.work;
+    return work / all;
   }
 
   /// A bare connection.
@@ -541,7 +550,7 @@ TEST_F(ApiTest, ARunningJobShowsItsProgress) {
   const auto file = directory_ / "runs" / ids[0] / "progress.json";
   write_progress(file);
   EXPECT_EQ(get("/v1/jobs/" + ids[0]).json["job"]["progress"]["order"], 0.25);
-  EXPECT_EQ(get("/v1/sweeps/s1").json["sweep"]["progress"], 0.125);
+  EXPECT_DOUBLE_EQ(get("/v1/sweeps/s1").json["sweep"]["progress"].get<double>(), 0.5 * part({ids[0]}));
   EXPECT_EQ(get("/v1/sweeps/s1").json["sweep"]["eta_s"], -1.0) << "nothing is known of the queued ones yet";
 
   begin(queue_, ids[1]);
@@ -549,7 +558,8 @@ TEST_F(ApiTest, ARunningJobShowsItsProgress) {
   queue_.cancel(ids[2]);
   queue_.cancel(ids[3]);
   const Json sweep = get("/v1/sweeps/s1").json["sweep"];
-  EXPECT_EQ(sweep["progress"], 0.375) << "one done, one half, two that came to nothing";
+  EXPECT_DOUBLE_EQ(sweep["progress"].get<double>(), 0.5 * part({ids[0]}) + part({ids[1]}))
+      << "one done, one half, two that came to nothing";
   EXPECT_EQ(sweep["eta_s"], 10.0);
 
   write_text(file, "{torn");
@@ -575,7 +585,7 @@ TEST_F(ApiTest, ProgressNeverFallsWhileTheEndOfARunIsNotSeenYet) {
   set_age(folder / "scene.json", std::chrono::seconds(100));
   set_age(folder / "progress.json", std::chrono::seconds(50));
   EXPECT_EQ(get("/v1/jobs/" + ids[0]).json["job"]["progress"]["sim_time_s"], 2);
-  EXPECT_EQ(get("/v1/sweeps/s1").json["sweep"]["progress"], 0.25);
+  EXPECT_DOUBLE_EQ(get("/v1/sweeps/s1").json["sweep"]["progress"].get<double>(), part({ids[0]}));
   // the daemon has started it anew since, for it was extended
   set_age(folder / "scene.json", std::chrono::seconds(20));
   EXPECT_TRUE(get("/v1/jobs/" + ids[0]).json["job"]["progress"].is_null());
@@ -586,10 +596,11 @@ TEST_F(ApiTest, WhatARunHasDoneCountsWhileItIsHandedOn) {
   const auto ids = submit_four();
   begin(queue_, ids[0]);
   write_progress(directory_ / "runs" / ids[0] / "progress.json");
-  EXPECT_EQ(get("/v1/sweeps/s1").json["sweep"]["progress"], 0.125);
+  const double half = 0.5 * part({ids[0]});
+  EXPECT_DOUBLE_EQ(get("/v1/sweeps/s1").json["sweep"]["progress"].get<double>(), half);
   queue_.ended(ids[0], JobEvent::kWorkerStopped, "its task is over");
-  EXPECT_EQ(get("/v1/sweeps/s1").json["sweep"]["progress"], 0.125);
-  EXPECT_EQ(get("/v1/sweeps").json["sweeps"][0]["progress"], 0.125);
+  EXPECT_DOUBLE_EQ(get("/v1/sweeps/s1").json["sweep"]["progress"].get<double>(), half);
+  EXPECT_DOUBLE_EQ(get("/v1/sweeps").json["sweeps"][0]["progress"].get<double>(), half);
 }
 
 TEST_F(ApiTest, ARunThatTellsOfItsWorkDoesNotWaitForItsTurn) {
@@ -618,7 +629,40 @@ TEST_F(ApiTest, RunsThatWaitElsewhereCountAsWaitingForThoseAtWork) {
   EXPECT_EQ(get("/v1/sweeps/s1").json["sweep"]["eta_s"], -1.0) << "none is at work";
   const auto file = directory_ / "runs" / ids[1] / "progress.json";
   write_progress(file);
-  EXPECT_EQ(get("/v1/sweeps/s1").json["sweep"]["eta_s"], 10.0 + 2 * 30.0) << "one after the other";
+  EXPECT_DOUBLE_EQ(get("/v1/sweeps/s1").json["sweep"]["eta_s"].get<double>(),
+                   10.0 + 30.0 * part({ids[2], ids[3]}) / part({ids[0]}))
+      << "one after the other";
+}
+
+// As in a chain whose first stage is short.
+TEST_F(ApiTest, ProgressAndEtaOfASweepCountItsWorkAndNotItsJobs) {
+  std::vector<NewJob> jobs;
+  for (const auto& [digit, rods, seconds] : {std::tuple{'1', 10, 20}, {'2', 10, 20}, {'3', 30, 100}, {'4', 30, 100}}) {
+    jobs.push_back(new_job(digit));
+    jobs.back().scene =
+        fmt::format(R"({{"rods": {{"count": {}}}, "rods_2": {{"count": 10}}, "time": {{"steady": 5, "measure": {}}}}})",
+                    rods, seconds - 5);
+  }
+  queue_.submit("chains", 0, jobs);
+  for (const int k : {0, 1}) {
+    begin(queue_, jobs[k].id);
+    queue_.add_wall(std::vector{std::pair{jobs[k].id, std::chrono::milliseconds(40'000)}});
+    queue_.ended(jobs[k].id, JobEvent::kWorkerDone);
+  }
+  const auto sweep = [&] { return get("/v1/sweeps/s1").json["sweep"]; };
+  EXPECT_DOUBLE_EQ(sweep()["progress"].get<double>(), 800.0 / 8800.0);
+  EXPECT_DOUBLE_EQ(sweep()["eta_s"].get<double>(), 8000 * 0.1 / 3) << "in three slots";
+  begin(queue_, jobs[2].id);
+  write_progress(directory_ / "runs" / jobs[2].id / "progress.json");
+  EXPECT_DOUBLE_EQ(sweep()["progress"].get<double>(), 2800.0 / 8800.0) << "half of the third";
+  EXPECT_DOUBLE_EQ(sweep()["eta_s"].get<double>(), (10 + 4000 * 0.1) / 3);
+  queue_.ended(jobs[2].id, JobEvent::kWorkerStopped);
+  EXPECT_DOUBLE_EQ(sweep()["eta_s"].get<double>(), 6000 * 0.1 / 3) << "it goes on from where it was";
+  // asked for more
+  std::string scene = jobs[3].scene;
+  scene.replace(scene.find("95"), 2, "195");
+  queue_.extend(std::vector{std::pair{jobs[3].id, scene}});
+  EXPECT_DOUBLE_EQ(sweep()["progress"].get<double>(), 2800.0 / 12800.0);
 }
 
 TEST_F(ApiTest, ALogIsReadPieceByPiece) {

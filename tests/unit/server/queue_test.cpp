@@ -576,7 +576,7 @@ TEST(QueueFileTest, AQueueOfTheFormerVersionIsUpgradedWithItsJobs) {
         "INSERT INTO jobs(id, state, priority, created_utime, sweep, label, parameters, replica, waits)"
         " VALUES('aaaaaaaaaaaaaaaa', 'queued', 0, 1, 1, '', '{}', 1, 0), ('bbbbbbbbbbbbbbbb', 'queued', 0, 1, 2, '', "
         "'{}', 1, 1);"
-        "INSERT INTO scenes(job, scene) VALUES(1, '{}'), (2, '{}');"
+        "INSERT INTO scenes(job, scene) VALUES(1, '{\"rods\": {\"count\": 7}, \"time\": {\"measure\": 2}}'), (2, '{');"
         "INSERT INTO members(sweep, position, job, label, parameters, replica) VALUES(1, 0, 1, '', '{}', 1), "
         "(2, 0, 2, '', '{}', 1);"
         "INSERT INTO prerequisites(sweep, position, target) VALUES(2, 0, 's1')");
@@ -584,6 +584,8 @@ TEST(QueueFileTest, AQueueOfTheFormerVersionIsUpgradedWithItsJobs) {
   Queue queue(file);
   const std::string a(16, 'a'), b(16, 'b');
   EXPECT_EQ(queue.job(a)->starts_from, "");
+  EXPECT_EQ(queue.job(a)->work, 14.0);
+  EXPECT_EQ(queue.job(b)->work, 1.0) << "its scene does not tell";
   EXPECT_EQ(queue.job(b)->reason, "waits for s1: 0 of 1 done");
   EXPECT_EQ(begin(queue, a), 1);
   queue.ended(a, JobEvent::kWorkerDone);
