@@ -126,6 +126,32 @@ def test_what_is_missing_is_what_is_submitted(programs, tmp_path, scale):
     assert len(running.points_of(program, every.sweep_of_missing("movies"))) == 1
 
 
+class DaemonOfAFailure:
+    """One whose first stage fails, so that the stages after it are held."""
+
+    def __init__(self, plan):
+        self.points = [point for point in plan.missing if point.set == "strip"][-6:]
+
+    def submit(self, sweep, **terms):
+        return "s1"
+
+    def ask(self, method, path):
+        return {}
+
+    def jobs(self, sweep):
+        states = ["failed", "held", "cancelled", "held", "held", "failed"]
+        before = [None, self.points[0].id, None, self.points[2].id, self.points[3].id, None]
+        return [{"id": point.id, "state": state, "label": "", "starts_from": start, "wall_s": 0, "reason": "lost"}
+                for point, state, start in zip(self.points, states, before)]
+
+
+def test_a_chain_that_is_broken_is_reported_and_ends_the_study(programs, tmp_path):
+    folder = SOURCE / "configs" / "figures" / "desk"
+    plan = running.Plan(str(PROGRAMS / "shaken"), sets.sweeps(folder, sets.SCALES["tiny"], ["strip"]), tmp_path)
+    lines = running.run_plan(plan, DaemonOfAFailure(plan), say=lambda line: None, every=0.01)
+    assert len(lines) == 6 and sum(": held: lost" in line for line in lines) == 3
+
+
 def test_an_error_beside_a_daemon_is_reported_as_it_is(programs, tmp_path):
     said = []
     for _ in range(2):

@@ -137,13 +137,16 @@ def run_plan(plan: Plan, daemon: Daemon, budget: float = math.inf, *, say: Calla
     spent = _Spent()
     waiting = [name for name in plan.sweeps if plan.cost(name) > 0]
     at_work: dict[str, str] = {}  # id of the sweep -> its name
-    ids = {point.id for point in plan.missing}
+    costs = {point.id: point.cost for point in plan.missing}
     while True:
         jobs = {job["id"]: (job, name) for sweep, name in at_work.items() for job in daemon.jobs(sweep)
-                if job["id"] in ids}
+                if job["id"] in costs}
+        done = [id_ for id_, (job, _) in jobs.items() if job["state"] == "done"]
+        left = plan.cost() - sum(costs[id_] for id_ in done)
         for job, name in jobs.values():
             if job["state"] == "done" and (path := archive_job(job, name, plan.archive)):
-                say(f"{path.name[:8]}  {name}  {job['label']}")
+                say(f"{path.name[:8]}  {name}  {job['label']}  ({len(done)} of {len(costs)} runs, about "
+                    f"{left / 3600:.2f} CPU-h left)")
                 if films is not None:
                     _copy_film(job, plan, films)
         spent.note(job for job, _ in jobs.values())
@@ -161,10 +164,17 @@ def run_plan(plan: Plan, daemon: Daemon, budget: float = math.inf, *, say: Calla
             say(f"{sweep['name']}: {sum(point.set == name for point in plan.missing)} runs, about "
                 f"{plan.cost(name) / 3600:.2f} CPU-h")
             continue
-        if not waiting and all(state in ENDED for state in states):
+        if not waiting and all(_has_ended(job, jobs) for job, _ in jobs.values()):
             return [f"{job['id'][:8]} {name} {job['label']}: {job['state']}: {job['reason']}"
                     for job, name in jobs.values() if job["state"] != "done"]
         time.sleep(every)
+
+
+def _has_ended(job: dict[str, Any], jobs: dict[str, tuple[dict[str, Any], str]]) -> bool:
+    """Whether a job has ended, or is held for good: one that starts from another which came to nothing."""
+    before = jobs.get(job["starts_from"] or "")
+    lost = job["state"] == "held" and before is not None and before[0]["state"] != "done"
+    return job["state"] in ENDED or (lost and before is not None and _has_ended(before[0], jobs))
 
 
 def _copy_film(job: dict[str, Any], plan: Plan, films: Path) -> None:
