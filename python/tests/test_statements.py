@@ -8,7 +8,7 @@ import pytest
 
 from shaken.estimate import Estimate
 from shaken.run import Arrays, Run
-from shaken.study import rules
+from shaken.study import layer_checks, rules, structure_checks
 from shaken.study.evidence import Evidence, Runs, crossing
 from shaken.study.order_checks import n_peaks
 from shaken.study.statements import STATEMENTS, judged
@@ -138,6 +138,13 @@ PLAIN = {"dip": (0.998, 0.004), "layer_order": (0.2, 0.02), "bragg_peak": (0.1, 
 VAGUE = {"dip": (0.95, 0.2), "layer_order": (0.4, 0.3), "bragg_peak": (0.1, 0.2)}
 
 
+def p_theta(peak, width=7.0):
+    """P(theta) with peaks at both sides, in degrees."""
+    theta = np.radians(np.linspace(-89.5, 89.5, 180))
+    p = sum(np.exp(-((np.degrees(theta) - side * peak) / width) ** 2 / 2) for side in (-1, 1))
+    return {"/angles/theta_rad": theta, "/angles/density_per_rad": p / (p.sum() * (theta[1] - theta[0]))}
+
+
 def layers(packing, numbers, sweep="layers", arrays=None, **more):
     return runs(sweep, packing, numbers, arrays, side=more.pop("side", 41.865), **more)
 
@@ -246,7 +253,7 @@ CASES = {
                   runs("dilute", 0.45, arrays=cuts(0.1, 0.1, 0.2))),
     "anisotropy": (runs("layers", 0.75, arrays=cuts(0.8, 0.7)), runs("layers", 0.75, arrays=cuts(0.7, 0.8)),
                    runs("layers", 0.75, arrays=cuts(0.8, 0.75, 0.2))),
-    "splay-bend": tuple(runs("elasticity", 0.65, arrays=waves(*powers))
+    "splay-bend": tuple(runs("elasticity", 0.65, arrays=waves(*powers), side=66.984)
                         for powers in ((2.0, 1.0), (1.0, 2.0), (2.0, 1.0, 1.0))),
     "layers": (layers(0.75, PLAIN) + layers(0.80, LAYERED) + layers(0.85, LAYERED),
                layers(0.75, LAYERED) + layers(0.80, PLAIN) + layers(0.85, PLAIN),
@@ -254,9 +261,11 @@ CASES = {
     "g2-oscillates": (layers(0.80, LAYERED | {"wavelength_mm": 5.0}, arrays=wave(0.1)),
                       layers(0.80, LAYERED | {"wavelength_mm": 5.0}, arrays=wave(-0.1)),
                       layers(0.80, LAYERED | {"wavelength_mm": 5.0}, arrays=wave(0.01, 0.2))),
-    "gap": (layers(0.80, LAYERED) + layers(0.80, PLAIN, "gaps", gap=1.4) + layers(0.80, PLAIN, "gaps", gap=1.6),
-            layers(0.80, PLAIN) + layers(0.80, LAYERED, "gaps", gap=1.4) + layers(0.80, LAYERED, "gaps", gap=1.6),
-            layers(0.80, LAYERED) + layers(0.80, VAGUE, "gaps", gap=1.4)),
+    "gap": (layers(0.80, LAYERED, arrays=p_theta(9)) + layers(0.80, PLAIN, "gaps", p_theta(0), gap=1.4) +
+            layers(0.80, PLAIN, "gaps", p_theta(0), gap=1.6),
+            layers(0.80, PLAIN, arrays=p_theta(0)) + layers(0.80, LAYERED, "gaps", p_theta(9), gap=1.4) +
+            layers(0.80, LAYERED, "gaps", p_theta(9), gap=1.6),
+            layers(0.80, LAYERED, arrays=p_theta(9)) + layers(0.80, VAGUE, "gaps", gap=1.4)),
     "crystal": (layers(0.80, LAYERED) + layers(0.80, PLAIN | {"bragg_peak": (0.5, 0.01)}, "gaps", gap=0.9),
                 layers(0.80, LAYERED) + layers(0.80, PLAIN | {"bragg_peak": (0.05, 0.001)}, "gaps", gap=0.9),
                 layers(0.80, LAYERED) + layers(0.80, PLAIN | {"bragg_peak": (0.11, 0.05)}, "gaps", gap=0.9)),
@@ -340,9 +349,47 @@ def test_a_sentence_that_contradicts_itself_is_called_so():
 
 
 def test_where_a_few_places_are_open_the_others_are_said_to_agree():
+    answers = [rules.yes()] * 8 + [rules.unknown("a run still relaxes").placed("0.85")]
+    found = rules.conclude(answers, "")
+    assert found.verdict == rules.AGREES and found.why == "at 8 of 9; open: 0.85 (a run still relaxes)"
+
+
+def test_what_is_open_somewhere_is_not_agreed_to_everywhere():
     made = [r for p in NINE[:-1] for r in runs("long-rods", p)] + runs("long-rods", 0.85, steady=False, drift=0.3)
     found = CHECKS["steady-state"].check(Evidence(made))
-    assert found.verdict == rules.AGREES and found.why == "at 8 of 9; open: 0.85 (a run still relaxes)"
+    assert found.verdict == rules.CONSISTENT and found.why == "at 8 of 9; open: 0.85 (a run still relaxes)"
+
+
+def test_a_dip_at_its_bound_has_the_error_of_the_heights_of_the_peak():
+    exact = {"dip": (1.0, math.nan)}
+    steep = [run for width in (6.0, 7.0, 8.0) for run in layers(0.80, exact, "gaps", p_theta(0, width), n=1)]
+    assert 0.05 < layer_checks.dip(Runs(steep)).error < 0.2
+    assert layer_checks.two_peaks(Runs(steep)).word is None
+    alike = [run for width in (7.0, 7.02, 7.04) for run in layers(0.80, exact, "gaps", p_theta(0, width), n=1)]
+    assert layer_checks.two_peaks(Runs(alike)).word is False
+
+
+@pytest.mark.parametrize("width", [5.0, 9.0])
+def test_kurtosis_is_that_of_normal_distributions(width):
+    """Of two normal ones of variance s^2 at +-m: (3 s^4 + 6 s^2 m^2 + m^4) / (s^2 + m^2)^2."""
+    for peak in (0.0, 6.0, 12.0):
+        known = (3 * width**4 + 6 * width**2 * peak**2 + peak**4) / (width**2 + peak**2) ** 2
+        turned = {**p_theta(peak, width)}
+        turned["/angles/density_per_rad"] = np.roll(turned["/angles/density_per_rad"], 85)
+        for arrays in (p_theta(peak, width), turned):
+            assert layer_checks.kurtosis(layers(0.80, {}, arrays=arrays)[0]).value == pytest.approx(known, rel=2e-3)
+
+
+def test_waves_of_other_lengths_are_not_averaged_together():
+    """As of runs whose directors lie differently in the box."""
+    made = [runs("elasticity", 0.65, arrays=waves(1.0, 10.0, turned=angle), side=66.984, n=1)[0]
+            for angle in (0.0, 0.1, 0.4)]
+    assert [wave.q for wave in structure_checks.opposite_waves(made[0])] == pytest.approx([0.1, 0.2, 0.3])
+    assert structure_checks.opposite_waves(made[2])[0].q > 0.15
+    common = structure_checks.mean_waves(Runs(made[:2]))
+    assert [wave.q for wave in common] == pytest.approx([0.1, 0.2, 0.3], rel=0.01)
+    assert all(wave.ratio.value == pytest.approx(10.0, rel=0.2) for wave in common)
+    assert structure_checks.mean_waves(Runs(made)) == [] or structure_checks.mean_waves(Runs(made))[0].q > 0.15
 
 
 def test_replicas_have_an_error_where_no_run_has_one():
@@ -361,7 +408,11 @@ def test_a_known_drift_stands_in_for_an_error():
 def test_what_drifts_decides_only_what_the_drift_cannot_undo():
     drifting = Estimate(10.0, 0.1, False, drift=1.0, drift_error=0.1)
     assert rules.above(drifting, 7.0).word is True
-    assert rules.above(drifting, 9.0).word is None and "relaxes" in rules.above(drifting, 9.0).why
+    assert rules.above(drifting, 9.5).word is True, "it drifts away from there"
+    assert rules.above(drifting, 11.0).word is None and rules.close_to(drifting, 11.0, 0.5).word is None
+    back = Estimate(10.0, 0.1, False, drift=-1.0, drift_error=0.1)
+    assert rules.above(back, 9.0).word is None and "relaxes" in rules.above(back, 9.0).why
+    assert rules.close_to(drifting, 9.0, 0.5).word is False and rules.close_to(drifting, 11.0, 1.5).word is True
 
 
 def test_a_trend_may_step_back_by_chance_but_not_more():

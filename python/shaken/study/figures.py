@@ -80,7 +80,7 @@ FIGURES: tuple[Figure, ...] = (
     Figure("", "shaking", "Order and motion against the strength of shaking", ("shaking",), figures_order.shaking),
     Figure("", "size", "Order against the size of the box", ("long-rods", "size", "dilute", "long-range"),
            figures_order.size),
-    Figure("", "elasticity", "Director fluctuations: bend against splay", ("elasticity", "long-rods"),
+    Figure("", "elasticity", "Director fluctuations: bend against splay", ("elasticity", "size", "long-range"),
            figures_structure.elasticity),
     Figure("", "diffusion-more", "Whether MSD/t levels off, and exponents",
            ("diffusion", "short-rods", "diffusion-along", "long-rods"), figures_motion.diffusion_more),

@@ -12,7 +12,7 @@ from ..plots.sheet import Sheet
 from .layer_checks import layered, wavelength
 from .evidence import END, GAP, LENGTH, PACKING, SIDE, Runs, box_text, key_of
 from .material import Material, angle_bar, draw_curves, draw_points, draw_rods, first_snapshot, packing_scale
-from .structure_checks import opposite_waves
+from .structure_checks import mean_waves, ordered_in_large_boxes
 
 
 def g2(material: Material) -> Sheet:
@@ -259,21 +259,21 @@ def gap(material: Material) -> Sheet:
 
 
 def elasticity(material: Material) -> Sheet:
-    """Fluctuations of the director along and across: bend against splay."""
-    runs = material.evidence["elasticity"]
-    ratio = Runs([*runs, *material.evidence["long-rods"]])
+    """Fluctuations of the director in waves along and across it, which bend and splay it."""
+    runs = ordered_in_large_boxes(material.evidence)
     sheet = material.sheet(2, columns=2, height=55)
     panel = sheet[0].titles("wave number q (1/mm)", "power of the director (mm²)", "φ = 0.65").scale("log", "log")
-    for waves in [opposite_waves(run) for run in runs[:1]]:
-        for k, label in enumerate(("along: bend", "across: splay")):
-            powers = [wave[1 + k] for wave in waves]
-            panel.curve(np.array([wave[0] for wave in waves]), np.array([power.value for power in powers]),
-                        np.array([power.error for power in powers]), label=label, colour=k, look="points",
-                        joined=False)
-    panel = sheet[1].titles(names.axis_title(PACKING), "K₃/K₁ (bend over splay)", "elastic constants")
-    draw_points(panel, ratio.at(side=33.492).points(PACKING, "frank_ratio"), "L = 33.5 mm", 0)
-    draw_points(panel, runs.points(PACKING, "frank_ratio"), "L = 67 mm", 1)
-    panel.range(y=(0, None)).reference(y=1)
+    waves = mean_waves(runs.at(packing=0.65))
+    for k, (label, powers) in enumerate((("along: bend", [wave.bend for wave in waves]),
+                                         ("across: splay", [wave.splay for wave in waves]))):
+        panel.curve(np.array([wave.q for wave in waves]), np.array([power.value for power in powers]),
+                    np.array([power.error for power in powers]), label=label, colour=k, look="points", joined=False)
+    panel = sheet[1].titles("wave number q (1/mm)", "power of splay over bend", "ratio").scale("log", "log")
+    for k, packing in enumerate(runs.values(PACKING)):
+        waves = mean_waves(runs.at(packing=packing))
+        panel.curve(np.array([wave.q for wave in waves]), np.array([wave.ratio.value for wave in waves]),
+                    np.array([wave.ratio.error for wave in waves]), label=f"φ = {packing:g}", colour=k, look="points")
+    panel.reference(y=1)
     material.stamp(panel, "splay-bend")
     return sheet
 

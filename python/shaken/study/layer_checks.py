@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..estimate import Estimate
-from ..run import Run
+from ..estimate import Estimate, mean_of_samples, student_factor
+from ..run import Array, Run
 from .evidence import (END, GAP, LENGTH, PACKING, Evidence, Runs, box_of, box_text, is_from_a_fluid,
                        key_of, number_of)
 from .rules import (NOT_RUN, Answer, Finding, above, below, close_to, conclude, larger, listed, no, refutable, text,
@@ -19,9 +19,36 @@ TWO_PEAKS = 0.95
 
 
 
+def dip(runs: Runs) -> Estimate:
+    """P(0) over the maximum of P(theta). It is at most 1: where all runs have just that, the scatter of P(0) among them
+    stands in for its error."""
+    found = runs.number("dip")
+    heights = [float(np.interp(0.0, np.asarray(p.axis), np.asarray(p))) for p in _densities(runs)]
+    if found.error == 0 and len(heights) > 1:
+        mean, error = mean_of_samples(heights)
+        return replace(found, error=student_factor(len(heights)) * error / mean)
+    return found
+
+
+def _densities(runs: Runs) -> list[Array]:
+    """P(theta) of those runs that have it."""
+    return [run["/angles/density_per_rad"] for run in runs if "/angles/density_per_rad" in run]
+
+
+def kurtosis(run: Run) -> Estimate:
+    """<theta^4> / <theta^2>^2 of P(theta): 3 of a normal distribution, less of one that is flatter or has two peaks."""
+    for p in _densities(Runs([run])):
+        theta, weight = np.asarray(p.axis), np.asarray(p) / np.sum(p)
+        theta = theta - np.angle(np.sum(weight * np.exp(2j * theta))) / 2
+        theta = (theta + math.pi / 2) % math.pi - math.pi / 2
+        return Estimate(float(np.sum(weight * theta**4) / np.sum(weight * theta**2) ** 2),
+                        steady=number_of(run, "S").steady)
+    return Estimate(reason="not measured")
+
+
 def two_peaks(runs: Runs) -> Answer:
     """Whether P(theta) has two peaks. That none was found is no answer: the dip must be known to be shallow."""
-    return below(runs.number("dip"), TWO_PEAKS)
+    return below(dip(runs), TWO_PEAKS)
 
 
 def layered(runs: Runs) -> Runs:
@@ -44,8 +71,10 @@ def wavelength(run: Run) -> Estimate:
 
 
 def _angle_text(runs: Runs) -> str:
-    theta = runs.number("theta_m_deg")
-    return f"θ_m = ±{text(theta)}°" if theta.is_known else f"no second peak, dip to {text(runs.number('dip'))}"
+    theta, n = runs.number("theta_m_deg"), len(layered(runs))
+    if not theta.is_known:
+        return f"no second peak, dip to {text(dip(runs))}"
+    return f"θ_m = ±{text(theta)}°" + (f" in {n} of {len(runs)} runs" if n < len(runs) else "")
 
 
 def _start_text(runs: Runs) -> str:
@@ -55,7 +84,7 @@ def _start_text(runs: Runs) -> str:
 
 
 def _gap_text(runs: Runs) -> str:
-    return (f"w = {key_of(runs[0], GAP):g} mm: {_angle_text(runs)}, layer order {text(runs.number('layer_order'))}, "
+    return (f"w = {key_of(runs[0], GAP):g} mm: {_angle_text(runs)}, kurtosis of P(θ) {text(runs.of(kurtosis))}, "
             f"Bragg peak {text(runs.number('bragg_peak'))}")
 
 
@@ -115,13 +144,14 @@ def no_layers_at_wide_gaps(evidence: Evidence) -> Finding:
     answers, found = [], [_gap_text(reference)]
     plain = evidence["layers"].at(4.5, 0.75)
     if plain:
-        found.append(f"without layers, at φ = 0.75: layer order {text(plain.number('layer_order'))}")
+        found.append(f"at φ = 0.75, without layers: kurtosis {text(plain.of(kurtosis))}")
     for gap in (1.4, 1.6):
         wide = evidence["gaps"].at(gap=gap)
         if not wide:
             answers.append(unknown(NOT_RUN).placed(f"w = {gap:g} mm"))
             continue
-        answers.append(two_peaks(wide).negated().placed(f"w = {gap:g} mm"))
+        answers.append(two_peaks(wide).negated().placed(f"one peak, w = {gap:g} mm"))
+        answers.append(larger(wide.of(kurtosis), reference.of(kurtosis)).placed(f"less flat, w = {gap:g} mm"))
         found.append(_gap_text(wide))
     return conclude(answers, "; ".join(found))
 

@@ -9,9 +9,8 @@ import numpy as np
 from ..estimate import NAN, Estimate, derived
 from ..run import Run
 from .evidence import GAMMA, LENGTH, PACKING, PAPERS_BOX, SIDE, Evidence, Runs, crossing, key_of
-from .rules import (NOT_RUN, Answer, Finding, above, below, close_to, conclude, doubt, listed, no, refutable, text,
-                    trend, unknown,
-                    yes)
+from .rules import (NOT_RUN, Answer, Finding, above, below, close_to, conclude, doubt, larger, listed, no, refutable,
+                    text, trend, unknown, yes)
 from .structure_checks import far_g2
 
 #: <S> above which a state counts as ordered, as the paper draws the line.
@@ -62,7 +61,7 @@ def steady_after_the_start(evidence: Evidence) -> Finding:
             answer = no() if followed > 1000 and s.steady is False else unknown("a run still relaxes")
         answers.append(answer.placed(f"{packing:g}"))
     return conclude(answers,
-                    f"S(0) = 1; steady at {steady} of {len(answers)} packings, from {wait:.0f} s on at the latest",
+                    f"S(0) = 1; S does not drift at {steady} of {len(answers)} packings, from {wait:.0f} s on at the latest",
                     everywhere=True)
 
 
@@ -226,9 +225,11 @@ def broadest_at_the_transition(evidence: Evidence) -> Finding:
     if len(points) < 3 or not phi.is_known:
         return Finding()
     place, widest = max(points, key=lambda point: point[1].value)
+    farther = [larger(widest, estimate) for at, estimate in points if abs(at - place) > 0.051]
+    open_ = [answer for answer in farther if answer.word is None]
     # as near as the steps of the sweep allow
-    return conclude([close_to(phi, place, 0.055)],
-                    f"S scatters most, by {widest.value:.3f}, at φ = {place:g}; the transition is at {text(phi)}")
+    return conclude(open_[:1] or [close_to(phi, place, 0.055)],
+                    f"S scatters most, by {text(widest)}, at φ = {place:g}; the transition is at {text(phi)}")
 
 
 def angle_to_side(run: Run) -> Estimate:

@@ -61,11 +61,11 @@ def judged_error(estimate: Estimate) -> float:
     return math.hypot(estimate.drift, estimate.drift_error)
 
 
-def margin(estimate: Estimate, sigmas: float = SIGMAS) -> float:
-    """By how much the true value may differ from a number: so many errors and, of a mean that drifts, twice its drift
-    besides, as if it went on for as long again as it was averaged."""
-    drift = 2 * abs(estimate.drift) if estimate.steady is False and math.isfinite(estimate.drift) else 0.0
-    return sigmas * judged_error(estimate) + drift
+def _values(estimate: Estimate) -> tuple[float, ...]:
+    """Between what a true value is, but for its error: of a mean that drifts, it and what it would be after a further
+    drift of twice the size, as if it went on for as long again as it was averaged."""
+    drifts = estimate.steady is False and math.isfinite(estimate.drift)
+    return (estimate.value, estimate.value + 2 * estimate.drift) if drifts else (estimate.value,)
 
 
 def doubt(estimate: Estimate) -> str:
@@ -84,13 +84,13 @@ def larger(a: Estimate, b: Estimate, sigmas: float = SIGMAS) -> Answer:
     for estimate in (a, b):
         if why := doubt(estimate):
             return unknown(why)
-    drifts = sum(margin(e, 0) for e in (a, b))
-    apart = sigmas * math.hypot(judged_error(a), judged_error(b)) + drifts
-    if a.value - b.value > apart:
+    apart = sigmas * math.hypot(judged_error(a), judged_error(b))
+    differences = [x - y for x in _values(a) for y in _values(b)]
+    if min(differences) > apart:
         return yes()
-    if b.value - a.value > apart:
+    if max(differences) < -apart:
         return no()
-    return unknown("a run still relaxes" if abs(a.value - b.value) > apart - drifts else "the errors are too large")
+    return unknown("a run still relaxes" if abs(a.value - b.value) > apart else "the errors are too large")
 
 
 def above(estimate: Estimate, level: float) -> Answer:
@@ -105,10 +105,11 @@ def close_to(estimate: Estimate, target: float, tolerance: float) -> Answer:
     """Within `tolerance` of `target`, with its error to spare."""
     if why := doubt(estimate):
         return unknown(why)
-    away, spare = abs(estimate.value - target), margin(estimate)
-    if away + spare <= tolerance:
+    aways, spare = [value - target for value in _values(estimate)], SIGMAS * judged_error(estimate)
+    if max(map(abs, aways)) + spare <= tolerance:
         return yes()
-    return no() if away - spare > tolerance else unknown("the errors are too large")
+    is_off = min(aways) - spare > tolerance or max(aways) + spare < -tolerance
+    return no() if is_off else unknown("the errors are too large")
 
 
 def trend(points: Sequence[tuple[float, Estimate]], rising: bool) -> Answer:
@@ -147,7 +148,7 @@ def conclude(answers: Iterable[Answer], found: str, *, everywhere: bool = False)
     either side: where more than half say yes and none no, it agrees there, and the rest is named
     as open; not where runs are still to come.
 
-    everywhere: of what is said to hold everywhere one no is enough to disagree
+    everywhere: of what is said to hold everywhere one no is enough to disagree; with some open it is not agreed to
     """
     given = list(answers)
     if not given:
@@ -165,7 +166,8 @@ def conclude(answers: Iterable[Answer], found: str, *, everywhere: bool = False)
     if not open_:
         return Finding(AGREES, found, "", given)
     if 2 * len(says_yes) > len(given) and all(a.why != NOT_RUN for a in open_):
-        return Finding(AGREES, found, f"at {len(says_yes)} of {len(given)}; open: {reasons}", given)
+        return Finding(CONSISTENT if everywhere else AGREES, found,
+                       f"at {len(says_yes)} of {len(given)}; open: {reasons}", given)
     return Finding(OPEN, found, reasons, given)
 
 

@@ -69,13 +69,13 @@ STATEMENTS: tuple[Statement, ...] = (
               structure_checks.splay_stiffer_than_bend,
               "the paper concludes it from G₂ falling faster across the director; in linear theory, "
               "⟨δθ²⟩ ~ 1/(K₁q_across² + K₃q_along²), that means the reverse. Asked of waves of the director along and "
-              "across it, of the same length: what costs more fluctuates less, also where that law fails"),
+              "across it, of the same length: if both are driven alike, what costs more fluctuates less"),
     Statement("layers", "8", "Layers at ±θ_m, about 10°, for ℓ = 4.5 mm from 0.80 on, and none at 0.75",
               layer_checks.layers_when_dense),
     Statement("g2-oscillates", "8", "Where there are layers, G₂ oscillates across the director",
               layer_checks.g2_oscillates),
     Statement("gap", "gap", "No layers at gaps of 1.4 and 1.6 mm", layer_checks.no_layers_at_wide_gaps,
-              "asked of P(θ), as at 0.75; the layer order there is that of 0.75, where there are none"),
+              "asked of P(θ): whether it has one peak, and is less flat there than at 1.2 mm"),
     Statement("crystal", "gap", "At a gap of 0.9 mm a crystal, without layers", layer_checks.crystal_at_a_narrow_gap,
               "all runs start as a crystal: one that melts would refute it"),
     Statement("angle-packing", "layer-trends", "θ_m grows with packing", layer_checks.angle_grows_with_packing),

@@ -2,6 +2,9 @@
 """Correlations in space, isotropic and along and across the director, and what they say of elasticity."""
 from __future__ import annotations
 
+import math
+from dataclasses import dataclass
+
 import numpy as np
 
 from ..estimate import Estimate, derived
@@ -15,6 +18,8 @@ NO_CORRELATION = 0.05
 PLATEAU = 0.25
 #: tan of the most that a wave which bends the director may be away from it: 8.5 degrees.
 OBLIQUE = 0.15
+#: Part of a wave number within which two waves are of the same length.
+SAME_LENGTH = 0.05
 
 
 def far_g2(runs: Runs) -> Estimate:
@@ -104,37 +109,69 @@ def g_flattens(evidence: Evidence) -> Finding:
                                 f"across", f"here it flattens sooner {sooner}")
 
 
-def opposite_waves(run: Run) -> list[tuple[float, Estimate, Estimate]]:
-    """(wave number [1/mm], power of bend, power of splay) of the director's fluctuations, of each wave along the
-    director and its mirror image across it, which has the same length; by rising wave number."""
+@dataclass(frozen=True)
+class OppositeWaves:
+    """A wave of the director along it and its mirror image across it, which has the same length.
+
+    q: wave number [1/mm]; bend, splay: the power of the one along and of the one across [mm2]
+    """
+
+    q: float
+    bend: Estimate
+    splay: Estimate
+
+    @property
+    def ratio(self) -> Estimate:
+        """Power of splay over that of bend."""
+        value = self.splay.value / self.bend.value
+        return derived(value, [(1 / self.bend.value, self.splay), (-value / self.bend.value, self.bend)])
+
+
+def opposite_waves(run: Run) -> list[OppositeWaves]:
+    """Those of the spectrum of a run, by rising wave number, none as long as another within SAME_LENGTH."""
     if "/frank/power_mm2" not in run:
         return []
     power = run["/frank/power_mm2"]
     along, across = abs(np.asarray(run["/frank/q_along_per_mm"])), abs(np.asarray(run["/frank/q_across_per_mm"]))
     q = np.hypot(along, across)
-    order = run.numbers.get("S", Estimate())
-    found = []
-    for bend in np.flatnonzero(across < OBLIQUE * along):
+    found: list[OppositeWaves] = []
+    for bend in sorted(np.flatnonzero(across < OBLIQUE * along), key=lambda k: q[k]):
         away = np.hypot(along - across[bend], across - along[bend])
         splay = int(np.argmin(away))
-        if away[splay] < 0.05 * q[bend]:
-            found.append((float(q[bend]), *(Estimate(float(power[k]), float(power.error[k]), order.steady)
-                                            for k in (bend, splay))))
-    return sorted(found, key=lambda wave: wave[0])
+        if away[splay] < SAME_LENGTH * q[bend] and (not found or q[bend] > (1 + SAME_LENGTH) * found[-1].q):
+            found.append(OppositeWaves(float(q[bend]), *(
+                Estimate(float(power[k]), float(power.error[k]), run.numbers.get("S", Estimate()).steady)
+                for k in (bend, splay))))
+    return found
+
+
+def mean_waves(runs: Runs) -> list[OppositeWaves]:
+    """The opposite waves that all runs have, averaged over them."""
+    def at(run: Run, q: float) -> OppositeWaves:
+        none = OppositeWaves(q, *[Estimate(reason="no wave of this length")] * 2)
+        near = min(opposite_waves(run), key=lambda wave: abs(wave.q - q), default=none)
+        return near if abs(near.q - q) < SAME_LENGTH * q else none
+
+    means = [OppositeWaves(wave.q, runs.of(lambda run: at(run, wave.q).bend), runs.of(lambda run: at(run, wave.q).splay))
+             for wave in (opposite_waves(runs[0]) if runs else [])]
+    return [wave for wave in means if all(at(run, wave.q).bend.is_known for run in runs)]
+
+
+def ordered_in_large_boxes(evidence: Evidence) -> Runs:
+    """Runs of rods of 4.5 mm that have a director, in boxes whose spectrum has a measured noise level."""
+    return Runs(run for run in evidence.joined("size", "elasticity", "long-range").at(length=4.5)
+                if 0.54 < key_of(run, PACKING) < 0.71 and 60 < key_of(run, SIDE) < 70)
 
 
 def splay_stiffer_than_bend(evidence: Evidence) -> Finding:
-    runs = evidence["elasticity"].at(packing=0.65)
-    waves = [opposite_waves(run) for run in runs]
-    n = min(map(len, waves), default=0)
-    if runs and n == 0:
-        return conclude([unknown("no wave along the director has one of its length across it")], "")
-    answers, ratios = [], []
-    for k in range(n):
-        bend, splay = (runs.of(lambda run: opposite_waves(run)[k][which]) for which in (1, 2))
-        wavelength = round(2 * np.pi / float(np.mean([each[k][0] for each in waves])), 1)
-        answers.append(larger(bend, splay).placed(f"λ = {wavelength:g} mm"))  # what costs more fluctuates less
-        ratios.append((wavelength, derived(splay.value / bend.value, [
-            (1 / bend.value, splay), (-splay.value / bend.value**2, bend)])))
-    return conclude(answers, "power of splay over that of bend at φ = 0.65, of waves of λ mm: "
-                    + listed(ratios, "λ"))
+    runs = ordered_in_large_boxes(evidence)
+    answers, found = [], []
+    for packing in runs.values(PACKING):
+        for wave in mean_waves(runs.at(packing=packing)):
+            length = 2 * math.pi / wave.q
+            answers.append(larger(wave.bend, wave.splay).placed(f"φ = {packing:g}, λ = {length:.0f} mm"))
+            if 20 < length < 24:  # not the longest, which are few in a run, nor those near the noise level
+                found.append((packing, wave.ratio))
+    if runs and not answers:
+        answers.append(unknown("no wave along the director has one of its length across it"))
+    return conclude(answers, f"power of splay over that of bend, of waves of 22 mm: {listed(found, 'φ')}")
