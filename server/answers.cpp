@@ -115,11 +115,11 @@ Json job_report(const Job& job, const std::filesystem::path& runs) {
 Json sweep_report(const Sweep& sweep, std::span<const Job> begun, const SweepWork& work, int slots,
                   const std::filesystem::path& runs) {
   double finished = work.done;
-  double longest = 0;  // wall seconds to the end of the last active job that tells
+  double longest = 0;  // wall seconds to the end of the last active job that tells, and of the longest chain
   double sum = 0;
   int n_tell = 0;
   double waiting = work.queued;  // work that is yet to begin
-  bool any_active = false, any_handed_over = false;
+  bool any_waits = sweep.counts[JobState::kQueued] > 0, any_handed_over = false;
   for (const Job& job : begun) {
     const run::RunDirectory directory{runs / job.id};
     const auto progress = run::read_progress(directory.progress());
@@ -128,21 +128,22 @@ Json sweep_report(const Sweep& sweep, std::span<const Job> begun, const SweepWor
     finished += done;
     if (job.state == JobState::kQueued) waiting -= done;
     if (!is_active(job)) continue;
-    any_active = true;
     if (it_tells && progress->eta >= 0) {
       ++n_tell;
       longest = std::max(longest, progress->eta);
       sum += progress->eta;
-    } else {  // handed over to a cluster, and waits there, or has just begun
-      any_handed_over = true;
-      waiting += job.work;
+    } else {
+      any_waits = true;
+      waiting += job.work - done;
+      if (job.pid == 0) any_handed_over = true;  // to a cluster, where it may wait; others have just begun
     }
   }
-  const bool any_waits = sweep.counts[JobState::kQueued] > 0 || any_handed_over;
-  const bool known = !any_waits || (work.seconds_per_work && (n_tell > 0 || !any_active));
+  const bool known = !any_waits || (work.seconds_per_work && (n_tell > 0 || !any_handed_over));
   // where some wait that have been handed over, as many are at work as can be
   const int at_once = any_handed_over ? n_tell : std::max(n_tell, slots);
-  const double all = sum + std::max(waiting, 0.0) * work.seconds_per_work.value_or(0);
+  const double per_work = work.seconds_per_work.value_or(0);
+  const double all = sum + std::max(waiting, 0.0) * per_work;
+  longest = std::max(longest, work.longest_chain * per_work);
   return {{"id", sweep_word(sweep.id)},
           {"name", sweep.name},
           {"created_utime", sweep.created},

@@ -429,8 +429,9 @@ std::vector<Job> Api::find_jobs(const Call& call) const {
 
 Json Api::report(const Sweep& sweep) const {
   Sweep now = sweep;
-  const std::vector<Job> begun = queue_.begun(now);
-  return sweep_report(now, begun, queue_.work_of(sweep.id), info_.slots, info_.runs());
+  SweepWork work;
+  const std::vector<Job> begun = queue_.begun(now, work);
+  return sweep_report(now, begun, work, info_.slots, info_.runs());
 }
 
 Json Api::report(std::span<const Job> jobs) const {

@@ -126,7 +126,7 @@ std::string update_of_work(std::string_view condition) {
   return fmt::format(R"sql(
 UPDATE jobs SET work = COALESCE((
   SELECT NULLIF(
-      (SELECT TOTAL(json_extract(scene, '$.' || key || '.count')) FROM json_each(scene) WHERE key GLOB 'rods*') *
+      (SELECT TOTAL(json_extract(scene, '$."' || key || '".count')) FROM json_each(scene) WHERE key GLOB 'rods*') *
       (COALESCE(json_extract(scene, '$.time.steady'), 0) + COALESCE(json_extract(scene, '$.time.measure'), 0)), 0)
   FROM scenes WHERE job = number AND json_valid(scene)), 1)
 WHERE {})sql",

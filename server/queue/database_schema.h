@@ -15,8 +15,8 @@ using Migration = void (*)(Database&);
 /// Those of this program since its first version, in order. The next version is one function more.
 std::span<const Migration> migrations();
 
-/// SQL by which jobs that fulfil `condition` get the work that their scenes ask for: rods times simulated seconds, to
-/// which the CPU time of a run is about proportional; 1 where a scene does not tell.
+/// SQL by which jobs that fulfil `condition` get the work that their scenes ask for: rods times simulated seconds, as
+/// far as it gives them; 1 where it does not tell.
 std::string update_of_work(std::string_view condition);
 
 /// Creates the queue's tables in an empty file, and brings those of an older version up to this program's. Throws

@@ -80,7 +80,7 @@ struct Job {
   bool longer = false;        ///< asked to go on for longer than its worker knows
   std::string worker{};       ///< by which a worker that outlives the daemon is found
   std::string starts_from{};  ///< the id of a run whose end it begins at; empty: none
-  double work = 1;            ///< rods times simulated seconds, to which its CPU time is about proportional
+  double work = 1;            ///< rods times simulated seconds; a unit costs more of dense rods and short steps
 };
 
 /// An ordered list of jobs asked for together.

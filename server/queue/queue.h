@@ -77,8 +77,8 @@ class Queue {
   std::optional<Sweep> sweep_named(const std::string& name) const { return read(&QueueStore::sweep_named, name); }
   /// In the order of the sweep, or in the order of arrival where none is given.
   std::vector<Job> jobs(std::optional<std::int64_t> sweep, std::optional<JobState> state = std::nullopt) const;
-  /// Jobs of a sweep that have not ended, and were started; brings its counts to the same moment.
-  std::vector<Job> begun(Sweep& sweep) const;
+  /// Jobs of a sweep that have not ended, and were started; brings its counts, and `work`, to the same moment.
+  std::vector<Job> begun(Sweep& sweep, SweepWork& work) const;
   std::optional<Job> job(const std::string& id) const;
   /// Ids that begin with `prefix`, in alphabetical order, at most `limit`.
   std::vector<std::string> ids_beginning_with(const std::string& prefix, int limit) const {
@@ -91,7 +91,6 @@ class Queue {
   /// The canonical scene of a job.
   std::string scene(const std::string& id) const { return read(&QueueStore::scene, id); }
   JobCounts counts() const { return read(&QueueStore::counts); }
-  SweepWork work_of(std::int64_t sweep) const { return read(&QueueStore::work_of, sweep); }
 
   /// Asks jobs to go on for as long as a scene says, pairs of id and canonical scene. Done ones are queued again.
   /// Returns how many were asked for more than before.

@@ -253,6 +253,16 @@ SweepWork QueueStore::work_of(std::int64_t sweep) const {
     work.done = query.real(1);
     if (query.real(2) > 0) work.seconds_per_work = 1e-3 * query.real(3) / query.real(2);
   }
+  Query chain = database_.query(
+      "WITH RECURSIVE chain(id, work) AS ("
+      "  SELECT j.id, CASE j.attempt WHEN 0 THEN j.work ELSE 0 END FROM members m JOIN jobs j ON j.number = m.job "
+      "  WHERE m.sweep = ?1 AND j.state = 'queued' AND NOT EXISTS (SELECT 1 FROM jobs b WHERE b.id = j.starts_from AND "
+      "b.state = 'queued') "
+      "  UNION ALL SELECT j.id, chain.work + j.work FROM chain JOIN jobs j ON j.starts_from = chain.id "
+      "  WHERE j.starts_from <> '' AND j.state = 'queued') SELECT MAX(work) FROM chain",
+      sweep);
+  chain.next();
+  work.longest_chain = chain.real(0);
   return work;
 }
 

@@ -47,6 +47,8 @@ struct SweepWork {
   double all = 0;
   double queued = 0;
   double done = 0;
+  /// Of queued jobs that start from each other, one after the other; not what is left of one that was begun.
+  double longest_chain = 0;
   /// Wall seconds of the done jobs, all attempts of each together, by their work; none where none has run.
   std::optional<double> seconds_per_work{};
 };

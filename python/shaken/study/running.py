@@ -102,7 +102,8 @@ class Plan:
             of_stages = {"stage", *(key for stage in stages for key in stage)}
             entries: list[dict[str, Any]] = []
             for point in self.missing:
-                entry = {**dict.fromkeys(product.get("grid", {})), **point.parameters}  # null is no parameter
+                swept = {**product.get("grid", {}), **product.get("zip", {})}
+                entry = {**dict.fromkeys(swept), **point.parameters}  # null is no parameter
                 entry = {key: value for key, value in entry.items() if key not in of_stages}
                 if (point.set, point.part) == (name, part) and entry not in entries:
                     entries.append(entry)
@@ -139,9 +140,8 @@ def run_plan(plan: Plan, daemon: Daemon, budget: float = math.inf, *, say: Calla
     at_work: dict[str, str] = {}  # id of the sweep -> its name
     costs = {point.id: point.cost for point in plan.missing}
     while True:
-        jobs = {job["id"]: (job, name) for sweep, name in at_work.items() for job in daemon.jobs(sweep)
-                if job["id"] in costs}
-        done = [id_ for id_, (job, _) in jobs.items() if job["state"] == "done"]
+        jobs = {job["id"]: (job, name) for sweep, name in at_work.items() for job in daemon.jobs(sweep)}
+        done = [id_ for id_, (job, _) in jobs.items() if job["state"] == "done" and id_ in costs]
         left = plan.cost() - sum(costs[id_] for id_ in done)
         for job, name in jobs.values():
             if job["state"] == "done" and (path := archive_job(job, name, plan.archive)):
@@ -150,12 +150,12 @@ def run_plan(plan: Plan, daemon: Daemon, budget: float = math.inf, *, say: Calla
                 if films is not None:
                     _copy_film(job, plan, films)
         spent.note(job for job, _ in jobs.values())
-        states = [job["state"] for job, _ in jobs.values()]
         if spent.seconds() >= budget:
             for sweep in at_work:
                 daemon.ask("POST", f"/v1/sweeps/{sweep}/hold")
             return []
-        if waiting and "queued" not in states:
+        if waiting and not any(job["state"] == "queued" and not _waits_for_start(job, jobs)
+                               for job, _ in jobs.values()):
             name = waiting.pop(0)
             sweep = plan.sweep_of_missing(name)
             submitted = daemon.submit(sweep, name=sweep["name"], soft_limit_s=_SOFT_LIMIT, time_limit_s=_TIME_LIMIT)
@@ -170,11 +170,15 @@ def run_plan(plan: Plan, daemon: Daemon, budget: float = math.inf, *, say: Calla
         time.sleep(every)
 
 
+def _waits_for_start(job: dict[str, Any], jobs: dict[str, tuple[dict[str, Any], str]]) -> bool:
+    before = jobs.get(job["starts_from"] or "")
+    return before is not None and before[0]["state"] != "done"
+
+
 def _has_ended(job: dict[str, Any], jobs: dict[str, tuple[dict[str, Any], str]]) -> bool:
     """Whether a job has ended, or is held for good: one that starts from another which came to nothing."""
-    before = jobs.get(job["starts_from"] or "")
-    lost = job["state"] == "held" and before is not None and before[0]["state"] != "done"
-    return job["state"] in ENDED or (lost and before is not None and _has_ended(before[0], jobs))
+    is_lost = job["state"] == "held" and _waits_for_start(job, jobs) and _has_ended(jobs[job["starts_from"]][0], jobs)
+    return job["state"] in ENDED or is_lost
 
 
 def _copy_film(job: dict[str, Any], plan: Plan, films: Path) -> None:

@@ -651,18 +651,40 @@ TEST_F(ApiTest, ProgressAndEtaOfASweepCountItsWorkAndNotItsJobs) {
   }
   const auto sweep = [&] { return get("/v1/sweeps/s1").json["sweep"]; };
   EXPECT_DOUBLE_EQ(sweep()["progress"].get<double>(), 800.0 / 8800.0);
-  EXPECT_DOUBLE_EQ(sweep()["eta_s"].get<double>(), 8000 * 0.1 / 3) << "in three slots";
+  EXPECT_DOUBLE_EQ(sweep()["eta_s"].get<double>(), 4000 * 0.1) << "side by side in three slots";
   begin(queue_, jobs[2].id);
   write_progress(directory_ / "runs" / jobs[2].id / "progress.json");
   EXPECT_DOUBLE_EQ(sweep()["progress"].get<double>(), 2800.0 / 8800.0) << "half of the third";
-  EXPECT_DOUBLE_EQ(sweep()["eta_s"].get<double>(), (10 + 4000 * 0.1) / 3);
+  EXPECT_DOUBLE_EQ(sweep()["eta_s"].get<double>(), 4000 * 0.1) << "of the fourth";
   queue_.ended(jobs[2].id, JobEvent::kWorkerStopped);
-  EXPECT_DOUBLE_EQ(sweep()["eta_s"].get<double>(), 6000 * 0.1 / 3) << "it goes on from where it was";
+  EXPECT_DOUBLE_EQ(sweep()["eta_s"].get<double>(), 4000 * 0.1) << "of the fourth";
+  queue_.cancel(jobs[3].id);
+  EXPECT_DOUBLE_EQ(sweep()["eta_s"].get<double>(), 2000 * 0.1 / 3) << "it goes on from where it was";
+  queue_.retry(jobs[3].id);
   // asked for more
   std::string scene = jobs[3].scene;
   scene.replace(scene.find("95"), 2, "195");
   queue_.extend(std::vector{std::pair{jobs[3].id, scene}});
   EXPECT_DOUBLE_EQ(sweep()["progress"].get<double>(), 2800.0 / 12800.0);
+}
+
+TEST_F(ApiTest, EtaOfAChainDoesNotShareItsStagesOutToSlots) {
+  std::vector<NewJob> jobs;
+  for (const char digit : {'1', '2', '3', '4'}) {
+    jobs.push_back(new_job(digit));
+    jobs.back().scene = R"({"rods": {"count": 10}, "time": {"measure": 10}})";
+    if (digit > '1') jobs.back().starts_from = jobs[jobs.size() - 2].id;
+  }
+  queue_.submit("chain", 0, jobs);
+  begin(queue_, jobs[0].id);
+  queue_.add_wall(std::vector{std::pair{jobs[0].id, std::chrono::milliseconds(40'000)}});
+  queue_.ended(jobs[0].id, JobEvent::kWorkerDone);
+  const auto eta = [&] { return get("/v1/sweeps/s1").json["sweep"]["eta_s"].get<double>(); };
+  EXPECT_DOUBLE_EQ(eta(), 3 * 40.0) << "three slots, but one after the other";
+  begin(queue_, jobs[1].id);
+  EXPECT_EQ(eta(), -1.0) << "handed over, and none is at work";
+  queue_.set_worker(jobs[1].id, 4711, "");
+  EXPECT_DOUBLE_EQ(eta(), 2 * 40.0) << "it has just begun, here";
 }
 
 TEST_F(ApiTest, ALogIsReadPieceByPiece) {
