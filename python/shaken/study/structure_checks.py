@@ -152,9 +152,9 @@ def mean_waves(runs: Runs) -> list[OppositeWaves]:
         near = min(opposite_waves(run), key=lambda wave: abs(wave.q - q), default=none)
         return near if abs(near.q - q) < SAME_LENGTH * q else none
 
-    means = [OppositeWaves(wave.q, runs.of(lambda run: at(run, wave.q).bend), runs.of(lambda run: at(run, wave.q).splay))
-             for wave in (opposite_waves(runs[0]) if runs else [])]
-    return [wave for wave in means if all(at(run, wave.q).bend.is_known for run in runs)]
+    lengths = [wave.q for wave in (opposite_waves(runs[0]) if runs else [])]
+    return [OppositeWaves(q, runs.of(lambda run: at(run, q).bend), runs.of(lambda run: at(run, q).splay))
+            for q in lengths if all(at(run, q).bend.is_known for run in runs)]
 
 
 def ordered_in_large_boxes(evidence: Evidence) -> Runs:
