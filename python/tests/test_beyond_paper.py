@@ -136,7 +136,16 @@ def test_tilt_is_compared_at_the_same_packing():
 def test_elastic_constants_are_those_of_boxes_that_hold_waves():
     evidence = Evidence([run("size", {"frank_ratio": (4.0, 0.5), "frank_chi2": (1.0, 0.2)}, length=4.5, packing=0.55,
                              side=side) for side in (16.0, 67.0)])
-    assert [row[1:2] + row[4:] for row in rows(beyond_paper.elastic(evidence))] == [["67 mm", "4.0 ± 0.5", "1.0 ± 0.2"]]
+    assert [row[1:2] + row[4:] for row in rows(beyond_paper.elastic(evidence))] == [
+        ["67 mm", "–", "–", "4.0 ± 0.5", "1.0 ± 0.2"]]
+
+
+def test_order_falls_with_the_box_by_a_power():
+    evidence = Evidence([run("size", {"S": (1.6 * side ** -0.25, 0.01)}, length=4.5, packing=0.55, side=side)
+                         for side in (16.0, 32.0, 64.0)] + [run("dilute", length=4.5, packing=0.45, side=67.0)])
+    found = rows(beyond_paper.sizes(evidence))
+    assert [row[1] for row in found] == ["16 mm", "32 mm", "64 mm"], "one box says nothing about boxes"
+    assert found[0][4] == "–" and all(row[4].startswith("−0.25 ± 0.0") for row in found[1:])
 
 
 def test_runs_are_priced_by_the_speed_of_those_at_hand():

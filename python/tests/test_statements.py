@@ -380,6 +380,21 @@ def test_kurtosis_is_that_of_normal_distributions(width):
             assert layer_checks.kurtosis(layers(0.80, {}, arrays=arrays)[0]).value == pytest.approx(known, rel=2e-3)
 
 
+def test_the_wavelength_in_a_strip_is_that_of_the_mean_wave_number():
+    """Two waves of 12.6 and 15.75 mm, the tenth and the eighth of a strip, and long ones that bend the director."""
+    q = 2 * math.pi * np.arange(1, 40) / 126
+    power = np.zeros(39)
+    power[[1, 7, 9]] = 9.0, 1.0, 1.0
+    spectrum = {"/layers/q_per_mm": q, "/layers/spectrum_across": power}
+    of_strips = [run for dip in (LAYERED, LAYERED, PLAIN) for run in
+                 layers(0.85, dip | {"wavelength_mm": (12.6, 0.1)}, "strip", spectrum, side=21.0, n=1)]
+    for run in of_strips:
+        run.scene["box"]["aspect"] = 6.0
+    assert layer_checks.wavelength(of_strips[0]).value == pytest.approx(126 / 9)
+    assert len(layer_checks.layered(Runs(of_strips))) == 3, "two of three have two peaks"
+    assert not layer_checks.layered(Runs(of_strips[1:] + of_strips[2:]))
+
+
 def test_waves_of_other_lengths_are_not_averaged_together():
     """As of runs whose directors lie differently in the box."""
     made = [runs("elasticity", 0.65, arrays=waves(1.0, 10.0, turned=angle), side=66.984, n=1)[0]

@@ -11,11 +11,13 @@ import numpy as np
 from ..estimate import Estimate, derived
 from ..run import Run
 from .evidence import (BEADS, END, FREQUENCY, GAMMA, LENGTH, PACKING, SIDE, Evidence, Runs, box_of, box_text,
-                       is_from_a_fluid, key_of, number_of)
+                       by, is_from_a_fluid, key_of, number_of)
 from .layer_checks import layered, wavelength
 from .motion_checks import late_velocity_correlation, papers_diffusion, speed_between
+from .order_checks import power_of_size
 from .rules import text
 from .running import speed
+from .structure_checks import mean_waves, ordered_in_large_boxes
 
 #: A column of a table: its heading, and what it says of the runs at one state point.
 Column = tuple[str, Callable[[Runs], str]]
@@ -47,13 +49,6 @@ PACKED, LONG, BOX = key("φ", PACKING), key("ℓ", LENGTH, " mm"), ("box", lambd
 SEEDS: Column = ("runs", seeds)
 START: Column = ("start", lambda runs: "a fluid" if is_from_a_fluid(runs[0]) else "rows")
 STEP = "time.step"
-
-
-def by(runs: Runs, *paths: str) -> list[Runs]:
-    """The runs at each combination of the values of some keys, in rising order."""
-    if not paths:
-        return [runs] if runs else []
-    return [found for value in runs.values(paths[0]) for found in by(runs.where(paths[0], value), *paths[1:])]
 
 
 def rods_per_area(runs: Runs) -> float:
@@ -236,12 +231,35 @@ def defects(evidence: Evidence) -> str:
         number("across (mm/s)", "lasting_defect_speed_plus_across_mm_s")])
 
 
+def wave_ratio(length: float) -> Callable[[Runs], str]:
+    """Power of splay over that of bend, of the opposite waves whose length is nearest to this one [mm]."""
+    def of(here: Runs) -> str:
+        near = min(mean_waves(here), key=lambda wave: abs(2 * math.pi / wave.q - length), default=None)
+        return text(near.ratio) if near else "–"
+
+    return of
+
+
 def elastic(evidence: Evidence) -> str:
-    """Bend over splay of rods of 4.5 mm, and whether the law that defines them fits."""
-    runs = Runs(run for run in evidence.joined("long-rods", "size", "elasticity")
-                if 0.49 < key_of(run, PACKING) < 0.71 and key_of(run, SIDE) > 20)
+    """Splay against bend of rods of 4.5 mm: the powers of their waves, the constants, and whether their law fits."""
+    return table(by(ordered_in_large_boxes(evidence), PACKING, SIDE), [
+        PACKED, BOX, SEEDS, number("S", "S"), ("splay/bend, waves of 22 mm", wave_ratio(22.3)),
+        ("of 13 mm", wave_ratio(13.4)), number("K₃/K₁", "frank_ratio"),
+        number("χ² per point", "frank_chi2")])
+
+
+def sizes(evidence: Evidence) -> str:
+    """Order of rods of 4.5 mm against the side of the box, near the transition and above it."""
+    everything = evidence.joined("long-rods", "size", "dilute", "long-range").at(4.5)
+    runs = Runs(run for run in everything if len(everything.at(packing=key_of(run, PACKING)).values(SIDE)) > 1)
+
+    def power(here: Runs) -> str:
+        alike = runs.at(packing=key_of(here[0], PACKING))
+        narrower = [side for side in alike.values(SIDE) if side < key_of(here[0], SIDE) - 1]
+        return text(power_of_size(Runs([*alike.at(side=narrower[-1]), *here]))) if narrower else "–"
+
     return table(by(runs, PACKING, SIDE), [
-        PACKED, BOX, SEEDS, number("S", "S"), number("K₃/K₁", "frank_ratio"), number("χ² per point", "frank_chi2")])
+        PACKED, BOX, SEEDS, number("S", "S"), ("x of S ~ Lˣ, from the box before", power)])
 
 
 def blunt(evidence: Evidence) -> str:
@@ -333,4 +351,4 @@ def next_runs(evidence: Evidence) -> str:
 SECTIONS: dict[str, Callable[[Evidence], str]] = {
     "beads": beads, "number of rods": density, "frequency": frequency, "rival frequency": rival_frequency,
     "shaking": shaking, "diffusion": diffusion_minimum, "streaming": streaming, "defects": defects,
-    "elastic constants": elastic, "blunt rods": blunt, "next runs": next_runs}
+    "elastic constants": elastic, "order and box": sizes, "blunt rods": blunt, "next runs": next_runs}

@@ -171,6 +171,13 @@ class Runs(list[Run]):
         return x, middle, np.full(n, NAN) if error is None else error
 
 
+def by(runs: Runs, *paths: str) -> list[Runs]:
+    """The runs at each combination of the values of some keys, in rising order."""
+    if not paths:
+        return [runs] if runs else []
+    return [found for value in runs.values(paths[0]) for found in by(runs.where(paths[0], value), *paths[1:])]
+
+
 class Evidence:
     """Runs by set. Where a set has a few runs of a finer time step than the others these are its `controls`.
 

@@ -9,14 +9,15 @@ import numpy as np
 
 from ..estimate import Estimate, mean_of_samples, student_factor
 from ..run import Array, Run
-from .evidence import (END, GAP, LENGTH, PACKING, Evidence, Runs, box_of, box_text, is_from_a_fluid,
-                       key_of, number_of)
+from .evidence import (END, GAP, LENGTH, PACKING, SIDE, Evidence, Runs, box_of, box_text, by, is_from_a_fluid, key_of,
+                       number_of)
 from .rules import (NOT_RUN, Answer, Finding, above, below, close_to, conclude, larger, listed, no, refutable, text,
                     trend, unknown, yes)
 
 #: P(0) over the maximum of P(theta): below it there are two peaks, above it there is one.
 TWO_PEAKS = 0.95
-
+#: Wavelengths of layers [mm]: shorter ones are of a few rods, longer ones of the bending director.
+BAND = (8.0, 24.0)
 
 
 def dip(runs: Runs) -> Estimate:
@@ -52,18 +53,37 @@ def two_peaks(runs: Runs) -> Answer:
 
 
 def layered(runs: Runs) -> Runs:
-    """The runs that have layers: P(theta) has two peaks."""
-    return Runs(run for run in runs if number_of(run, "theta_m_deg").is_known)
+    """The runs at those state points that have layers: at least half of the runs there have two peaks in P(theta)."""
+    found = Runs()
+    for here in by(runs, LENGTH, END, PACKING, SIDE, GAP):
+        if 2 * _n_layered(here) >= len(here):
+            found += here
+    return found
+
+
+def _n_layered(runs: Runs) -> int:
+    """How many of the runs have two peaks in P(theta)."""
+    return sum(number_of(run, "theta_m_deg").is_known for run in runs)
 
 
 def wavelength(run: Run) -> Estimate:
-    """The wavelength of the layers [mm] with the step of the box in its error: the waves that fit into the box are
-    L/n, L being its side across the rods, so that what lies between two of them is not seen. A uniform error over that
-    step is added."""
+    """The wavelength of the layers [mm].
+
+    In a box that is much wider than they are it is that of the mean wave number of the spectrum between 8 and 24 mm,
+    weighted with the power: which one of many neighbouring waves is the highest is chance. Its error is left to the
+    replicas. In a narrower box it is that of the highest wave and its neighbours, with the step of the box in its
+    error: the waves that fit into the box are L/n, L being its side across the rods, so that what lies between two of
+    them is not seen. A uniform error over that step is added.
+    """
     found = number_of(run, "wavelength_mm")
     if not found.is_known:
         return found
     _, across = box_of(run)
+    if across > 4 * BAND[1] and "/layers/spectrum_across" in run:
+        q, power = np.asarray(run["/layers/q_per_mm"]), np.asarray(run["/layers/spectrum_across"])
+        inside = (q > 2 * math.pi / BAND[1]) & (q < 2 * math.pi / BAND[0])
+        mean = float(np.sum(q[inside] * power[inside]) / np.sum(power[inside]))
+        return Estimate(2 * math.pi / mean, steady=number_of(run, "S").steady)
     n = round(across / found.value)
     step = across / max(n - 0.5, 0.5) - across / (n + 0.5)
     error = math.hypot(found.error if math.isfinite(found.error) else 0.0, step / math.sqrt(12))
@@ -71,7 +91,7 @@ def wavelength(run: Run) -> Estimate:
 
 
 def _angle_text(runs: Runs) -> str:
-    theta, n = runs.number("theta_m_deg"), len(layered(runs))
+    theta, n = runs.number("theta_m_deg"), _n_layered(runs)
     if not theta.is_known:
         return f"no second peak, dip to {text(dip(runs))}"
     return f"θ_m = ±{text(theta)}°" + (f" in {n} of {len(runs)} runs" if n < len(runs) else "")

@@ -60,8 +60,8 @@ def steady_after_the_start(evidence: Evidence) -> Finding:
             followed = max(float(run.summary["sim_seconds"]) for run in here)
             answer = no() if followed > 1000 and s.steady is False else unknown("a run still relaxes")
         answers.append(answer.placed(f"{packing:g}"))
-    return conclude(answers, f"S(0) = 1; S does not drift at {steady} of {len(answers)} packings, from {wait:.0f} s on at "
-                    "the latest", everywhere=True)
+    return conclude(answers, f"S(0) = 1; S does not drift at {steady} of {len(answers)} packings, from {wait:.0f} s "
+                    "on at the latest", everywhere=True)
 
 
 def ordered_when_dense(evidence: Evidence) -> Finding:

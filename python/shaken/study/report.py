@@ -55,8 +55,8 @@ def tally(evidence: Evidence) -> str:
 def _tally(found: list[Verdict]) -> str:
     counts = Counter(verdict.finding.verdict for verdict in found)
     words = {"agrees": ("agrees", "agree"),
-             "consistent": ("is consistent with the runs, which could only refute it",
-                            "are consistent with the runs, which could only refute them"),
+             "consistent": ("is consistent with the runs, which refute it nowhere",
+                            "are consistent with the runs, which refute them nowhere"),
              "in part": ("agrees in part", "agree in part"), "disagrees": ("disagrees", "disagree"),
              "contradicts itself": ("contradicts itself", "contradict themselves"), "open": ("is open", "are open"),
              "no data": ("has no runs yet", "have no runs yet")}
