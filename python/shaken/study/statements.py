@@ -109,7 +109,7 @@ STATEMENTS: tuple[Statement, ...] = (
     Statement("diffusion-along", "9",
               "Along the director D rises up to 0.80, then falls; across it D falls, and is smaller (ℓ = 4.5 mm)",
               motion_checks.diffusion_along_the_director,
-              "along it D is half the slope of the MSD at lags of 20 s and at the longest, where the MSD is not linear"),
+              "along it D is half the slope of the MSD at lags of 20 s and at the longest; it is not linear there"),
     Statement("diffusion-across", "9",
               "Across the director nothing is super-diffusive, and the exponent at short times falls",
               motion_checks.no_superdiffusion_across),
