@@ -179,8 +179,9 @@ def test_more_rods_stand_beside_the_fit_at_the_area_fraction_that_they_stand_for
 
 def test_layers_of_a_strip_stand_beside_those_of_the_square_box():
     def layers(sweep, wavelength, **more):
-        return run(sweep, {"theta_m_deg": (9.0, 0.5), "wavelength_mm": (wavelength, 0.1), "layer_order": (0.3, 0.02)},
-                   length=4.5, packing=0.80, **more)
+        return run(sweep, {"theta_m_deg": (9.0, 0.5), "wavelength_mm": (wavelength, 0.1), "layer_order": (0.3, 0.02),
+                           "dip": (0.7, 0.02)},
+                   length=4.5, packing=0.80, S=0.9, **more)
 
     square = layers("layers", 14.0, side=42.0)
     assert beyond_paper.strip(Evidence([square])) == "", "nothing is shown before there are runs"

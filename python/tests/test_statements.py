@@ -369,6 +369,23 @@ def test_a_dip_at_its_bound_has_the_error_of_the_heights_of_the_peak():
     assert layer_checks.two_peaks(Runs(alike)).word is False
 
 
+def test_the_angle_of_layers_is_fitted_where_a_run_was_too_short_for_the_error_of_its_dip():
+    short = layers(0.85, {"dip": (0.6, math.nan)}, arrays=p_theta(9.4, 5.0))[0]
+    assert layer_checks.theta_m(short).value == pytest.approx(9.4, abs=0.01)
+    known = layers(0.85, LAYERED, arrays=p_theta(12.0))[0]
+    assert layer_checks.theta_m(known).value == 9.5
+    for broad in (layers(0.85, PLAIN, arrays=p_theta(0))[0], layers(0.85, {"dip": (0.7, 0.1)}, arrays=p_theta(0))[0]):
+        assert not layer_checks.theta_m(broad).is_known
+
+
+def test_grains_and_what_still_melts_have_no_layers():
+    assert layer_checks.layered(Runs(layers(0.85, LAYERED)))
+    assert not layer_checks.layered(Runs(layers(0.85, LAYERED, S=0.2)))
+    for drift, n in ((-0.4, 0), (-0.06, 3)):
+        melting = layers(0.85, LAYERED | {"dip": (0.7, 0.02, False, drift)})
+        assert len(layer_checks.layered(Runs(melting))) == n
+
+
 @pytest.mark.parametrize("width", [5.0, 9.0])
 def test_kurtosis_is_that_of_normal_distributions(width):
     """Of two normal ones of variance s^2 at +-m: (3 s^4 + 6 s^2 m^2 + m^4) / (s^2 + m^2)^2."""

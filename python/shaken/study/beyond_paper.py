@@ -12,7 +12,7 @@ from ..estimate import Estimate, derived
 from ..run import Run
 from .evidence import (BEADS, END, FREQUENCY, GAMMA, LENGTH, PACKING, SIDE, Evidence, Runs, box_of, box_text,
                        by, is_from_a_fluid, key_of, number_of)
-from .layer_checks import layered, wavelength
+from .layer_checks import layered, theta_m, wavelength
 from .motion_checks import late_velocity_correlation, papers_diffusion, speed_between
 from .order_checks import power_of_size
 from .rules import text
@@ -289,7 +289,7 @@ def strip(evidence: Evidence) -> str:
     both = [runs for there in by(strips, LENGTH, PACKING)
             for runs in (squares.at(key_of(there[0], LENGTH), key_of(there[0], PACKING), end=0.4), there)]
     return "The same rods in a strip, along whose length more wavelengths fit:\n\n" + table(both, [
-        LONG, PACKED, BOX, START, SEEDS, number("S", "S"), number("θ_m (°)", "theta_m_deg"),
+        LONG, PACKED, BOX, START, SEEDS, number("S", "S"), number("θ_m (°)", theta_m),
         ("λ (mm)", lambda here: text(layered(here).of(wavelength))), ("step of λ (mm)", step),
         number("layer order", "layer_order")])
 

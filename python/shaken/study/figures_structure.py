@@ -9,7 +9,7 @@ import numpy as np
 from ..plots import names
 from ..plots.panel import Panel
 from ..plots.sheet import Sheet
-from .layer_checks import layered, wavelength
+from .layer_checks import layered, theta_m, wavelength
 from .evidence import END, GAP, LENGTH, PACKING, SIDE, Runs, box_text, key_of
 from .material import Material, angle_bar, draw_curves, draw_points, draw_rods, first_snapshot, packing_scale
 from .structure_checks import mean_waves, ordered_in_large_boxes
@@ -123,7 +123,8 @@ def _angles(panel: Panel, runs: Runs, path: str, title: str, scale: Callable[[fl
 def _against(panel: Panel, series: list[tuple[Runs, str]], path: str, name: str, title: str) -> None:
     panel.titles(names.axis_title(path), names.axis_title(name), title)
     for k, (runs, label) in enumerate(series):
-        points = layered(runs).points(path, wavelength if name == "wavelength_mm" else name)
+        of = {"wavelength_mm": wavelength, "theta_m_deg": theta_m}.get(name, name)
+        points = layered(runs).points(path, of)
         if points:
             draw_points(panel, points, label, k)
     panel.range(y=(0, None))

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import Callable
 
 import numpy as np
+from scipy.optimize import least_squares
 
 from ..estimate import Estimate, mean_of_samples, student_factor
 from ..run import Array, Run
@@ -16,6 +18,8 @@ from .rules import (NOT_RUN, Answer, Finding, above, below, close_to, conclude, 
 
 #: P(0) over the maximum of P(theta): below it there are two peaks, above it there is one.
 TWO_PEAKS = 0.95
+#: Change of the dip from one half of the time to the other below which layers count as formed.
+STILL = 0.1
 #: Wavelengths of layers [mm]: shorter ones are of a few rods, longer ones of the bending director.
 BAND = (8.0, 24.0)
 
@@ -53,17 +57,46 @@ def two_peaks(runs: Runs) -> Answer:
 
 
 def layered(runs: Runs) -> Runs:
-    """The runs at those state points that have layers: at least half of the runs there have two peaks in P(theta)."""
+    """The runs at those state points that have layers: rods are ordered, at least half of the runs have two peaks in
+    P(theta), and the dip between these does not change by more than STILL any more."""
     found = Runs()
     for here in by(runs, LENGTH, END, PACKING, SIDE, GAP):
-        if 2 * _n_layered(here) >= len(here):
+        depth = here.number("dip")
+        relaxes = depth.steady is False and not abs(depth.drift) < STILL
+        if here.number("S").value > 0.5 and 2 * _n_layered(here) >= len(here) and not relaxes:
             found += here
     return found
 
 
 def _n_layered(runs: Runs) -> int:
     """How many of the runs have two peaks in P(theta)."""
-    return sum(number_of(run, "theta_m_deg").is_known for run in runs)
+    return sum(number_of(run, "dip").value < TWO_PEAKS for run in runs)
+
+
+def theta_m(run: Run) -> Estimate:
+    """The angle of the layers [degrees] of a run that has two peaks in P(theta).
+
+    The run knows it only where it knows the error of the dip between them, for which it may be too short. Elsewhere it
+    is from the same fit, of two Gaussians at +-theta_m and a background, and without an error.
+    """
+    known = number_of(run, "theta_m_deg")
+    if known.is_known or not number_of(run, "dip").value < TWO_PEAKS or not _densities(Runs([run])):
+        return known
+    density = _densities(Runs([run]))[0]
+    theta, p = np.asarray(density.axis), (np.asarray(density) + np.asarray(density)[::-1]) / 2
+    spread = math.sqrt(float(np.sum(p * theta**2) / np.sum(p)))
+
+    def away(parameters: np.ndarray) -> np.ndarray:
+        peak, width, height, background = parameters
+        sides = (np.arctan2(np.sin(2 * (theta - side * peak)), np.cos(2 * (theta - side * peak))) / 2
+                 for side in (-1, 1))
+        return height * sum(np.exp(-(side / width)**2 / 2) for side in sides) + background - p
+
+    best = min((least_squares(away, [part * spread, spread * math.sqrt(1 - part**2), p.max() / 2, 0])
+                for part in (0.3, 0.6, 0.8, 0.95)), key=lambda fit: float(fit.cost))
+    if abs(best.x[0]) < abs(best.x[1]) / 2:
+        return Estimate(reason="one side of the director only, or too few rods on the other")
+    return Estimate(math.degrees(abs(best.x[0])), steady=number_of(run, "S").steady, unit="deg")
 
 
 def wavelength(run: Run) -> Estimate:
@@ -91,7 +124,7 @@ def wavelength(run: Run) -> Estimate:
 
 
 def _angle_text(runs: Runs) -> str:
-    theta, n = runs.number("theta_m_deg"), _n_layered(runs)
+    theta, n = runs.of(theta_m), _n_layered(runs)
     if not theta.is_known:
         return f"no second peak, dip to {text(dip(runs))}"
     return f"θ_m = ±{text(theta)}°" + (f" in {n} of {len(runs)} runs" if n < len(runs) else "")
@@ -126,7 +159,7 @@ def layers_when_dense(evidence: Evidence) -> Finding:
         if packing < 0.78:
             answer = two.negated()
         else:
-            answer = close_to(runs.number("theta_m_deg"), 10, 4) if two.word else two
+            answer = close_to(runs.of(theta_m), 10, 4) if two.word else two
         answers.append(answer.placed(f"{packing:g}"))
         found.append(f"φ = {packing:g}: {_angle_text(runs)} in {box_text(runs[0])}{_start_text(runs)}")
     return conclude(answers, "; ".join(found))
@@ -190,12 +223,12 @@ def crystal_at_a_narrow_gap(evidence: Evidence) -> Finding:
     return refutable(yes(), found, f"its Bragg peak is {ratio:.1f} times that of the layers, and P(θ) has one peak")
 
 
-def _trend(series: list[tuple[Runs, str]], name: str, rising: bool, unit: str) -> Finding:
+def _trend(series: list[tuple[Runs, str]], of: Callable[[Run], Estimate], rising: bool, unit: str) -> Finding:
     """A trend of the layers in series of one key each; those that cannot tell do not count where one can."""
     symbols = {PACKING: "φ", LENGTH: "ℓ", END: "d"}
     answers, found = [], []
     for runs, key in series:
-        points = layered(runs).points(key, wavelength if name == "wavelength_mm" else name)
+        points = layered(runs).points(key, of)
         if len(runs.values(key)) < 2:
             continue
         where = ", ".join(f"{symbols[other]} = {key_of(runs[0], other):g}" for other in (LENGTH, PACKING)
@@ -224,15 +257,15 @@ def _by_end(evidence: Evidence) -> list[tuple[Runs, str]]:
 
 
 def angle_grows_with_packing(evidence: Evidence) -> Finding:
-    return _trend(_by_packing(evidence), "theta_m_deg", True, "°")
+    return _trend(_by_packing(evidence), theta_m, True, "°")
 
 
 def angle_falls_with_length(evidence: Evidence) -> Finding:
-    return _trend(_by_length(evidence), "theta_m_deg", False, "°")
+    return _trend(_by_length(evidence), theta_m, False, "°")
 
 
 def angle_falls_with_end(evidence: Evidence) -> Finding:
-    return _trend(_by_end(evidence), "theta_m_deg", False, "°")
+    return _trend(_by_end(evidence), theta_m, False, "°")
 
 
 def _two_peaks_in_order(runs: Runs) -> Answer:
@@ -259,15 +292,15 @@ def two_peaks_at_every_end(evidence: Evidence) -> Finding:
 
 
 def wavelength_falls_with_packing(evidence: Evidence) -> Finding:
-    return _trend(_by_packing(evidence), "wavelength_mm", False, " mm")
+    return _trend(_by_packing(evidence), wavelength, False, " mm")
 
 
 def wavelength_grows_with_length(evidence: Evidence) -> Finding:
-    return _trend(_by_length(evidence), "wavelength_mm", True, " mm")
+    return _trend(_by_length(evidence), wavelength, True, " mm")
 
 
 def wavelength_grows_with_end(evidence: Evidence) -> Finding:
-    return _trend(_by_end(evidence), "wavelength_mm", True, " mm")
+    return _trend(_by_end(evidence), wavelength, True, " mm")
 
 
 def larger_box(evidence: Evidence) -> Finding:
@@ -276,7 +309,7 @@ def larger_box(evidence: Evidence) -> Finding:
     if not large or not small:
         return Finding()
     lam = [layered(runs).of(wavelength) for runs in (small, large)]
-    theta = [runs.number("theta_m_deg") for runs in (small, large)]
+    theta = [layered(runs).of(theta_m) for runs in (small, large)]
     boxes = [box_text(runs[0]) for runs in (small, large)]
     return conclude([larger(lam[1], lam[0]).placed("λ larger"), larger(theta[0], theta[1]).placed("θ_m smaller")],
                     f"ℓ = 4 mm, φ = 0.85: λ = {text(lam[0])} mm and {text(lam[1])} mm, θ_m = {text(theta[0])}° and "
