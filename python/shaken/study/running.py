@@ -171,6 +171,7 @@ def run_plan(plan: Plan, daemon: Daemon, budget: float = math.inf, *, say: Calla
 
 
 def _waits_for_start(job: dict[str, Any], jobs: dict[str, tuple[dict[str, Any], str]]) -> bool:
+    """Whether a job starts from another of these that is not done, and so takes no place yet."""
     before = jobs.get(job["starts_from"] or "")
     return before is not None and before[0]["state"] != "done"
 
