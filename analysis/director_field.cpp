@@ -69,8 +69,6 @@ std::vector<double> covered(const std::vector<bool>& inside, const Grid& grid, c
 
 double theta_of(const Vec2& q) { return fold_half_turn(0.5 * std::atan2(q.y(), q.x())); }
 
-double order_of(const Vec2& q) { return std::min(1.0, 2.0 * q.norm()); }
-
 }  // namespace
 
 Grid::Grid(const Box& box, double mesh) {
@@ -132,8 +130,6 @@ DirectorField::DirectorField(std::span<const Vec3> positions, std::span<const Ve
 }
 
 double DirectorField::theta(int i, int j) const { return theta_of({q_xx(i, j), q_xy(i, j)}); }
-
-double DirectorField::order(int i, int j) const { return order_of({q_xx(i, j), q_xy(i, j)}); }
 
 Vec2 DirectorField::q_at(const Vec2& position) const {
   const Vec2 place = position.cwiseQuotient(mesh());

@@ -53,7 +53,6 @@ class DirectorField {
   /// Whether there are rods enough at a node within the walls for a director.
   bool is_defined(int i, int j) const { return defined_[index(i, j)]; }
   double theta(int i, int j) const;  ///< in [-pi/2, pi/2) [rad]; 0 where Q = 0
-  double order(int i, int j) const;  ///< local S in [0, 1]
 
   /// (Q_xx, Q_xy) anywhere [mm], bilinear between the nodes.
   Vec2 q_at(const Vec2& position) const;

@@ -58,8 +58,6 @@ LagCurve::Groups LagCurve::groups(std::size_t lag) const {
   return groups;
 }
 
-double LagCurve::sem(std::span<const LagTerm> terms) const { return estimate(0, terms).sem; }
-
 Estimate LagCurve::estimate(double value, std::span<const LagTerm> terms) const {
   if (terms.empty()) return {value};
   std::size_t longest = 0;

@@ -37,14 +37,13 @@ class LagCurve {
   /// Mean over rods and origins.
   double mean(std::size_t quantity, std::size_t lag) const { return means_[quantity * lags_.size() + lag]; }
 
-  /// Standard error of sum coefficient * mean, to first order also of any function with these derivatives, from the
-  /// scatter between n stretches of origin time. Pairs whose ways overlap should lie in one stretch, so these are at
-  /// least twice as long as the longest lag in `terms` where eight such fit, down to one lag long to make eight, and at
-  /// least five (NaN with fewer). What neighbours of c lags share all the same is made up for as a random walk's mean
-  /// square has it, 1 / (1 - 1 / 4c) in the square; and that few stretches tell little of their own scatter by the
-  /// variance of Student's t, (n - 1) / (n - 3). Right once a stretch is longer than the correlation time.
-  double sem(std::span<const LagTerm> terms) const;
-  /// A value made of these terms, with that error and the number of stretches behind it.
+  /// A value with these terms, its standard error and the number of stretches behind it. The error is that of sum
+  /// coefficient * mean, to first order also of any function with these derivatives, from the scatter between n
+  /// stretches of origin time. Pairs whose ways overlap should lie in one stretch, so these are at least twice as
+  /// long as the longest lag in `terms` where eight such fit, down to one lag to make eight, and at least five (NaN
+  /// with fewer). What neighbours of c lags share all the same is corrected as for a random walk's mean square, by 1
+  /// / (1 - 1 / 4c) in the square; the uncertain scatter of few stretches, by the variance of Student's t, (n - 1) /
+  /// (n - 3). Right once a stretch is longer than the correlation time.
   Estimate estimate(double value, std::span<const LagTerm> terms) const;
 
   /// One linear combination of the quantities against lag; `weights` (quantities).

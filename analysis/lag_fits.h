@@ -30,8 +30,8 @@ struct ShortAndLong {
 };
 
 /// Of the linear combination of a curve's quantities with `weights` (quantities), a mean square. Errors come from the
-/// stretches of origin time (LagCurve::sem). Windows of fewer than three lags give NaN, as do exponents where the mean
-/// square is not positive.
+/// stretches of origin time (LagCurve::estimate). Windows of fewer than three lags give NaN, as do exponents where the
+/// mean square is not positive.
 ShortAndLong growth(const LagCurve& curve, std::span<const double> weights);
 
 /// alpha(lag) = d ln MS / d ln lag from the neighbouring lags (at the ends from the last two); NaN at lag zero and

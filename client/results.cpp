@@ -148,10 +148,6 @@ Steadiness steadiness(const ResultRow& row, const std::string& field) {
   return is_told ? Steadiness::kNotKnown : Steadiness::kSteady;
 }
 
-bool still_relaxes(const ResultRow& row, const std::string& field) {
-  return steadiness(row, field) == Steadiness::kRelaxing;
-}
-
 std::optional<std::string> field_named(std::span<const std::string> names, const std::string& word) {
   const auto is_there = [&](const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
@@ -266,16 +262,6 @@ bool has_several_versions(const std::vector<ResultRow>& rows) {
     if (const RowVersion version = version_of(row); version.is_known()) versions.insert(version);
   }
   return versions.size() > 1;
-}
-
-std::vector<ResultRow> of_distinct_runs(const std::vector<ResultRow>& rows) {
-  std::vector<ResultRow> distinct;
-  std::set<std::string> seen;
-  for (const ResultRow& row : rows) {
-    const std::string id = row.fields.value("job", "");
-    if (id.empty() || seen.insert(id).second) distinct.push_back(row);
-  }
-  return distinct;
 }
 
 namespace {

@@ -60,14 +60,11 @@ RowVersion version_of(const Json& versions);
 /// Whether different versions computed these rows.
 bool has_several_versions(const std::vector<ResultRow>& rows);
 
-/// The rows of distinct runs, in their order: a run that several points of a sweep ask for is one run, its id says so.
-std::vector<ResultRow> of_distinct_runs(const std::vector<ResultRow>& rows);
-
-/// One row per point and version: replicas of equal parameters together, each run once. Fields: the parameters, "state"
-/// ("done" if all are, otherwise "partial"), "versions.shaken", "versions.physics", "n_replicas", "n_done", and of what
-/// done replicas tell: for each number F its mean as F and the standard error of that (replica_mean) as error_field(F),
-/// in place of the runs' own; "F:n" where only so many of them have a value; for "n_effective" the sum; for "steady"
-/// true if all are, false if one is not.
+/// One row per point and version: replicas of equal parameters together, each run once, however many points of a sweep
+/// ask for it. Fields: the parameters, "state" ("done" if all are, otherwise "partial"), "versions.shaken",
+/// "versions.physics", "n_replicas", "n_done", and of done replicas: for each number F its mean as F and the standard
+/// error of that (replica_mean) as error_field(F), in place of the runs' own; "F:n" where only so many of them have a
+/// value; for "n_effective" the sum; for "steady" true if all are, false if one is not.
 std::vector<ResultRow> aggregated(const std::vector<ResultRow>& rows);
 
 /// The field of the standard error of `field`, in rows of single runs and in aggregated ones: own_error_field(), or
@@ -84,8 +81,6 @@ double standard_error(const ResultRow& row, const std::string& field);
 /// Of what kind of time the average `field` is: its own "steady" tells, or the run's where its own is null. kSteady if
 /// the field is no average over time.
 Steadiness steadiness(const ResultRow& row, const std::string& field);
-/// kRelaxing.
-bool still_relaxes(const ResultRow& row, const std::string& field);
 
 /// The field that `word` means: itself, "measured.WORD.value", "order.mean" where it is "S", or the error of such a
 /// field where `word` is "WORD.sem" or "WORD:sem". A field that is null in every row is there all the same. Throws

@@ -122,8 +122,6 @@ PairSchedule::Remaining PairSchedule::remaining(int p, Tick now) const {
   return {static_cast<int>(gap / (rate * dt_) * (1.0F - margins::kTime)), gap, rate};
 }
 
-int PairSchedule::ticks_left(int p, Tick now) const { return remaining(p, now).ticks; }
-
 bool PairSchedule::shorten_bound(int p, Tick now) {
   const int waiting = ticks_to(pairs_[p].until, now);
   const Remaining bound = remaining(p, now);

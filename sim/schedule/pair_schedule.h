@@ -50,9 +50,6 @@ class PairSchedule {
   /// Puts a pair that has come up at `now` off, if enough of its bound's time is left. False if it is to be searched.
   bool defer(int p, Tick now);
 
-  /// Ticks after `now` for which the pair's bound holds, if it survives hits; further hits may make them fewer.
-  int ticks_left(int p, Tick now) const;
-
   /// Beads overlapped at the last search for contacts.
   bool is_touching(int p) const { return (pairs_[p].marks & kTouching) != 0; }
   void toggle_touching(int p);

@@ -49,7 +49,7 @@ TEST(DirectorField, OfAlignedRodsIsUniform) {
   const DirectorField field(random_places(draw, 500, 30), std::vector<Vec3>(500, axis(1.2, 0.2)), 30, 16, 2.0);
   for (int i = 0; i < 16; ++i) {
     EXPECT_NEAR(field.theta(i, 5), 1.2, 1e-12);
-    EXPECT_NEAR(field.order(i, 5), 1.0, 1e-12);
+    EXPECT_NEAR(Vec2(field.q_xx(i, 5), field.q_xy(i, 5)).norm(), 0.5, 1e-12);
   }
   EXPECT_NEAR((field.q_at({-3.3, 71.9}) - 0.5 * Vec2(std::cos(2.4), std::sin(2.4))).norm(), 0, 1e-12);
 }
@@ -81,8 +81,9 @@ TEST(DirectorField, WhereNoRodReachesQIsZero) {
   const std::vector<Vec3> positions{{5, 5, 0}, {0, 0, 0}};
   const std::vector<Vec3> directors{axis(0.4), {0, 0, 1}};  // an upright rod weighs nothing
   const DirectorField field(positions, directors, 10, 10, 0.5);
-  EXPECT_NEAR(field.order(5, 5), 1.0, 1e-12);
-  EXPECT_EQ(field.order(0, 0), 0.0);
+  EXPECT_NEAR(Vec2(field.q_xx(5, 5), field.q_xy(5, 5)).norm(), 0.5, 1e-12);
+  EXPECT_EQ(field.q_xx(0, 0), 0.0);
+  EXPECT_EQ(field.q_xy(0, 0), 0.0);
   EXPECT_EQ(field.theta(0, 0), 0.0);
 }
 

@@ -117,8 +117,9 @@ TEST(Diffusion, ErrorsOfFewStretchesCarryTheVarianceOfStudentsT) {
       stretches.push_back({{rods[s]}, {rods[s] * (s % 2 == 0 ? 1.0 : 3.0)}});
     const LagTerm term{0, 0, 1.0};
     const LagCurve curve({1.0}, {independent}, 1, stretches);
-    EXPECT_EQ(std::isnan(curve.estimate(1, {&term, 1}).n_effective), std::isnan(curve.sem({&term, 1})));
-    return curve.sem({&term, 1});
+    const auto estimate = curve.estimate(1, {&term, 1});
+    EXPECT_EQ(std::isnan(estimate.n_effective), std::isnan(estimate.sem));
+    return estimate.sem;
   };
   EXPECT_TRUE(std::isnan(sem_of(4.9, std::vector<double>(64, 1))));
   EXPECT_TRUE(std::isnan(sem_of(1000, std::vector<double>(4, 1))));

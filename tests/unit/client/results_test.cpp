@@ -160,23 +160,24 @@ ResultRow row_with_verdict(int replica, const Json& steady, const Json& theta_m_
   return result_row(json);
 }
 
-TEST(StillRelaxes, OwnVerdictFirstThenThatOfTheRun) {
+TEST(Steadiness, OwnVerdictFirstThenThatOfTheRun) {
   const ResultRow relaxing = row_with_verdict(1, false), settled = row_with_verdict(2, true, false);
-  EXPECT_TRUE(still_relaxes(relaxing, "order.mean"));
-  EXPECT_TRUE(still_relaxes(relaxing, "measured.theta_m_deg.value")) << "unknown, in a run that relaxes";
-  EXPECT_FALSE(still_relaxes(relaxing, "cpu_seconds"));
-  EXPECT_FALSE(still_relaxes(relaxing, "order.t_steady_s"));
-  EXPECT_FALSE(still_relaxes(settled, "order.mean"));
-  EXPECT_TRUE(still_relaxes(settled, "measured.theta_m_deg.value"));
+  EXPECT_EQ(steadiness(relaxing, "order.mean"), Steadiness::kRelaxing);
+  EXPECT_EQ(steadiness(relaxing, "measured.theta_m_deg.value"), Steadiness::kRelaxing)
+      << "unknown, in a run that relaxes";
+  EXPECT_NE(steadiness(relaxing, "cpu_seconds"), Steadiness::kRelaxing);
+  EXPECT_NE(steadiness(relaxing, "order.t_steady_s"), Steadiness::kRelaxing);
+  EXPECT_NE(steadiness(settled, "order.mean"), Steadiness::kRelaxing);
+  EXPECT_EQ(steadiness(settled, "measured.theta_m_deg.value"), Steadiness::kRelaxing);
   // Of an older version: nothing is known.
-  EXPECT_FALSE(still_relaxes(row(2.5, 1, 0.5), "order.mean"));
+  EXPECT_NE(steadiness(row(2.5, 1, 0.5), "order.mean"), Steadiness::kRelaxing);
 }
 
 TEST(Aggregated, OneReplicaThatRelaxesMakesThePointRelax) {
   const auto mixed = aggregated({row_with_verdict(1, true, true), row_with_verdict(2, false, true)});
   ASSERT_EQ(mixed.size(), 1u);
-  EXPECT_TRUE(still_relaxes(mixed[0], "order.mean"));
-  EXPECT_FALSE(still_relaxes(mixed[0], "measured.theta_m_deg.value"));
+  EXPECT_EQ(steadiness(mixed[0], "order.mean"), Steadiness::kRelaxing);
+  EXPECT_NE(steadiness(mixed[0], "measured.theta_m_deg.value"), Steadiness::kRelaxing);
   const auto settled = aggregated({row_with_verdict(1, true), row_with_verdict(2, true)});
   EXPECT_EQ(settled[0].fields.at("order.steady"), true);
   EXPECT_TRUE(settled[0].fields.at("measured.theta_m_deg.steady").is_null()) << "nobody knows";
@@ -211,7 +212,6 @@ TEST(Aggregated, ARunThatIsListedTwiceCountsOnce) {
   EXPECT_EQ(point.number("order.sem"), once.number("order.sem"));
   const ResultRow two = aggregated({once, row_with_verdict(2, true), once})[0];
   EXPECT_EQ(two.number("n_replicas"), 2);
-  EXPECT_EQ(of_distinct_runs({once, row_with_verdict(2, true), once}).size(), 2u);
 }
 
 // A run that was done, was asked to go on and is held on its way has results all the time.
