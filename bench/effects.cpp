@@ -78,7 +78,7 @@ void measure_savings(const Case& everything, const Cache& cache, const Effort& e
     row["own_state"] = timed(contender(scene, cache(scene), effort.cpu), all_on, effort.repeat);
     if (Simulation::resume(scene.system(), all_on.state.checkpoint)) {
       Contender briefly = all_on;
-      briefly.settle = 1;
+      briefly.warm_up = 1;
       briefly.ticks = kFewPeriods * everything.period_ticks();
       Contender without = briefly;
       without.scene = scene;

@@ -142,13 +142,13 @@ struct SpeedBench {
     Json rows = Json::array();
     for (const Case& scene : scenes()) {
       Contender scheduled = contender_on(scene);
-      // One tick builds the lists; from there on the reference is timed, and the scheduled stepper settles.
+      // One tick builds the lists; from there on the reference is timed, and the scheduled stepper warms up.
       Contender reference = scheduled;
       reference.stepper = StepperKind::kReference;
-      reference.settle = 1;
+      reference.warm_up = 1;
       reference.ticks = ticks_for(effort.cpu, scene, reference.state, reference.stepper);
-      const Tick compared_ticks = reference.settle + reference.ticks;
-      scheduled.settle = std::max(scheduled.settle, compared_ticks);
+      const Tick compared_ticks = reference.warm_up + reference.ticks;
+      scheduled.warm_up = std::max(scheduled.warm_up, compared_ticks);
       std::vector<Contender> both{reference, scheduled};
       time_in_turn("measuring " + scene.label, both, effort.repeat);
       Simulation compared = resumed(scene, scheduled.state, scheduled.stepper);

@@ -65,7 +65,7 @@ Contender contender(const Case& scene, const SteadyState& state, double cpu) {
   const Tick period = scene.period_ticks();
   return {.scene = scene,
           .state = state,
-          .settle = period,
+          .warm_up = period,
           .ticks = std::max(ticks_for(cpu, scene, state, StepperKind::kScheduled), period)};
 }
 
@@ -77,7 +77,7 @@ void time_in_turn(const std::string& what, std::vector<Contender>& contenders, i
       Simulation simulation = resumed(of.scene, of.state, of.stepper);
       simulation.use_threads(of.threads);
       simulation.share_where_faster(wall_seconds);
-      advance(simulation, of.settle);
+      advance(simulation, of.warm_up);
       time_stretch(simulation, of.scene, of.ticks, of.speed);
       of.hash = simulation.state_hash();
       progress.show(++done / (repeat * static_cast<double>(contenders.size())));

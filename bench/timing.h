@@ -55,13 +55,13 @@ struct Contender {
   SteadyState state;  ///< where each repetition begins
   StepperKind stepper = StepperKind::kScheduled;
   int threads = 1;
-  Tick settle = 1;         ///< not timed: lists and schedules are built
+  Tick warm_up = 1;        ///< not timed: lists and schedules are built
   Tick ticks = 0;          ///< timed
   StepperSpeed speed{};    ///< found
   std::uint64_t hash = 0;  ///< of the state after them
 };
 
-/// The scheduled stepper, settled for a vibration and timed for at least another, about `cpu` seconds.
+/// The scheduled stepper, warmed up for a vibration and timed for at least another, about `cpu` seconds.
 Contender contender(const Case& scene, const SteadyState& state, double cpu);
 
 /// Times all contenders, one after the other, so many times; `what` is shown meanwhile.

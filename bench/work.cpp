@@ -29,7 +29,7 @@ std::vector<Column> phase_columns() {
 
 CountedWork count_work(const Contender& of) {
   Simulation simulation = resumed(of.scene, of.state, StepperKind::kScheduled);
-  advance(simulation, of.settle);
+  advance(simulation, of.warm_up);
   CountedWork work;
   work.rod_seconds = of.scene.rod_seconds(of.ticks);
   const WorkCounts before = simulation.work_counts();

@@ -73,7 +73,7 @@ void take_common_keys(const std::vector<ResultRow>& done, ResultRow& point) {
   }
 }
 
-/// What every one of `done` (replicas of one point) tells, put together into `point`.
+/// What all of `done` (replicas of one point) have measured, put together into `point`.
 void average(const std::vector<ResultRow>& done, ResultRow& point) {
   const std::vector<std::string> names = field_names(done);
   std::set<std::string> own_errors;
@@ -84,11 +84,11 @@ void average(const std::vector<ResultRow>& done, ResultRow& point) {
       continue;
     std::vector<double> values, sems;
     bool all_steady = true;
-    std::size_t n_told = 0;
+    std::size_t n_known = 0;
     for (const ResultRow& row : done) {
       const auto value = row.fields.find(name);
       if (value == row.fields.end() || value->is_null()) continue;
-      ++n_told;
+      ++n_known;
       if (value->is_boolean()) all_steady &= value->get<bool>();
       if (!value->is_number()) continue;
       values.push_back(value->get<double>());
@@ -98,12 +98,12 @@ void average(const std::vector<ResultRow>& done, ResultRow& point) {
       if (!all_steady) {
         point.fields[name] = false;
       } else {
-        point.fields[name] = n_told == done.size() ? Json(true) : Json(nullptr);
+        point.fields[name] = n_known == done.size() ? Json(true) : Json(nullptr);
       }
       continue;
     }
     if (values.empty()) {
-      if (n_told == 0) point.fields[name] = nullptr;
+      if (n_known == 0) point.fields[name] = nullptr;
       continue;
     }
     if (values.size() < done.size()) point.fields[name + ":n"] = values.size();
@@ -138,14 +138,14 @@ Steadiness steadiness(const ResultRow& row, const std::string& field) {
                           (field.starts_with("measured.") && field.ends_with(".value"));
   const auto value = row.fields.find(field);
   if (!is_average || value == row.fields.end() || !value->is_number()) return Steadiness::kSteady;
-  bool is_told = false;
-  for (const std::string& told : {field.substr(0, field.rfind('.')) + ".steady", std::string("steady")}) {
-    const auto steady = row.fields.find(told);
+  bool is_there = false;
+  for (const std::string& name : {field.substr(0, field.rfind('.')) + ".steady", std::string("steady")}) {
+    const auto steady = row.fields.find(name);
     if (steady == row.fields.end()) continue;
-    is_told = true;
+    is_there = true;
     if (steady->is_boolean()) return steady->get<bool>() ? Steadiness::kSteady : Steadiness::kRelaxing;
   }
-  return is_told ? Steadiness::kNotKnown : Steadiness::kSteady;
+  return is_there ? Steadiness::kNotKnown : Steadiness::kSteady;
 }
 
 std::optional<std::string> field_named(std::span<const std::string> names, const std::string& word) {
@@ -287,8 +287,8 @@ std::vector<ResultRow> aggregated(const std::vector<ResultRow>& rows) {
   for (const ResultRow& row : rows) {
     const std::string parameters = row.parameters.dump();
     const RowVersion version = version_of(row);
-    const bool is_settled = version.is_known() || row.state == "done";
-    const auto key = std::pair(parameters, is_settled ? version : newest_version[parameters]);
+    const bool is_final = version.is_known() || row.state == "done";
+    const auto key = std::pair(parameters, is_final ? version : newest_version[parameters]);
     const auto [place, is_new] = group_of.try_emplace(key, groups.size());
     if (is_new) groups.emplace_back();
     auto& group = groups[place->second];

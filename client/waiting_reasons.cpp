@@ -50,8 +50,8 @@ std::vector<std::string> WaitingReasons::news(const std::vector<Json>& jobs, Clo
   for (const auto& [key, group] : groups) {
     Reason& reason = seen_.try_emplace(key, Reason{now, now}).first->second;
     reason.last = now;
-    if (reason.told || now - reason.first < kStands) continue;
-    reason.told = true;
+    if (reason.shown || now - reason.first < kStands) continue;
+    reason.shown = true;
     lines.push_back(fmt::format("{} job{} {}", group.n, group.n == 1 ? "" : "s", group.text));
   }
   return lines;

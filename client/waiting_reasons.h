@@ -25,7 +25,7 @@ class WaitingReasons {
   struct Reason {
     Clock::time_point first;
     Clock::time_point last;
-    bool told = false;
+    bool shown = false;
   };
   std::map<std::string, Reason> seen_;  ///< by the line without its numbers
 };

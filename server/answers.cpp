@@ -31,16 +31,17 @@ bool is_of_this_attempt(const Job& job, const run::RunDirectory& directory) {
   return is_active(job) && !no_scene && !no_progress && progress >= scene;
 }
 
-/// Whether progress.json with the word `state` tells of a job that is not done. If the run is, its end is about to be
+/// Whether progress.json with the word `state` is of a job that is not done. If the run is, its end is about to be
 /// seen, unless that is of the run before it was extended.
-bool tells(const Job& job, const Json& state, const run::RunDirectory& directory) {
+bool is_progress_of(const Job& job, const Json& state, const run::RunDirectory& directory) {
   return state != "done" || is_of_this_attempt(job, directory);
 }
 
 /// What the worker of a job that is not done has written of its progress; null where there is nothing.
 Json progress_of(const Job& job, const run::RunDirectory& directory) {
   Json progress = read_object(directory.progress());
-  return progress.is_object() && tells(job, progress.value("state", Json()), directory) ? progress : Json(nullptr);
+  return progress.is_object() && is_progress_of(job, progress.value("state", Json()), directory) ? progress
+                                                                                                 : Json(nullptr);
 }
 
 /// The summary of run `id`; null if there is none that can be read, or if it is another run's.
@@ -50,8 +51,8 @@ Json summary_of(const std::string& id, const run::RunDirectory& directory) {
   return run_id != summary.end() && *run_id == id ? summary : Json(nullptr);
 }
 
-/// Whether a summary is of the end of a run. That of one that was stopped is, once the job has ended: then it tells of
-/// all that there will be; and that of a run that came to an end and was stopped on its way to another.
+/// Whether a summary is of the end of a run. That of one that was stopped is, once the job has ended: then it has all
+/// that there will be; and that of a run that came to an end and was stopped on its way to another.
 bool is_final(const Json& summary, JobState state) {
   const auto exit = summary.find("exit");
   if (exit == summary.end() || !exit->is_object()) return false;
@@ -115,21 +116,21 @@ Json job_report(const Job& job, const std::filesystem::path& runs) {
 Json sweep_report(const Sweep& sweep, std::span<const Job> begun, const SweepWork& work, int slots,
                   const std::filesystem::path& runs) {
   double finished = work.done;
-  double longest = 0;  // wall seconds to the end of the last active job that tells, and of the longest chain
+  double longest = 0;  // wall seconds to the end of the last active job that reports one, and of the longest chain
   double sum = 0;
-  int n_tell = 0;
+  int n_reporting = 0;
   double waiting = work.queued;  // work that is yet to begin
   bool any_waits = sweep.counts[JobState::kQueued] > 0, any_handed_over = false;
   for (const Job& job : begun) {
     const run::RunDirectory directory{runs / job.id};
     const auto progress = run::read_progress(directory.progress());
-    const bool it_tells = progress && tells(job, progress->state, directory);
-    const double done = it_tells ? job.work * std::clamp(progress->fraction(), 0.0, 1.0) : 0;
+    const bool reports = progress && is_progress_of(job, progress->state, directory);
+    const double done = reports ? job.work * std::clamp(progress->fraction(), 0.0, 1.0) : 0;
     finished += done;
     if (job.state == JobState::kQueued) waiting -= done;
     if (!is_active(job)) continue;
-    if (it_tells && progress->eta >= 0) {
-      ++n_tell;
+    if (reports && progress->eta >= 0) {
+      ++n_reporting;
       longest = std::max(longest, progress->eta);
       sum += progress->eta;
     } else {
@@ -138,9 +139,9 @@ Json sweep_report(const Sweep& sweep, std::span<const Job> begun, const SweepWor
       if (job.pid == 0) any_handed_over = true;  // to a cluster, where it may wait; others have just begun
     }
   }
-  const bool known = !any_waits || (work.seconds_per_work && (n_tell > 0 || !any_handed_over));
+  const bool known = !any_waits || (work.seconds_per_work && (n_reporting > 0 || !any_handed_over));
   // where some wait that have been handed over, as many are at work as can be
-  const int at_once = any_handed_over ? n_tell : std::max(n_tell, slots);
+  const int at_once = any_handed_over ? n_reporting : std::max(n_reporting, slots);
   const double per_work = work.seconds_per_work.value_or(0);
   const double all = sum + std::max(waiting, 0.0) * per_work;
   longest = std::max(longest, work.longest_chain * per_work);

@@ -33,7 +33,7 @@ std::filesystem::file_time_type checkpoint_time(const run::RunDirectory& directo
   return error ? std::filesystem::file_time_type::min() : written;
 }
 
-/// The simulated time that a run has told of [s]; 0 if it has not.
+/// The simulated time that a run has reported [s]; 0 if it has not.
 double reported_time(const run::RunDirectory& directory) {
   const auto progress = run::read_progress(directory.progress());
   return progress ? progress->sim_time : 0;
@@ -366,9 +366,9 @@ void Supervisor::start(const Job& job) {
 void Supervisor::could_not_start(const std::string& id, const std::string& why) {
   pause_ = std::clamp(2 * pause_, options_.first_pause, kLongestPause);
   start_after_ = Clock::now() + pause_;
-  const std::string told = "could not be started: " + why;
-  warn_once(fmt::format("job {} {}; next try in {} s", id, told, std::chrono::duration<double>(pause_).count()));
-  workers_[id].job_end = JobEnd{JobEnd::Outcome::kNotStarted, told};  // until the queue has taken it
+  const std::string reason = "could not be started: " + why;
+  warn_once(fmt::format("job {} {}; next try in {} s", id, reason, std::chrono::duration<double>(pause_).count()));
+  workers_[id].job_end = JobEnd{JobEnd::Outcome::kNotStarted, reason};  // until the queue has taken it
 }
 
 Obstacle Supervisor::delayed(const Job& job, const std::string& why) {

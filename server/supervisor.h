@@ -70,7 +70,7 @@ class Supervisor {
     int handle = 0;
     run::RunDirectory directory;
     std::filesystem::file_time_type checkpoint_before{};  ///< when the last one was written that it found
-    double time_before = 0;                               ///< simulated time that the run had told of by then [s]
+    double time_before = 0;                               ///< simulated time that the run had reported by then [s]
     bool was_at_work = false;                             ///< rather than waiting for its turn when it ended
     Clock::time_point started{};
     Clock::time_point counted{};           ///< up to when the queue knows its wall time

@@ -28,14 +28,14 @@ http::Reply CostEstimates::answer(const http::Request& request) {
   }
   std::vector<std::string> command{client_.string(), "submit", scene.string(), "--dry-run", "--json"};
   if (body.contains("replicas")) command.push_back("--replicas=" + std::to_string(body["replicas"].get<int>()));
-  const Captured told = run_captured(command, CaptureLimits{.time = limit_, .stop = stop_});
-  if (told.cut_short) {
+  const Captured captured = run_captured(command, CaptureLimits{.time = limit_, .stop = stop_});
+  if (captured.cut_short) {
     return refusal(504, "the cost is not known: the rods were not placed and stepped within " +
                             std::to_string(limit_.count() / 1000) + " s");
   }
-  if (told.exit_code != 0) return refusal(422, told.output);
-  const Json answer = Json::parse(told.output, nullptr, false);
-  if (!answer.is_object() || !answer.contains("estimate")) return refusal(500, "shaken: " + told.output);
+  if (captured.exit_code != 0) return refusal(422, captured.output);
+  const Json answer = Json::parse(captured.output, nullptr, false);
+  if (!answer.is_object() || !answer.contains("estimate")) return refusal(500, "shaken: " + captured.output);
   return json_reply(answer["estimate"]);
 }
 

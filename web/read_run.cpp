@@ -117,18 +117,18 @@ int read_run_command(int argc, char** argv) {
     return 2;
   }
   be_expendable();
-  Result<std::string> told = Error{""};
+  Result<std::string> answered = Error{""};
   try {
     const run::RunDirectory directory{argv[2]};
     run::assume_whole(directory.trajectory());
     run::assume_whole(directory.observables());
-    told = answer(RecordedRun(directory.root), {argv + 3, argv + argc});
+    answered = answer(RecordedRun(directory.root), {argv + 3, argv + argc});
   } catch (const std::exception& problem) {  // no memory for what a damaged file asks for
-    told = Error{problem.what()};
+    answered = Error{problem.what()};
   }
-  const std::string& text = told ? *told : told.error().message;
+  const std::string& text = answered ? *answered : answered.error().message;
   const bool is_written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
-  return told && is_written ? 0 : 1;
+  return answered && is_written ? 0 : 1;
 }
 
 }  // namespace shaken::web

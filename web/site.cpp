@@ -300,8 +300,8 @@ Reply Site::picture(const std::string& run, const Request& request) {
   const auto frames = reader_.ask(run, {"frames"});
   if (!frames) return refusal(404, frames.error().message);
   const std::optional<std::size_t> index = index_of(frame);
-  if (const Json told = Json::parse(*frames); !index || *index >= told.at("n").get<std::size_t>())
-    return refusal(404, told.value("reason", "no frame '" + frame + "'"));
+  if (const Json found = Json::parse(*frames); !index || *index >= found.at("n").get<std::size_t>())
+    return refusal(404, found.value("reason", "no frame '" + frame + "'"));
   const std::unique_lock lock(drawing_, std::try_to_lock);
   if (!lock) return refusal(429, "another picture is being drawn: try again");
   const ScratchFolder folder;

@@ -86,7 +86,7 @@ struct StatisticsTask {
   const Knob* knob = &kStepKnob;
   std::vector<double> values;  ///< from most to least accurate [unit of the knob]
   double measure = 0;          ///< simulated per value and replica [s]
-  double settle = 0;           ///< simulated before, from the steady state of the scene [s]
+  double warm_up = 0;          ///< simulated before, from the steady state of the scene [s]
   int replicas = 1;            ///< with seeds 1, 2, ...
 };
 

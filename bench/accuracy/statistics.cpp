@@ -58,7 +58,7 @@ Point measure_point(const StatisticsTask& task, double value, const Cache& cache
     const Case start = start_of(task, value, replica);
     Simulation simulation =
         continued(resumed(start, cache(start), StepperKind::kScheduled), scene_of(task, start, value));
-    advance(simulation, std::llround(task.settle / simulation.world().system.dt));
+    advance(simulation, std::llround(task.warm_up / simulation.world().system.dt));
     series = ObservableSeries();
     const std::string what = fmt::format("{}, {} {:.10g}, seed {}", start.label, task.knob->name, value, replica + 1);
     point.cpu_per_rod_second +=

@@ -2,7 +2,7 @@
 // The peers' scene in ODE: rods are bodies with a sphere for each bead, plates are kinematic boxes, QuickStep solves.
 // Built and run by ode.py; no part of Shaken.
 //   ode_rods squeeze IN OUT dt squeeze rest              moves the side walls in; writes the state
-//   ode_rods run     IN FRAMES dt settle timed n every   prints the CPU seconds of `timed`; writes n frames
+//   ode_rods run     IN FRAMES dt warm_up timed n every   prints the CPU seconds of `timed`; writes n frames
 // Files are in mm, s, mg. ODE computes in mm, 10 ms and rod masses, where everything is of the order of one.
 #include <ode/ode.h>
 
@@ -284,11 +284,11 @@ int squeeze(char** arguments) {
 }
 
 int run(char** arguments) {
-  const double dt = std::atof(arguments[2]), settle = std::atof(arguments[3]), timed = std::atof(arguments[4]);
+  const double dt = std::atof(arguments[2]), warm_up = std::atof(arguments[3]), timed = std::atof(arguments[4]);
   const int n_frames = std::atoi(arguments[5]);
   const long every = std::max(1L, std::lround(std::atof(arguments[6]) / dt));
   Box box(read_state(arguments[0]));
-  for (long k = std::lround(settle / dt); k > 0; --k) box.step(dt);
+  for (long k = std::lround(warm_up / dt); k > 0; --k) box.step(dt);
   std::ofstream out(arguments[1]);
   out << std::setprecision(9);
   for (int frame = 0; frame < n_frames; ++frame) {
@@ -315,6 +315,6 @@ int main(int argc, char** argv) {
   const std::string task = argc > 1 ? argv[1] : "";
   if (task == "squeeze" && argc == 7) return squeeze(argv + 2);
   if (task == "run" && argc == 9) return run(argv + 2);
-  std::cerr << "ode_rods squeeze IN OUT dt squeeze rest | ode_rods run IN FRAMES dt settle timed frames every\n";
+  std::cerr << "ode_rods squeeze IN OUT dt squeeze rest | ode_rods run IN FRAMES dt warm_up timed frames every\n";
   return 2;
 }

@@ -82,8 +82,8 @@ Graphics LiveScreen::graphics() const {
 
 std::optional<PixelSize> LiveScreen::cell(TerminalSize size) const {
   if (graphics() == Graphics::kBlocks) return std::nullopt;
-  const TerminalSize told = terminal_size(STDOUT_FILENO).value_or(TerminalSize{});
-  if (const auto cell = cell_size({told.width, told.height}, told.columns, told.lines)) return cell;
+  const TerminalSize reported = terminal_size(STDOUT_FILENO).value_or(TerminalSize{});
+  if (const auto cell = cell_size({reported.width, reported.height}, reported.columns, reported.lines)) return cell;
   // That of another size of the window would make images too large for their place.
   const bool is_present = answers_.n_complete == n_asked_ && asked_size_.columns == size.columns &&
                           asked_size_.lines == size.lines && answers_.window;

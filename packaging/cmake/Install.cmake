@@ -17,7 +17,7 @@ if(NOT SHAKEN_ONLY_SIM)
   install(TARGETS ${SHAKEN_PROGRAMS} COMPONENT programs OPTIONAL)
   install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/shaken COMPONENT programs PATTERN tests EXCLUDE)
   install(DIRECTORY web/page DESTINATION ${CMAKE_INSTALL_DATADIR}/shaken COMPONENT programs)
-  install(DIRECTORY packaging/schemas DESTINATION ${CMAKE_INSTALL_DATADIR}/shaken COMPONENT programs)
+  install(DIRECTORY ${CMAKE_BINARY_DIR}/share/shaken/schemas DESTINATION ${CMAKE_INSTALL_DATADIR}/shaken COMPONENT programs)
   # the Python package: where the programs look for it, and by a link where Debian's Python does
   install(DIRECTORY python/shaken DESTINATION ${CMAKE_INSTALL_DATADIR}/shaken/python COMPONENT python
     FILES_MATCHING PATTERN *.py PATTERN py.typed PATTERN __pycache__ EXCLUDE)

@@ -152,6 +152,25 @@ def test_a_chain_that_is_broken_is_reported_and_ends_the_study(programs, tmp_pat
     assert len(lines) == 6 and sum(": held: lost" in line for line in lines) == 3
 
 
+def test_a_finished_run_is_archived_once_however_long_the_others_take(monkeypatch):
+    points = [SimpleNamespace(set="one", id=id_, cost=60.0) for id_ in ("a", "b")]
+    plan = SimpleNamespace(sweeps={"one": {}}, missing=points, archive=Path("archive"), cost=lambda name=None: 120.0,
+                           sweep_of_missing=lambda name: {"name": name})
+    polls = [[("done", 5), ("running", 0)]] * 3 + [[("done", 9), ("done", 7)]]  # the first goes on, and ends once more
+
+    def jobs(sweep):
+        states = polls.pop(0)
+        return [{"id": id_, "state": state, "finished_utime": end, "label": "", "starts_from": None, "wall_s": 0,
+                 "reason": ""} for id_, (state, end) in zip("ab", states)]
+
+    read = []
+    monkeypatch.setattr(running, "archive_job",
+                        lambda job, name, archive: read.append((job["id"], job["finished_utime"])))
+    daemon = SimpleNamespace(jobs=jobs, submit=lambda sweep, **terms: "s1", ask=lambda method, path: {})
+    assert running.run_plan(plan, daemon, say=lambda line: None, every=0.0) == []
+    assert read == [("a", 5), ("a", 9), ("b", 7)]
+
+
 def test_an_error_beside_a_daemon_is_reported_as_it_is(programs, tmp_path):
     said = []
     for _ in range(2):

@@ -39,9 +39,9 @@ constexpr int kTicksBetween = 20;         ///< of two steps: a few times the way
 constexpr int kTicksBetweenAligned = 60;  ///< the same of rods that follow a pattern
 constexpr int kStepsToJam = 400;          ///< if side and gap come nearer to their aims by less than this meanwhile:
 constexpr double kStandstill = 0.001;
-constexpr int kTicksToSettle = 5;
+constexpr int kRelaxationTicks = 5;
 constexpr int kMostSettling = 2000;
-constexpr int kFinerAfter = 50;  ///< attempts to settle, with half the tick
+constexpr int kFinerAfter = 50;  ///< attempts to relax, with half the tick
 
 // of rods that follow a pattern
 constexpr double kTurnTime = 0.0025;  ///< in which they turn by sin 2 delta, delta being the angle to it [s]
@@ -139,7 +139,7 @@ class Compression {
       if (auto done = fly(field_ ? kTicksBetweenAligned : kTicksBetween); !done) return done.error();
     }
     for (int tries = 1;; ++tries) {
-      if (auto flights = settled()) {
+      if (auto flights = relaxed()) {
         aim_.rods = *std::move(flights);
         aim_.start = content(aim_);
         return std::move(aim_);
@@ -147,7 +147,7 @@ class Compression {
       if (auto done = may_go_on(tries < kMostSettling); !done) return done.error();
       if (tries % kFinerAfter == 0) world_.system.dt *= 0.5;
       fly_anew_in(world_.system.box_side, world_.system.gap);
-      if (auto done = fly(kTicksToSettle); !done) return done.error();
+      if (auto done = fly(kRelaxationTicks); !done) return done.error();
     }
   }
 
@@ -371,7 +371,7 @@ class Compression {
   }
 
   /// The flights of the start, if no true rods overlap where they are now. Looks.
-  std::optional<std::vector<Flight>> settled() {
+  std::optional<std::vector<Flight>> relaxed() {
     look();
     if (deepest(neighbors(), aim_.species, 1.0, 1.0) > 0) return std::nullopt;
     if (deepest_in_posts(aim_.species, world_.system.box_side) > 0) return std::nullopt;

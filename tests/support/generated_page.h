@@ -16,18 +16,15 @@ inline std::string content_of(const std::string& file) {
   return content.str();
 }
 
-/// Holds a file to `expected`. With SHAKEN_UPDATE_DOCS=1 in the environment it writes the file anew instead.
-inline void expect_generated_file(const std::string& file, const std::string& expected) {
-  if (std::getenv("SHAKEN_UPDATE_DOCS") != nullptr) std::ofstream(file) << expected;
-  EXPECT_TRUE(content_of(file) == expected) << file << ": run this test with SHAKEN_UPDATE_DOCS=1";
-}
-
-/// The same of the part of a page between the lines "<!-- MARK: begin -->" and "<!-- MARK: end -->".
+/// Holds the part of a page between the lines "<!-- MARK: begin -->" and "<!-- MARK: end -->" to `expected`. With
+/// SHAKEN_UPDATE_DOCS=1 in the environment it writes that part anew instead.
 inline void expect_generated(const std::string& file, const std::string& mark, const std::string& expected) {
   const std::string text = content_of(file), begin = "<!-- " + mark + ": begin -->\n";
   const std::size_t from = text.find(begin), to = text.find("<!-- " + mark + ": end -->");
   ASSERT_TRUE(from != std::string::npos && to != std::string::npos) << file << " has lost its marks " << mark;
-  expect_generated_file(file, text.substr(0, from + begin.size()) + expected + text.substr(to));
+  const std::string whole = text.substr(0, from + begin.size()) + expected + text.substr(to);
+  if (std::getenv("SHAKEN_UPDATE_DOCS") != nullptr) std::ofstream(file) << whole;
+  EXPECT_TRUE(content_of(file) == whole) << file << ": run this test with SHAKEN_UPDATE_DOCS=1";
 }
 
 }  // namespace shaken

@@ -139,12 +139,16 @@ def run_plan(plan: Plan, daemon: Daemon, budget: float = math.inf, *, say: Calla
     waiting = [name for name in plan.sweeps if plan.cost(name) > 0]
     at_work: dict[str, str] = {}  # id of the sweep -> its name
     costs = {point.id: point.cost for point in plan.missing}
+    archived: set[tuple[str, int]] = set()  # ids and ends of runs that need not be read again
     while True:
         jobs = {job["id"]: (job, name) for sweep, name in at_work.items() for job in daemon.jobs(sweep)}
         done = [id_ for id_, (job, _) in jobs.items() if job["state"] == "done" and id_ in costs]
         left = plan.cost() - sum(costs[id_] for id_ in done)
         for job, name in jobs.values():
-            if job["state"] == "done" and (path := archive_job(job, name, plan.archive)):
+            if job["state"] != "done" or (job["id"], job["finished_utime"]) in archived:
+                continue
+            archived.add((job["id"], job["finished_utime"]))
+            if path := archive_job(job, name, plan.archive):
                 say(f"{path.name[:8]}  {name}  {job['label']}  ({len(done)} of {len(costs)} runs, about "
                     f"{left / 3600:.2f} CPU-h left)")
                 if films is not None:

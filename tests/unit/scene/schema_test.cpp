@@ -16,7 +16,6 @@
 #include "scene/canonical.h"
 #include "scene/sweep.h"
 #include "tests/support/effort.h"
-#include "tests/support/generated_page.h"
 #include "tests/unit/scene/mutated.h"
 #include "tests/unit/scene/scene_support.h"
 
@@ -406,14 +405,6 @@ TEST(Schema, IsNamedInAFileAndMeansNothingThere) {
   EXPECT_TRUE(load_sweep(R"({"$schema": "x", "scene": {"$schema": "y"}, "sweep": {"replicas": 2}})", "f"));
   EXPECT_EQ(problem_of(R"({"$schema": 3})"), "run.json:1:13: /$schema: expected a text, not the number 3");
   EXPECT_EQ(problem_of(R"({"box": {"$schema": "x"}})"), "run.json:1:10: /box/$schema: unknown key");
-}
-
-// The files in packaging/schemas/ are these. To write them anew: SHAKEN_UPDATE_DOCS=1 and run this test.
-TEST(Schema, TheFilesAreUpToDate) {
-  for (const auto& [name, schema] : {std::pair{"scene", scene_schema()}, std::pair{"sweep", sweep_schema()}}) {
-    expect_generated_file(fmt::format("{}/packaging/schemas/{}.schema.json", SHAKEN_SOURCE_DIR, name),
-                          schema.dump(2) + "\n");
-  }
 }
 
 }  // namespace
