@@ -206,9 +206,10 @@ def test_blunt_rods_from_rows_stand_beside_those_from_a_fluid():
     made = [rods("layer-trends", 0.4, 0.03), rods("layer-trends", 0.5, 0.76), rods("fluid-start", 0.5, 0.5),
             rods("fluid-start", 0.5, 0.02, 0.70)]
     found = rows(beyond_paper.blunt(Evidence(made)))
-    assert [row[:3] for row in found] == [["0.4 mm", "0.85", "rows"], ["0.5 mm", "0.85", "rows"],
-                                          ["0.5 mm", "0.85", "a fluid"]], "the melt is a stage, no state of its own"
-    assert [row[5] for row in found] == ["0.030 ± 0.010", "0.760 ± 0.010", "0.500 ± 0.010"]
+    states = [["0.4 mm", "0.85", "40 mm", "rows"], ["0.5 mm", "0.85", "40 mm", "rows"],
+              ["0.5 mm", "0.85", "40 mm", "a fluid"]]
+    assert [row[:4] for row in found] == states, "the melt is a stage, no state of its own"
+    assert [row[6] for row in found] == ["0.030 ± 0.010", "0.760 ± 0.010", "0.500 ± 0.010"]
 
 
 def test_rods_are_counted_in_the_area_of_a_box_that_is_not_square():

@@ -408,6 +408,7 @@ def test_the_wavelength_in_a_strip_is_that_of_the_mean_wave_number():
     for run in of_strips:
         run.scene["box"]["aspect"] = 6.0
     assert layer_checks.wavelength(of_strips[0]).value == pytest.approx(126 / 9)
+    assert not layer_checks.wavelength(of_strips[2]).is_known, "of what has no second peak it is no layers' wavelength"
     assert len(layer_checks.layered(Runs(of_strips))) == 3, "two of three have two peaks"
     assert not layer_checks.layered(Runs(of_strips[1:] + of_strips[2:]))
 

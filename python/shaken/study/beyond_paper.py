@@ -264,18 +264,18 @@ def sizes(evidence: Evidence) -> str:
 
 def blunt(evidence: Evidence) -> str:
     """Rods of 4 mm with ends of several diameters: crystalline order and P(theta), from rows and from a fluid."""
-    points = [here for name in ("layer-trends", "fluid-start")
+    points = [here for name in ("layer-trends", "fluid-start", "strip")
               for here in by(Runs(run for run in evidence[name].at(4.0) if key_of(run, PACKING) > 0.78), END, PACKING)]
     points.sort(key=lambda here: (key_of(here[0], END), key_of(here[0], PACKING)))
     return table(points, [
-        key("d", END, " mm"), PACKED, START, SEEDS, number("S", "S"),
+        key("d", END, " mm"), PACKED, BOX, START, SEEDS, number("S", "S"),
         number("ψ₆", "psi_6"), number("Bragg peak", "bragg_peak"), number("P(0)/maximum", "dip"),
         number("layer order", "layer_order"), number("D along (mm²/s)", "diffusion_along_mm2_s")])
 
 
 def strip(evidence: Evidence) -> str:
     """Layers in a strip that is long across the rods beside those in the square box; nothing where none was run."""
-    strips = Runs(run for run in evidence["strip"] if key_of(run, PACKING) > 0.78)
+    strips = Runs(run for run in evidence["strip"].at(end=0.4) if key_of(run, PACKING) > 0.78)
     if not strips:
         return ""
 

@@ -72,7 +72,7 @@ FIGURES: tuple[Figure, ...] = (
            ("layers", "layer-trends", "strip"), figures_structure.layer_trends),
     Figure("", "larger-box", "Layers in a larger box", ("layer-trends", "larger-box"),
            figures_structure.larger_box),
-    Figure("", "ends", "Blunt rods, from rows and from a fluid", ("layer-trends", "fluid-start"),
+    Figure("", "ends", "Blunt rods, from rows and from a fluid", ("layer-trends", "fluid-start", "strip"),
            figures_structure.ends),
     Figure("", "gap", "The gap between the plates: crystal, layers, no layers", ("gaps", "layers"),
            figures_structure.gap),

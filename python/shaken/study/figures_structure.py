@@ -155,7 +155,8 @@ def layers(material: Material) -> Sheet:
     by_length = [(trends.at(packing=packing, end=0.4), f"φ = {packing:g}, L = 42 mm") for packing in (0.80, 0.85)]
     strips = evidence["strip"].at(packing=0.85, end=0.4)
     by_length += [(strips, f"φ = 0.85, {box_text(strips[0])}")] if strips else []
-    starts = [(by_end, "from rows"), (fluid, "from a fluid")]
+    blunt = evidence["strip"].at(4.0, 0.85)
+    starts = [(by_end, "from rows"), (fluid, "from a fluid"), (blunt, "from a fluid, strip")]
     _against(sheet[3], by_length, LENGTH, "theta_m_deg", "angle")
     sheet[3].reference(y=10, label="the paper: about 10°")
     material.stamp(sheet[3], "angle-length")

@@ -100,7 +100,7 @@ def theta_m(run: Run) -> Estimate:
 
 
 def wavelength(run: Run) -> Estimate:
-    """The wavelength of the layers [mm].
+    """The wavelength of the layers [mm] of a run that has two peaks in P(theta).
 
     In a box that is much wider than they are it is that of the mean wave number of the spectrum between 8 and 24 mm,
     weighted with the power: which one of many neighbouring waves is the highest is chance. Its error is left to the
@@ -111,6 +111,8 @@ def wavelength(run: Run) -> Estimate:
     found = number_of(run, "wavelength_mm")
     if not found.is_known:
         return found
+    if not number_of(run, "dip").value < TWO_PEAKS:
+        return Estimate(reason="no second peak")
     _, across = box_of(run)
     if across > 4 * BAND[1] and "/layers/spectrum_across" in run:
         q, power = np.asarray(run["/layers/q_per_mm"]), np.asarray(run["/layers/spectrum_across"])
@@ -253,7 +255,7 @@ def _by_length(evidence: Evidence) -> list[tuple[Runs, str]]:
 
 
 def _by_end(evidence: Evidence) -> list[tuple[Runs, str]]:
-    return [(evidence[name].at(4.0, 0.85), END) for name in ("layer-trends", "fluid-start")]
+    return [(evidence[name].at(4.0, 0.85), END) for name in ("layer-trends", "fluid-start", "strip")]
 
 
 def angle_grows_with_packing(evidence: Evidence) -> Finding:
@@ -287,7 +289,8 @@ def two_peaks_at_every_end(evidence: Evidence) -> Finding:
     for end in ends if len(ends) > 1 else []:
         starts = [here for runs in series if (here := runs.at(end=end))]
         answers.append(_whatever_the_start([_two_peaks_in_order(here) for here in starts]).placed(f"d = {end:g} mm"))
-        found.append(f"d = {end:g} mm: " + ", ".join(_angle_text(here) + _start_text(here) for here in starts))
+        found.append(f"d = {end:g} mm: " + ", ".join(f"{_angle_text(here)} in {box_text(here[0])}{_start_text(here)}"
+                                                     for here in starts))
     return conclude(answers, "; ".join(found), everywhere=True)
 
 
