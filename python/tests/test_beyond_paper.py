@@ -10,9 +10,10 @@ import pytest
 
 from shaken.estimate import Estimate
 from shaken.run import Arrays, Run
-from shaken.study import beyond_paper
+from shaken.study import beyond_paper, next_runs
 from shaken.study.evidence import PACKING, SIDE, Evidence, Runs
 from shaken.study.report import sections
+from shaken.study.statements import STATEMENTS, judged
 from shaken.units import unit_of
 
 _ids = itertools.count()
@@ -151,11 +152,22 @@ def test_order_falls_with_the_box_by_a_power():
 def test_runs_are_priced_by_the_speed_of_those_at_hand():
     # 0.5 rods/mm2 at 0.75, hence 600 of them at 0.75 in 1200 mm2; 400 rod seconds a second: 2 x 600 x 300 / 400 s
     evidence = Evidence([run("short-rods", n_rods=800), run("shaking", gamma=0.0, speed=1.0)])
-    wanted = beyond_paper.Next("x", "y", 2.5, 0.75, math.sqrt(1200), 300, 2)
-    assert beyond_paper.hours(evidence, wanted) == pytest.approx(2 * 600 * 300 / 400 / 3600)
-    assert math.isnan(beyond_paper.hours(evidence, beyond_paper.Next("x", "y", 4.5, 0.75, 40, 300, 2)))
-    assert "| – |" in beyond_paper.next_runs(evidence) and len(rows(beyond_paper.next_runs(evidence))) == \
-        len(beyond_paper.NEXT)
+    wanted = next_runs.Batch(2.5, 0.75, math.sqrt(1200), 300, 2)
+    assert next_runs.hours(evidence, wanted) == pytest.approx(2 * 600 * 300 / 400 / 3600)
+    assert math.isnan(next_runs.hours(evidence, next_runs.Batch(4.5, 0.75, 40, 300, 2)))
+    assert "| – |" in next_runs.open_questions(evidence)
+    assert len(rows(next_runs.open_questions(evidence))) == len(next_runs.QUESTIONS)
+
+
+def test_open_statements_have_a_reason_and_a_price():
+    # no runs of some, and of the angle against packing one packing only
+    evidence = Evidence([run("strip", length=4.5, packing=0.8, n_rods=900, side=52.0)])
+    found = {row[0]: row[1:] for row in rows(next_runs.open_statements(evidence, judged(evidence)))}
+    says = {statement.id: statement.says for statement in STATEMENTS}
+    assert set(next_runs.DECIDING) <= set(says)
+    assert found[says["larger-box"]] == ["no runs yet", "two seeds in a box of 84 mm: the set `larger-box`", "–"]
+    assert float(found[says["long-range"]][2]) > 0, "rods of 4.5 mm have a speed"
+    assert set(found) == {v.statement.says for v in judged(evidence) if v.finding.verdict in ("open", "no data")}
 
 
 def test_an_archive_without_these_sets_has_empty_tables():
@@ -167,7 +179,7 @@ def test_an_archive_without_these_sets_has_empty_tables():
 def test_the_page_has_each_table_once():
     page = (Path(__file__).resolve().parents[2] / "docs" / "findings.md").read_text()
     begun = re.findall(r"<!-- (.+?): begin -->", page)
-    assert sorted(begun) == sorted(beyond_paper.SECTIONS), "each table stands on the page, and is known"
+    assert sorted(begun) == sorted([*beyond_paper.SECTIONS, "next runs"]), "each table stands on the page, and is known"
     assert set(beyond_paper.SECTIONS) <= set(sections(Evidence([])))
 
 
@@ -214,5 +226,5 @@ def test_blunt_rods_from_rows_stand_beside_those_from_a_fluid():
 
 def test_rods_are_counted_in_the_area_of_a_box_that_is_not_square():
     evidence = Evidence([run("strip", length=4.5, packing=0.8, side=20.0, aspect=2, n_rods=320)])
-    next_ = beyond_paper.Next("q", "", 4.5, 0.8, 40.0, 100.0, 1)
-    assert beyond_paper.hours(evidence, next_) == pytest.approx(0.4 * 1600 * 100 / 400 / 3600)
+    batch = next_runs.Batch(4.5, 0.8, 40.0, 100.0, 1)
+    assert next_runs.hours(evidence, batch) == pytest.approx(0.4 * 1600 * 100 / 400 / 3600)

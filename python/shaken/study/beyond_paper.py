@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""What the runs have that the paper does not: the tables of docs/findings.md, and the price of the runs to do next."""
+"""What the runs have that the paper does not: the tables of docs/findings.md."""
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import Callable, Iterable, Sequence
 
 import numpy as np
@@ -16,7 +15,6 @@ from .layer_checks import layered, theta_m, wavelength
 from .motion_checks import late_velocity_correlation, papers_diffusion, speed_between
 from .order_checks import power_of_size
 from .rules import text
-from .running import speed
 from .structure_checks import mean_waves, ordered_in_large_boxes
 
 #: A column of a table: its heading, and what it says of the runs at one state point.
@@ -294,61 +292,8 @@ def strip(evidence: Evidence) -> str:
         number("layer order", "layer_order")])
 
 
-@dataclass(frozen=True)
-class Next:
-    """Runs at the desk's time step that would decide a question.
-
-    side: of the box [mm]; seconds: simulated, of each run
-    """
-
-    name: str
-    what: str
-    length: float
-    packing: float
-    side: float
-    seconds: float
-    runs: int
-
-
-NEXT = (
-    Next("beads", "7, 9 and 21 beads with 986 rods each, three seeds", 2.5, 0.75, 41.865, 200, 9),
-    Next("number of rods", "φ = 0.8264 of the set `density`, two seeds", 2.5, 0.8264, 60, 200, 2),
-    Next("frequency", "225 and 280 Hz at 0.80, until the MSD is linear, one seed", 2.5, 0.80, 60, 900, 2),
-    Next("shaking", "Γ = 3 from the disordered end of a run at Γ = 14, three seeds", 2.5, 0.75, 25.119, 1000, 3),
-    Next("minimum of D", "0.65 to 0.85 in steps of 0.05, the set `diffusion`", 2.5, 0.75, 60, 250, 10),
-    Next("persistence", "neighbours' velocities at 0.85, two seeds", 2.5, 0.85, 83.73, 120, 2),
-    Next("lanes", "0.85 in twice the box, for as long, two seeds", 4.5, 0.85, 66.984, 810, 2),
-    Next("defects", "0.80 in the paper's box, defects every 50 ms, two seeds", 2.5, 0.80, 83.73, 120, 2),
-    Next("elastic constants", "0.55 in twice the box, two seeds", 4.5, 0.55, 133.968, 300, 2),
-)
-
-
-def hours(evidence: Evidence, next_: Next) -> float:
-    """CPU-hours of one core, by the speed of the runs of that length near that packing, and by how many rods of that
-    length they have at an area fraction; NaN where there are none."""
-    known = Runs(run for run in evidence.everything.at(length=next_.length)
-                 if "rod_seconds_per_cpu_second" in run.summary and key_of(run, GAMMA) > 0)
-    if not known:
-        return math.nan
-    per_area = float(np.median([run.summary["n_rods"] / math.prod(box_of(run)) / key_of(run, PACKING)
-                                for run in known]))
-    n_rods = per_area * next_.packing * next_.side ** 2
-    return next_.runs * n_rods * next_.seconds / speed(known, next_.packing) / 3600
-
-
-def next_runs(evidence: Evidence) -> str:
-    """What would decide the questions of the page, and its price."""
-    lines = ["| question | runs | ℓ | φ | box | time of each | CPU-h |", "|---|---|---|---|---|---|---|"]
-    for next_ in NEXT:
-        price = hours(evidence, next_)
-        shown = f"{price:.2g}" if math.isfinite(price) else "–"
-        lines.append(f"| {next_.name} | {next_.what} | {next_.length:g} mm | {next_.packing:g} | {next_.side:.3g} mm | "
-                     f"{next_.seconds:g} s | {shown} |")
-    return "\n".join(lines) + "\n"
-
-
 #: What makes each table of docs/findings.md, by the names of its marks.
 SECTIONS: dict[str, Callable[[Evidence], str]] = {
     "beads": beads, "number of rods": density, "frequency": frequency, "rival frequency": rival_frequency,
     "shaking": shaking, "diffusion": diffusion_minimum, "streaming": streaming, "defects": defects,
-    "elastic constants": elastic, "order and box": sizes, "blunt rods": blunt, "next runs": next_runs}
+    "elastic constants": elastic, "order and box": sizes, "blunt rods": blunt}

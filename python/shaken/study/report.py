@@ -13,6 +13,7 @@ from ..errors import ShakenError
 from .beyond_paper import SECTIONS, strip
 from .evidence import Evidence
 from .figures import FIGURES, Figure
+from .next_runs import open_questions, open_statements
 from .pages import PAGES, content, index, page_of
 from .sets import ORDER
 from .statements import STATEMENTS, Statement, Verdict, as_table, judged
@@ -119,7 +120,8 @@ def sections(evidence: Evidence, folder: str = "figures", pages: str = "validati
             **{page.name: lambda page=page: content(page, images(evidence, page.drawn, folder), found())
                for page in PAGES},
             "strip": lambda: strip(evidence), "time step": lambda: differences(evidence),
-            "price of errors": lambda: prices(evidence),
+            "price of errors": lambda: prices(evidence), "next runs": lambda: open_questions(evidence),
+            "open": lambda: open_statements(evidence, found()),
             **{name: lambda make=make: make(evidence) for name, make in SECTIONS.items()}}
 
 

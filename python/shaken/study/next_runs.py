@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: MIT
+"""The runs to do next and their price: what would decide the statements that are open, and what docs/findings.md
+asks."""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Iterable
+
+import numpy as np
+
+from .evidence import GAMMA, PACKING, Evidence, Runs, box_of, key_of
+from .rules import NO_DATA, OPEN
+from .running import speed
+from .statements import Verdict
+
+
+@dataclass(frozen=True)
+class Batch:
+    """Alike runs at the desk's time step.
+
+    length: of the rods [mm]; packing: their area fraction; side: of the box [mm]; seconds: simulated, of each run
+    """
+
+    length: float
+    packing: float
+    side: float
+    seconds: float
+    n_runs: int
+
+
+#: Side [mm] of the square that is as large as the strip of 21 mm x 126 mm.
+STRIP = 51.44
+
+#: What would decide each question of docs/findings.md.
+QUESTIONS: dict[str, tuple[str, Batch]] = {
+    "beads": ("7, 9 and 21 beads with 986 rods each, three seeds", Batch(2.5, 0.75, 41.865, 200, 9)),
+    "number of rods": ("φ = 0.8264 of the set `density`, two seeds", Batch(2.5, 0.8264, 60, 200, 2)),
+    "frequency": ("225 and 280 Hz at 0.80, until the MSD is linear, one seed", Batch(2.5, 0.80, 60, 900, 2)),
+    "shaking": ("Γ = 3 from the disordered end of a run at Γ = 14, three seeds", Batch(2.5, 0.75, 25.119, 1000, 3)),
+    "minimum of D": ("0.65 to 0.85 in steps of 0.05, the set `diffusion`", Batch(2.5, 0.75, 60, 250, 10)),
+    "persistence": ("neighbours' velocities at 0.85, two seeds", Batch(2.5, 0.85, 83.73, 120, 2)),
+    "lanes": ("0.85 in twice the box, for as long, two seeds", Batch(4.5, 0.85, 66.984, 810, 2)),
+    "defects": ("0.80 in the paper's box, defects every 50 ms, two seeds", Batch(2.5, 0.80, 83.73, 120, 2)),
+    "elastic constants": ("0.55 in twice the box, two seeds", Batch(4.5, 0.55, 133.968, 300, 2)),
+}
+
+#: What would decide each statement that is open or may be, by its id.
+DECIDING: dict[str, tuple[str, tuple[Batch, ...]]] = {
+    "oblique": ("three seeds that start turned by 30°: the set `turned`", (Batch(3.5, 0.85, 41.865, 400, 3),)),
+    "long-range": ("boxes of 33, 67 and 134 mm: the set `long-range`",
+                   (Batch(4.5, 0.70, 33.492, 400, 2), Batch(4.5, 0.70, 66.984, 400, 2),
+                    Batch(4.5, 0.70, 133.968, 400, 1))),
+    "larger-box": ("two seeds in a box of 84 mm: the set `larger-box`", (Batch(4.0, 0.85, 83.73, 400, 2),)),
+    "defects": ("a run in the paper's box: the first of the set `no-order`", (Batch(3.0, 0.85, 83.73, 400, 1),)),
+    "peaks-end": ("rows of 0.5 and 0.6 mm for the paper's 110 min, three seeds each: whether they melt",
+                  (Batch(4.0, 0.85, 41.865, 6600, 6),)),
+    "angle-packing": ("six seeds of each packing in the strip: the set `strip`",
+                      (Batch(4.5, 0.80, STRIP, 280, 3), Batch(4.5, 0.85, STRIP, 310, 3))),
+    "wavelength-packing": ("some 14 seeds of each packing in the strip, if the means stay where they are",
+                           (Batch(4.5, 0.80, STRIP, 280, 11), Batch(4.5, 0.85, STRIP, 310, 11))),
+    "wavelength-length": ("six seeds of 3.5 and 4.5 mm in the strip",
+                          (Batch(3.5, 0.85, STRIP, 310, 3), Batch(4.5, 0.85, STRIP, 310, 3))),
+    "wavelength-end": ("three seeds with ends of 0.5 mm in the strip: the set `strip`",
+                       (Batch(4.0, 0.85, STRIP, 310, 3),)),
+}
+
+
+def hours(evidence: Evidence, batch: Batch) -> float:
+    """CPU-hours of one core, by the speed of the runs of that length near that packing, and by how many rods of that
+    length they have at an area fraction; NaN where there are none."""
+    known = Runs(run for run in evidence.everything.at(length=batch.length)
+                 if "rod_seconds_per_cpu_second" in run.summary and key_of(run, GAMMA) > 0)
+    if not known:
+        return math.nan
+    per_area = float(np.median([run.summary["n_rods"] / math.prod(box_of(run)) / key_of(run, PACKING)
+                                for run in known]))
+    n_rods = per_area * batch.packing * batch.side ** 2
+    return batch.n_runs * n_rods * batch.seconds / speed(known, batch.packing) / 3600
+
+
+def _price(evidence: Evidence, batches: Iterable[Batch]) -> str:
+    price = sum((hours(evidence, batch) for batch in batches), 0.0)
+    return f"{price:.2g}" if price > 0 else "–"
+
+
+def open_questions(evidence: Evidence) -> str:
+    """What would decide the questions of docs/findings.md, and its price; as a table of Markdown."""
+    lines = ["| question | runs | ℓ | φ | box | time of each | CPU-h |", "|---|---|---|---|---|---|---|"]
+    for question, (runs, batch) in QUESTIONS.items():
+        lines.append(f"| {question} | {runs} | {batch.length:g} mm | {batch.packing:g} | {batch.side:.3g} mm | "
+                     f"{batch.seconds:g} s | {_price(evidence, [batch])} |")
+    return "\n".join(lines) + "\n"
+
+
+def open_statements(evidence: Evidence, found: Iterable[Verdict]) -> str:
+    """The statements that are open, why they are, what would decide them, and its price; as a table of Markdown."""
+    lines = ["| the paper says | why it is open | what would decide it | CPU-h |", "|---|---|---|---|"]
+    for verdict in found:
+        if verdict.finding.verdict in (OPEN, NO_DATA):
+            runs, batches = DECIDING.get(verdict.statement.id, ("–", ()))
+            lines.append(f"| {verdict.statement.says} | {verdict.finding.why or 'no runs yet'} | {runs} | "
+                         f"{_price(evidence, batches)} |")
+    return "\n".join(lines) + "\n"
