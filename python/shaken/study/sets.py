@@ -15,7 +15,7 @@ from ..errors import ShakenError
 ORDER: tuple[tuple[str, str], ...] = (
     ("A", "long-rods"), ("B", "dilute"), ("G", "layers"), ("C", "mechanism"), ("D", "shaking"), ("E", "crossings"),
     ("F", "size"), ("H", "gaps"), ("J", "diffusion-along"), ("AA", "strip"), ("I", "layer-trends"), ("K", "short-rods"),
-    ("AB", "fluid-start"), ("S", "turned"), ("Q", "long-range"), ("M", "larger-box"), ("U", "frequency"),
+    ("Q", "long-range"), ("M", "larger-box"), ("S", "turned"), ("AB", "fluid-start"), ("U", "frequency"),
     ("V", "phases"), ("X", "beads"), ("R", "elasticity"), ("L", "no-order"), ("W", "density"), ("T", "diffusion"),
     ("Y", "equilibrium"), ("Z", "movies"))
 
