@@ -425,6 +425,13 @@ def test_waves_of_other_lengths_are_not_averaged_together():
     assert structure_checks.mean_waves(Runs(made)) == [] or structure_checks.mean_waves(Runs(made))[0].q > 0.15
 
 
+def test_noise_brings_the_powers_of_opposite_waves_nearer_to_each_other():
+    waves_of_both = structure_checks.OppositeWaves(0.5, Estimate(1.0, 0.1), Estimate(10.0, 0.5))
+    measured = waves_of_both.with_noise(2.0).ratio
+    assert (waves_of_both.ratio.value, measured.value) == (10.0, 4.0)
+    assert measured.error == pytest.approx(math.hypot(0.5 / 3, 0.1 * 4 / 3))
+
+
 def test_replicas_have_an_error_where_no_run_has_one():
     alone = runs("long-rods", 0.75, S=0.9, error=math.nan, n=1)
     assert verdict("ordered", alone) == rules.OPEN

@@ -229,11 +229,14 @@ def defects(evidence: Evidence) -> str:
         number("across (mm/s)", "lasting_defect_speed_plus_across_mm_s")])
 
 
-def wave_ratio(length: float) -> Callable[[Runs], str]:
-    """Power of splay over that of bend, of the opposite waves whose length is nearest to this one [mm]."""
+def wave_ratio(length: float, *, with_noise: bool = False) -> Callable[[Runs], str]:
+    """Power of splay over that of bend, of the opposite waves whose length is nearest to this one [mm]; with_noise: as
+    measured, before the noise level of uncorrelated rods is subtracted from both."""
     def of(here: Runs) -> str:
         near = min(mean_waves(here), key=lambda wave: abs(2 * math.pi / wave.q - length), default=None)
-        return text(near.ratio) if near else "–"
+        if near is None:
+            return "–"
+        return text((near.with_noise(here.number("frank_floor_mm2").value) if with_noise else near).ratio)
 
     return of
 
@@ -242,8 +245,8 @@ def elastic(evidence: Evidence) -> str:
     """Splay against bend of rods of 4.5 mm: the powers of their waves, the constants, and whether their law fits."""
     return table(by(ordered_in_large_boxes(evidence), PACKING, SIDE), [
         PACKED, BOX, SEEDS, number("S", "S"), ("splay/bend, waves of 22 mm", wave_ratio(22.3)),
-        ("of 13 mm", wave_ratio(13.4)), number("K₃/K₁", "frank_ratio"),
-        number("χ² per point", "frank_chi2")])
+        ("of 13 mm", wave_ratio(13.4)), ("of 13 mm, noise included", wave_ratio(13.4, with_noise=True)),
+        number("K₃/K₁", "frank_ratio"), number("χ² per point", "frank_chi2")])
 
 
 def sizes(evidence: Evidence) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -125,6 +125,10 @@ class OppositeWaves:
         """Power of splay over that of bend."""
         value = self.splay.value / self.bend.value
         return derived(value, [(1 / self.bend.value, self.splay), (-value / self.bend.value, self.bend)])
+
+    def with_noise(self, level: float) -> "OppositeWaves":
+        """The powers as they were measured: with the noise level of uncorrelated rods [mm2] in both."""
+        return OppositeWaves(self.q, *(replace(power, value=power.value + level) for power in (self.bend, self.splay)))
 
 
 def opposite_waves(run: Run) -> list[OppositeWaves]:

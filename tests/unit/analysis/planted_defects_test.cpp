@@ -9,6 +9,7 @@
 #include "analysis/defects.h"
 #include "sim/start/compression.h"
 #include "sim/start/director_patterns.h"
+#include "tests/support/effort.h"
 
 namespace shaken::analysis {
 namespace {
@@ -31,7 +32,7 @@ TEST(PlantedDefects, AreFoundWhereTheyWerePlanted) {
   int n_planted = 0, n_found = 0;
   for (const double aspect : {1.0, 2.0}) {
     for (const double angle : {0.0, 90.0}) {
-      for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+      for (std::uint64_t seed = 1; seed <= (test::kSanitized ? 2 : 5); ++seed) {
         System system;
         system.rod = {.length = 3.5, .n_beads = 11};
         system.box_side = aspect == 1 ? 33 : 24;

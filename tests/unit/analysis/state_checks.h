@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/core/state_io.h"
+#include "tests/support/effort.h"
 
 namespace shaken::analysis {
 
@@ -28,11 +29,12 @@ void stop_and_go_on(Accumulator& accumulator, const std::type_identity_t<Accumul
   reader.end();
 }
 
-/// Restoring from a state cut off anywhere throws and leaves the object as it was.
+/// Restoring from a state cut off anywhere throws and leaves the object as it was. Sanitizers see every seventh length,
+/// which is cut at each byte of a number in turn.
 template <class Accumulator>
 void expect_every_truncation_found(Accumulator& accumulator) {
   const std::vector<std::byte> bytes = state(accumulator);
-  for (std::size_t size = 0; size < bytes.size(); ++size) {
+  for (std::size_t size = 0; size < bytes.size(); size += test::kSanitized ? 7 : 1) {
     StateReader reader{std::span(bytes).first(size)};
     ASSERT_THROW(accumulator.restore(reader), StateError) << size << " of " << bytes.size();
   }
