@@ -20,6 +20,8 @@ class Estimate:
     drift:       its mean over the later half of the time less that over the earlier half, with `drift_error`
     unit:        "mm2 s-1"; "1" for a plain number
     reason:      why there is no value, where there is none
+    dof:         degrees of freedom of its error: one less than the replicas whose scatter it is; infinite of an error
+                 that comes from many samples
     """
 
     value: float = NAN
@@ -30,6 +32,7 @@ class Estimate:
     drift_error: float = NAN
     unit: str = "1"
     reason: str = ""
+    dof: float = math.inf
 
     @property
     def is_known(self) -> bool:
@@ -41,6 +44,11 @@ class Estimate:
         """Half the length of its error bar: the error, or 0 where that is not known (Debian's matplotlib fails where it
         gets no bar that is a number)."""
         return self.error if math.isfinite(self.error) else 0.0
+
+    def with_further_error(self, error: float) -> "Estimate":
+        """With an error in quadrature that all replicas have in common, such as a step on which values lie."""
+        own = self.bar
+        return replace(self, error=math.hypot(own, error), dof=joint_dof([(own, self.dof), (error, math.inf)]))
 
     def __float__(self) -> float:
         return self.value
@@ -105,7 +113,7 @@ def replica_mean(estimates: Iterable[Estimate]) -> Estimate:
       the runs: two runs that happen to agree are no better than their own errors (the scale factor, never below 1, of
       the Particle Data Group, *Review of Particle Physics* (2022), section 5.2.2);
     - otherwise the scatter between the runs, widened by Student's t so that it covers 68 % for few runs too, but never
-      less than the known errors give;
+      less than the known errors give; two such errors cover less than 95 %, which `dof` is there for;
     - of a single run its own.
 
     The mean is steady if all are, and is known to relax if one of them does. Its drift is the mean of their drifts.
@@ -118,10 +126,14 @@ def replica_mean(estimates: Iterable[Estimate]) -> Estimate:
     errors = [estimate.error for estimate in known if math.isfinite(estimate.error)]
     within = math.sqrt(math.fsum(error**2 for error in errors)) / n
     value, scatter = mean_of_samples([estimate.value for estimate in known])
-    if n > 1:
-        error = max(within, scatter if len(errors) == n else student_factor(n) * scatter)
-    else:
+    dof = math.inf
+    if n == 1:
         error = within if errors else NAN
+    elif len(errors) == n:
+        error = max(within, scatter)
+    else:
+        error = max(within, student_factor(n) * scatter)
+        dof = n - 1 if error > within else math.inf
     steady: bool | None = True
     if any(estimate.steady is False for estimate in known):
         steady = False
@@ -131,7 +143,7 @@ def replica_mean(estimates: Iterable[Estimate]) -> Estimate:
     drift = math.fsum(e.drift for e in drifts) / n if len(drifts) == n else NAN
     drift_error = math.sqrt(math.fsum(e.drift_error**2 for e in drifts)) / n if len(drifts) == n else NAN
     n_eff = math.fsum(e.n_eff for e in known if math.isfinite(e.n_eff)) or NAN
-    return Estimate(value, error, steady, n_eff, drift, drift_error, known[0].unit)
+    return Estimate(value, error, steady, n_eff, drift, drift_error, known[0].unit, dof=dof)
 
 
 def derived(value: float, terms: Iterable[tuple[float, Estimate]], unit: str = "1") -> Estimate:
@@ -141,6 +153,7 @@ def derived(value: float, terms: Iterable[tuple[float, Estimate]], unit: str = "
     """
     parts = list(terms)
     error = math.sqrt(math.fsum((slope * e.error) ** 2 for slope, e in parts))
+    dof = joint_dof((abs(slope) * e.error, e.dof) for slope, e in parts)
     drift = math.fsum(slope * e.drift for slope, e in parts)
     drift_error = math.sqrt(math.fsum((slope * e.drift_error) ** 2 for slope, e in parts))
     steady: bool | None = True
@@ -148,4 +161,12 @@ def derived(value: float, terms: Iterable[tuple[float, Estimate]], unit: str = "
         steady = False
     elif any(e.steady is None for _, e in parts):
         steady = None
-    return Estimate(value, error, steady, NAN, drift, drift_error, unit)
+    return Estimate(value, error, steady, NAN, drift, drift_error, unit, dof=dof)
+
+
+def joint_dof(errors: Iterable[tuple[float, float]]) -> float:
+    """Degrees of freedom of errors that are added in quadrature, from (error, its own ones): Welch, *Biometrika* **34**,
+    28 (1947)."""
+    parts = list(errors)
+    few = math.fsum(error**4 / dof for error, dof in parts)
+    return math.fsum(error**2 for error, _ in parts) ** 2 / few if few > 0 else math.inf

@@ -105,7 +105,7 @@ def test_ways_are_in_boxes_and_their_common_drift_is_named():
     evidence = Evidence([run("long-rods", {"diffusion_along_mm2_s": (10.0, 1.0)}, msd(6400.0, 6000.0), packing=0.85),
                          run("long-rods", {}, msd(100.0, 100.0), packing=0.55)])
     (row,) = rows(beyond_paper.streaming(evidence))
-    assert row[6:] == ["100", "2.00 ± 0.10", "25.0 %"], "and what is not dense is no stream"
+    assert row[8:] == ["100", "2.00 ± 0.10", "25.0 %"], "and what is not dense is no stream"
 
 
 def lasting(along, density, error=0.1):
@@ -202,9 +202,9 @@ def test_layers_of_a_strip_stand_beside_those_of_the_square_box():
     # three waves of 14 mm fit into 42 mm, nine into 126: the next are 42 / 4 and 126 / 10
     assert first[:4] == ["4.5 mm", "0.8", "42 mm", "rows"] and second[2] == "21 × 126 mm" and second[4] == "3 × 200 s"
     assert first[8] == "3.5" and second[8] == "1.4"
-    # a uniform error over the step, 42 / 2.5 - 42 / 3.5 and 126 / 8.5 - 126 / 9.5, besides that of each run
+    # a uniform error over the step, 42 / 2.5 - 42 / 3.5 and 126 / 8.5 - 126 / 9.5, besides that of the mean
     for cell, step, runs_ in ((first[7], 4.8, 1), (second[7], 1.56, 3)):
-        error = math.hypot(step / math.sqrt(12), 0.1) / math.sqrt(runs_)
+        error = math.hypot(step / math.sqrt(12), 0.1 / math.sqrt(runs_))
         assert float(cell.split(" ± ")[1]) == pytest.approx(error, rel=0.15)
 
 

@@ -44,6 +44,17 @@ def test_derived_adds_errors_in_quadrature():
     assert exactly(3.0).error == 0 and exactly(3.0).steady is True
 
 
+def test_degrees_of_freedom_are_those_of_the_error_that_counts():
+    """Welch's: of two errors of three replicas each that are alike four; of one beside a smaller one its own."""
+    few = replica_mean([Estimate(value) for value in (1.0, 2.0, 3.0)])
+    assert few.dof == 2 and replica_mean([Estimate(1.0, 0.1), Estimate(3.0, 0.1)]).dof == math.inf
+    assert derived(0.0, [(1.0, few), (-1.0, few)]).dof == pytest.approx(4)
+    assert derived(0.0, [(1.0, few), (1.0, Estimate(1.0, 1e-4))]).dof == pytest.approx(2, rel=1e-3)
+    assert few.with_further_error(1e-4).dof == pytest.approx(2, rel=1e-3)
+    assert few.with_further_error(100.0).dof > 1e6 and few.with_further_error(3.0).error == pytest.approx(
+        math.hypot(few.error, 3.0))
+
+
 @pytest.mark.parametrize("error, digits", [(0.012, 3), (0.03, 2), (0.2, 1), (1.4, 1), (3.0, 0), (250.0, 0)])
 def test_decimals_show_the_error(error, digits):
     assert decimals(error) == digits

@@ -2,13 +2,14 @@
 """Every statement on made-up runs that must give yes, no, and open."""
 import itertools
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from shaken.estimate import Estimate
+from shaken.estimate import Estimate, replica_mean
 from shaken.run import Arrays, Run
-from shaken.study import layer_checks, rules, structure_checks
+from shaken.study import late_lags, layer_checks, layer_wavelength, rules, structure_checks
 from shaken.study.evidence import Evidence, Runs, crossing
 from shaken.study.order_checks import n_peaks
 from shaken.study.statements import STATEMENTS, judged
@@ -67,6 +68,10 @@ def cuts(along, across, error=0.005, g_along=1.05, g_across=1.3, n=40):
     return found
 
 
+def decay(length, n=40):
+    return np.exp(-np.linspace(0.3, 13, n) / length)
+
+
 def waves(bend, splay, error=0.05, turned=0.1):
     """Power of the director's fluctuations at the waves of a square box whose sides the director is `turned` from."""
     m, n = (axis.ravel() for axis in np.meshgrid(np.arange(-3, 4), np.arange(0, 4)))
@@ -112,7 +117,7 @@ def late(value, error=0.01):
 
 def ways(d, error=0.5):
     t = 0.02 * 2.0 ** np.arange(13)
-    return {"/msd/lag_s": t, "/msd/along_mm2": 2 * d * t, "/msd/along_sem_mm2": np.full(13, error)}
+    return {"/msd/lag_s": t, "/msd/along_mm2": 2 * d * t, "/msd/along_sem_mm2": error * t}
 
 
 NINE = [round(0.45 + 0.05 * k, 2) for k in range(9)]
@@ -249,8 +254,8 @@ CASES = {
     "g2": (runs("short-rods", 0.75, arrays=g2(0.0), length=2.5, S=0.2) + runs("long-rods", 0.80, arrays=g2(0.8)),
            runs("no-order", 0.75, arrays=g2(0.5), length=2.5, side=83.73) + runs("long-rods", 0.80, arrays=g2(0.0)),
            runs("short-rods", 0.75, arrays=g2(0.5), length=2.5) + runs("long-rods", 0.80, arrays=g2(0.3, 0.2))),
-    "isotropic": (runs("dilute", 0.45, arrays=cuts(0.1, 0.1)), runs("dilute", 0.45, arrays=cuts(0.6, 0.1)),
-                  runs("dilute", 0.45, arrays=cuts(0.1, 0.1, 0.2))),
+    "isotropic": tuple(runs("dilute", 0.45, arrays=cuts(decay(3.0), decay(other), error), n=n)
+                       for other, error, n in ((3.1, 0.005, 3), (2.0, 0.005, 3), (3.1, 0.1, 1))),
     "anisotropy": (runs("layers", 0.75, arrays=cuts(0.8, 0.7)), runs("layers", 0.75, arrays=cuts(0.7, 0.8)),
                    runs("layers", 0.75, arrays=cuts(0.8, 0.75, 0.2))),
     "splay-bend": tuple(runs("elasticity", 0.65, arrays=waves(*powers), side=66.984)
@@ -397,20 +402,40 @@ def test_kurtosis_is_that_of_normal_distributions(width):
             assert layer_checks.kurtosis(layers(0.80, {}, arrays=arrays)[0]).value == pytest.approx(known, rel=2e-3)
 
 
-def test_the_wavelength_in_a_strip_is_that_of_the_mean_wave_number():
-    """Two waves of 12.6 and 15.75 mm, the tenth and the eighth of a strip, and long ones that bend the director."""
+def strip_spectrum(wavelength, seed, layers=15.0):
+    """A frozen pattern: powers that scatter as much as they are, of layers and of the director's own waves."""
     q = 2 * math.pi * np.arange(1, 40) / 126
-    power = np.zeros(39)
-    power[[1, 7, 9]] = 9.0, 1.0, 1.0
-    spectrum = {"/layers/q_per_mm": q, "/layers/spectrum_across": power}
-    of_strips = [run for dip in (LAYERED, LAYERED, PLAIN) for run in
-                 layers(0.85, dip | {"wavelength_mm": (12.6, 0.1)}, "strip", spectrum, side=21.0, n=1)]
-    for run in of_strips:
+    expected = layer_wavelength.expected_power(q, 0.3, 0.1, layers, 2 * math.pi / wavelength)
+    return {"/layers/q_per_mm": q, "/layers/spectrum_across": expected * np.random.default_rng(seed).exponential(size=39)}
+
+
+def strips(wavelength, dips, **more):
+    made = [run for seed, dip in enumerate(dips) for run in
+            layers(0.85, dip | {"wavelength_mm": (12.6, 0.1)}, "strip", strip_spectrum(wavelength, 100 + seed, **more),
+                   side=21.0, n=1)]
+    for run in made:
         run.scene["box"]["aspect"] = 6.0
-    assert layer_checks.wavelength(of_strips[0]).value == pytest.approx(126 / 9)
+    return Runs(made)
+
+
+@pytest.mark.parametrize("known", [11.0, 14.0, 18.0])
+def test_the_wavelength_in_a_strip_is_that_of_the_peak(known):
+    of_strips = strips(known, [LAYERED] * 20)
+    found = layer_checks.mean_wavelength(of_strips)
+    assert found.value == pytest.approx(known, abs=3 * found.error) and found.error < 0.05 * known
+
+
+def test_a_wavelength_is_that_of_runs_with_layers():
+    of_strips = strips(14.0, [LAYERED, LAYERED, PLAIN])
     assert not layer_checks.wavelength(of_strips[2]).is_known, "of what has no second peak it is no layers' wavelength"
-    assert len(layer_checks.layered(Runs(of_strips))) == 3, "two of three have two peaks"
+    assert len(layer_checks.layered(of_strips)) == 3, "two of three have two peaks"
     assert not layer_checks.layered(Runs(of_strips[1:] + of_strips[2:]))
+
+
+def test_the_step_of_a_narrow_box_is_in_the_error_of_all_replicas():
+    of_squares = Runs(layers(0.85, LAYERED | {"wavelength_mm": (14.0, 0.1)}, side=42.0, n=9))
+    step = 42 / 2.5 - 42 / 3.5
+    assert layer_checks.mean_wavelength(of_squares).error == pytest.approx(math.hypot(step / math.sqrt(12), 0.1 / 3))
 
 
 def test_waves_of_other_lengths_are_not_averaged_together():
@@ -430,6 +455,66 @@ def test_noise_brings_the_powers_of_opposite_waves_nearer_to_each_other():
     measured = waves_of_both.with_noise(2.0).ratio
     assert (waves_of_both.ratio.value, measured.value) == (10.0, 4.0)
     assert measured.error == pytest.approx(math.hypot(0.5 / 3, 0.1 * 4 / 3))
+
+
+def persistent(d, memory, error, seconds=100.0, n=3, spread=0.02):
+    """Rods that go straight for about `memory` seconds: MSD = 4D (t - memory (1 - exp(-t / memory))), in n runs."""
+    lag = np.concatenate([np.arange(1, 8) * 0.1, 0.8 * 2.0 ** np.arange(8)])
+    made = []
+    for k in range(n):
+        msd = 4 * d * (1 + spread * (k - (n - 1) / 2)) * (lag - memory * (1 - np.exp(-lag / memory)))
+        made += runs("short-rods", 0.85, {"diffusion_mm2_s": (0.7 * d, 0.01 * d), "alpha_long": (1.4, 0.01),
+                                          "alpha_short": (1.0, 0.01)},
+                     {"/msd/lag_s": lag, "/msd/total_mm2": msd, "/msd/total_sem_mm2": np.full(len(lag), error)},
+                     length=2.5, seconds=seconds + 30.0, n=1)
+    return Runs(made)
+
+
+def test_long_times_are_the_octave_that_ends_at_half_of_what_was_measured():
+    """Not the lags at which single runs have an error, where such rods are not yet diffusive."""
+    of_rods = persistent(10.0, 4.0, math.nan)
+    assert late_lags.longest_lag(of_rods[0], "/msd/total_mm2") == 51.2
+    found = late_lags.best(of_rods, late_lags.diffusion_at("total"), "diffusion_mm2_s")
+    assert found.value == pytest.approx(10.0, rel=0.01) and found.dof == 2
+    assert of_rods.of(late_lags.change_of_slope("total")).value == pytest.approx(1.0, abs=0.02)
+    assert late_lags.best(of_rods[:1] and Runs(of_rods[:1]), late_lags.diffusion_at("total"),
+                          "diffusion_mm2_s").value == 7.0, "one run has no error there"
+    answers = {answer.at: answer.word for answer in CHECKS["diffusion-normal"].check(Evidence(of_rods)).answers}
+    assert answers["long times, 0.85"] is True
+    slow = persistent(10.0, 60.0, math.nan)
+    answers = {answer.at: answer.word for answer in CHECKS["diffusion-normal"].check(Evidence(slow)).answers}
+    assert answers["long times, 0.85"] is False, "rods that go straight for longer than they are followed"
+
+
+def test_a_memory_that_still_falls_has_not_levelled_off():
+    lag = 0.1 * 2.0 ** np.arange(11)
+    for c2, levels in ((0.9 + 0.05 * np.exp(-lag), True), (0.95 - 0.03 * np.log2(lag / 0.1) * 2, False)):
+        made = [run for packing, height in ((0.6, 0.8), (0.85, 1.0)) for run in runs(
+            "long-rods", packing, {"c2_plateau": 0.9}, {"/rotation/lag_s": lag, "/rotation/c2": height * c2,
+                                                        "/rotation/c2_sem": np.full(11, np.nan)})]
+        answers = {a.at: a.word for a in CHECKS["c2-plateau"].check(Evidence(made)).answers}
+        assert answers["level at 0.85"] is levels and answers["grows with packing"] is True
+
+
+def test_two_errors_of_few_replicas_are_as_many_as_student_has():
+    """At 95 %: of three replicas 1.7 times as much as of many samples, of two 3.8 times."""
+    for dof, factor in ((1, 3.80), (2, 1.71), (5, 1.19)):
+        assert rules.margin(Estimate(1.0, 0.1, dof=dof)) == pytest.approx(0.2 * factor, rel=0.01)
+    assert rules.margin(Estimate(1.0, 0.3), Estimate(1.0, 0.4)) == pytest.approx(1.0)
+    few, many = Estimate(2.0, 0.4, True, dof=2), Estimate(1.0, 0.01, True)
+    assert rules.larger(replace(few, dof=math.inf), many).word is True and rules.larger(few, many).word is None
+
+
+def test_the_rule_for_few_replicas_is_wrong_as_rarely_as_that_for_many():
+    """Of three replicas each of two state points that do not differ one in 22 may be told apart at two errors."""
+    draw, told_apart, n = np.random.default_rng(7), 0, 4000
+    for _ in range(n):
+        a, b = (replica_mean([Estimate(value, steady=True) for value in draw.normal(size=3)]) for _ in range(2))
+        told_apart += rules.larger(a, b).word is not None
+    assert told_apart / n < 0.05, "and not one in eight, as two errors of 68 % would"
+    plain = sum(abs(a.value - b.value) > 2 * math.hypot(a.error, b.error) for a, b in (
+        [replica_mean([Estimate(value) for value in draw.normal(size=3)]) for _ in range(2)] for _ in range(n)))
+    assert plain / n > 0.05
 
 
 def test_replicas_have_an_error_where_no_run_has_one():
@@ -471,7 +556,7 @@ def test_some_of_both_is_in_part_and_says_where():
 
 
 def test_layers_are_asked_for_in_the_widest_box():
-    def strips(numbers):
+    def in_strips(numbers):
         found = layers(0.80, numbers, "strip", side=21.0) + layers(0.85, numbers, "strip", side=21.0)
         for run in found:
             run.scene["box"]["aspect"] = 6.0
@@ -479,9 +564,10 @@ def test_layers_are_asked_for_in_the_widest_box():
 
     squares = layers(0.75, PLAIN) + layers(0.80, VAGUE) + layers(0.85, VAGUE)
     assert verdict("layers", squares) == rules.OPEN
-    assert verdict("layers", squares + strips(LAYERED)) == rules.AGREES
+    assert verdict("layers", squares + in_strips(LAYERED)) == rules.AGREES
     layered = layers(0.75, PLAIN) + layers(0.80, LAYERED) + layers(0.85, LAYERED)
-    assert verdict("layers", layered + strips(PLAIN)) == rules.IN_PART
+    assert verdict("layers", layered + in_strips(PLAIN)) == rules.IN_PART
+    assert verdict("layers", layers(0.75, PLAIN) + layers(0.80, VAGUE) + layers(0.85, LAYERED)) == rules.CONSISTENT
 
 
 def test_layers_of_blunt_rods_that_depend_on_the_start_are_open():

@@ -9,10 +9,12 @@ import numpy as np
 
 from ..estimate import Estimate, derived
 from ..run import Run
+from . import late_lags
 from .evidence import (BEADS, END, FREQUENCY, GAMMA, LENGTH, PACKING, SIDE, Evidence, Runs, box_of, box_text,
                        by, is_from_a_fluid, key_of, number_of)
-from .layer_checks import layered, theta_m, wavelength
-from .motion_checks import late_velocity_correlation, papers_diffusion, speed_between
+from .layer_checks import layered, theta_m
+from .layer_wavelength import mean_wavelength
+from .motion_checks import late_velocity_correlation, long_time_diffusion, papers_diffusion, speed_between
 from .order_checks import power_of_size
 from .rules import text
 from .structure_checks import mean_waves, ordered_in_large_boxes
@@ -138,6 +140,15 @@ def shaking(evidence: Evidence) -> str:
         number("D_r (rad²/s)", "rotational_diffusion_rad2_s")])
 
 
+def longest_lag(direction: str) -> Column:
+    """The lag at the end of the octave over which D is read."""
+    def of(here: Runs) -> str:
+        lag = late_lags.longest_lag(here[0], f"/msd/{direction}_mm2")
+        return f"{lag:.0f}" if math.isfinite(lag) else "–"
+
+    return "lag (s)", of
+
+
 def diffusion_minimum(evidence: Evidence) -> str:
     """D of rods of 2.5 mm against packing, with the persistence of their ways and of their tilt."""
     tilts = evidence["mechanism"]
@@ -148,8 +159,9 @@ def diffusion_minimum(evidence: Evidence) -> str:
 
     runs = evidence.joined("short-rods", "mechanism").at(length=2.5)
     return table(by(runs, PACKING, SIDE), [
-        PACKED, BOX, SEEDS, number("D (mm²/s)", "diffusion_mm2_s"),
-        number("exponent, short lags", "alpha_short"), number("long lags", "alpha_long"),
+        PACKED, BOX, SEEDS, longest_lag("total"), ("D (mm²/s)", lambda here: text(long_time_diffusion(here))),
+        number("slope, over that at half the lag", late_lags.change_of_slope("total")),
+        number("exponent, short lags", "alpha_short"),
         number("persistence time (s)", "persistence_time_s"), number("length (mm)", "persistence_length_mm"),
         ("tilt keeps its sign (ms)", switching)])
 
@@ -176,7 +188,9 @@ def drift_part(run: Run) -> Estimate:
 
 def streaming(evidence: Evidence) -> str:
     """Motion of rods of 4.5 mm along the director, dense."""
-    runs = Runs(run for run in evidence.joined("long-rods", "layers") if key_of(run, PACKING) > 0.59)
+    points = [here for name in ("long-rods", "diffusion-along", "layers")
+              for here in by(Runs(run for run in evidence[name] if key_of(run, PACKING) > 0.59), PACKING, SIDE)]
+    points.sort(key=lambda here: (key_of(here[0], PACKING), key_of(here[0], SIDE), here[0].summary["sim_seconds"]))
 
     def longest(here: Runs) -> str:
         return f"{np.asarray(here[0]['/msd/along_mm2'].axis)[-1]:.0f}" if "/msd/along_mm2" in here[0] else "–"
@@ -185,9 +199,11 @@ def streaming(evidence: Evidence) -> str:
         mean = here.of(drift_part)
         return f"{100 * mean.value:.1f} %" if mean.is_known else "–"
 
-    return table(by(runs, PACKING, SIDE), [
-        PACKED, BOX, SEEDS, number("D along (mm²/s)", "diffusion_along_mm2_s"),
-        number("exponent along, long lags", "alpha_along_long"),
+    return table(points, [
+        PACKED, BOX, SEEDS, longest_lag("along"),
+        ("D along (mm²/s)", lambda here: text(long_time_diffusion(here, "along"))),
+        number("slope, over that at half the lag", late_lags.change_of_slope("along")),
+        number("exponent", late_lags.exponent("/msd/along_mm2")),
         number("C_v along, 0.8 to 2.8 s (mm²/s²)", late_velocity_correlation), ("longest lag (s)", longest),
         number("way along by then, in boxes", way_in_boxes), ("of it common drift", drift)])
 
@@ -282,7 +298,7 @@ def strip(evidence: Evidence) -> str:
 
     def step(here: Runs) -> str:
         _, across = box_of(here[0])
-        found = layered(here).number("wavelength_mm")
+        found = mean_wavelength(layered(here))
         n = round(across / found.value) if found.is_known else 0
         return f"{across / n - across / (n + 1):.2g}" if n else "–"
 
@@ -291,7 +307,7 @@ def strip(evidence: Evidence) -> str:
             for runs in (squares.at(key_of(there[0], LENGTH), key_of(there[0], PACKING), end=0.4), there)]
     return "The same rods in a strip, along whose length more wavelengths fit:\n\n" + table(both, [
         LONG, PACKED, BOX, START, SEEDS, number("S", "S"), number("θ_m (°)", theta_m),
-        ("λ (mm)", lambda here: text(layered(here).of(wavelength))), ("step of λ (mm)", step),
+        ("λ (mm)", lambda here: text(mean_wavelength(layered(here)))), ("step of λ (mm)", step),
         number("layer order", "layer_order")])
 
 

@@ -178,6 +178,12 @@ def by(runs: Runs, *paths: str) -> list[Runs]:
     return [found for value in runs.values(paths[0]) for found in by(runs.where(paths[0], value), *paths[1:])]
 
 
+def points_of(runs: Runs, path: str, of: Callable[[Runs], Estimate]) -> list[tuple[float, Estimate]]:
+    """(value of a key, what a function makes of the runs there) at each value of the key where that is known."""
+    found = [(value, of(runs.where(path, value))) for value in runs.values(path)]
+    return [(value, estimate) for value, estimate in found if estimate.is_known]
+
+
 class Evidence:
     """Runs by set. Where a set has a few runs of a finer time step than the others these are its `controls`.
 

@@ -12,10 +12,10 @@ from ..plots import names
 from ..plots.sheet import Sheet
 from ..run import Run
 from .beyond_paper import swimming_defects
-from .evidence import FREQUENCY, LENGTH, PACKING, SIDE, Runs, key_of, number_of
+from .evidence import FREQUENCY, LENGTH, PACKING, SIDE, Runs, key_of, number_of, points_of
 from .material import Material, angle_bar, draw_curves, draw_points, draw_rods, first_snapshot, packing_scale
-from .motion_checks import (FREE_OF_THE_WINDOW, VELOCITY_WINDOW, late_velocity_correlation, long_rods,
-                            papers_diffusion, short_rods, speed_between)
+from .motion_checks import (FREE_OF_THE_WINDOW, VELOCITY_WINDOW, late_c2, late_velocity_correlation, long_rods,
+                            long_time_diffusion, papers_diffusion, short_rods, speed_between)
 
 
 def tilt(material: Material) -> Sheet:
@@ -99,19 +99,18 @@ def diffusion(material: Material) -> Sheet:
     short, long_ = short_rods(material.evidence), long_rods(material.evidence)
     scale = packing_scale(short, long_)
     sheet = material.sheet(6, columns=2, height=50)
-    rows: tuple[tuple[Runs, str, str, tuple[Any, Any], tuple[str, ...]], ...] = (
-        (short, "total", "ℓ = 2.5 mm, in the plane", ("diffusion_short_mm2_s", "diffusion_mm2_s"), ("diffusion-law",)),
-        (long_, "along", "ℓ = 4.5 mm, along the director", (_short_limit("along"), "diffusion_along_mm2_s"),
-         ("diffusion-along",)),
-        (long_, "across", "ℓ = 4.5 mm, across", (_short_limit("across"), "diffusion_across_mm2_s"), ("diffusion-across",
-                                                                                                     )))
-    for k, (runs, direction, title, limits, statements) in enumerate(rows):
+    rows: tuple[tuple[Runs, str, str, Any, tuple[str, ...]], ...] = (
+        (short, "total", "ℓ = 2.5 mm, in the plane", "diffusion_short_mm2_s", ("diffusion-law",)),
+        (long_, "along", "ℓ = 4.5 mm, along the director", _short_limit("along"), ("diffusion-along",)),
+        (long_, "across", "ℓ = 4.5 mm, across", _short_limit("across"), ("diffusion-across",)))
+    for k, (runs, direction, title, short_limit, statements) in enumerate(rows):
         panel = sheet[2 * k].titles(names.axis_title("/msd/lag_s"), names.axis_title(f"/msd/{direction}_mm2"), title)
         panel.scale("log", "log")
         draw_curves(panel, runs, f"/msd/{direction}_mm2", scale, keep=lambda t, msd: msd > 0)
         panel = sheet[2 * k + 1].titles(names.axis_title(PACKING), "D (mm²/s)", title)
-        for j, (limit, label) in enumerate(zip(limits, ("t → 0", "t → ∞"))):
-            draw_points(panel, runs.points(PACKING, limit), label, j)
+        draw_points(panel, runs.points(PACKING, short_limit), "t → 0", 0)
+        draw_points(panel, points_of(runs, PACKING, lambda here, way=direction: long_time_diffusion(here, way)),
+                    "longest lags", 1)
         if direction == "total":
             phi = np.linspace(0.60, 0.85, 40)
             panel.reference(phi, papers_diffusion(phi), "the paper: 1.7 + 480 (φ − 0.64)²")
@@ -159,7 +158,7 @@ def memory(material: Material) -> Sheet:
         panel.range(y=(0, 1)).zero()
         material.stamp(panel, statement)
     panel = sheet[2].titles(names.axis_title(PACKING), names.axis_title("c2_plateau"), "what stays, ℓ = 4.5 mm")
-    draw_points(panel, long_.points(PACKING, "c2_plateau"))
+    draw_points(panel, points_of(long_rods(material.evidence), PACKING, late_c2))
     panel.range(y=(0, 1))
     for panel, runs, name, title in ((sheet[3], short, "c_v", "velocity, ℓ = 2.5 mm"),
                                      (sheet[4], long_, "c_v_along", "along, ℓ = 4.5 mm")):
@@ -287,7 +286,7 @@ def model(material: Material) -> Sheet:
     panel.reference(y=papers_diffusion(0.60) / 2, label="the paper's fit, MSD = 2Dt")
     panel.range(y=(0, None))
     panel = sheet[3].titles(names.axis_title(PACKING), "D (mm²/s)", "two readings")
-    draw_points(panel, short_rods(evidence).points(PACKING, "diffusion_mm2_s"), "200 Hz, MSD = 4Dt", 0)
+    draw_points(panel, points_of(short_rods(evidence), PACKING, long_time_diffusion), "200 Hz, MSD = 4Dt", 0)
     rival = evidence["frequency"].where(FREQUENCY, 280).points(PACKING, "diffusion_mm2_s")
     draw_points(panel, [(at, e * 2) for at, e in rival], "280 Hz, MSD = 2Dt", 1)
     phi = np.linspace(0.60, 0.85, 40)

@@ -9,8 +9,9 @@ import numpy as np
 from ..plots import names
 from ..plots.panel import Panel
 from ..plots.sheet import Sheet
-from .layer_checks import layered, theta_m, wavelength
-from .evidence import END, GAP, LENGTH, PACKING, SIDE, Runs, box_text, key_of
+from .layer_checks import layered, theta_m
+from .layer_wavelength import mean_wavelength
+from .evidence import END, GAP, LENGTH, PACKING, SIDE, Runs, box_text, key_of, points_of
 from .material import Material, angle_bar, draw_curves, draw_points, draw_rods, first_snapshot, packing_scale
 from .structure_checks import mean_waves, ordered_in_large_boxes
 
@@ -123,8 +124,9 @@ def _angles(panel: Panel, runs: Runs, path: str, title: str, scale: Callable[[fl
 def _against(panel: Panel, series: list[tuple[Runs, str]], path: str, name: str, title: str) -> None:
     panel.titles(names.axis_title(path), names.axis_title(name), title)
     for k, (runs, label) in enumerate(series):
-        of = {"wavelength_mm": wavelength, "theta_m_deg": theta_m}.get(name, name)
-        points = layered(runs).points(path, of)
+        here = layered(runs)
+        points = points_of(here, path, mean_wavelength) if name == "wavelength_mm" else \
+            here.points(path, theta_m if name == "theta_m_deg" else name)
         if points:
             draw_points(panel, points, label, k)
     panel.range(y=(0, None))

@@ -12,16 +12,13 @@ from scipy.optimize import least_squares
 from ..estimate import Estimate, mean_of_samples, student_factor
 from ..run import Array, Run
 from .evidence import (END, GAP, LENGTH, PACKING, SIDE, Evidence, Runs, box_of, box_text, by, is_from_a_fluid, key_of,
-                       number_of)
+                       number_of, points_of)
+from .layer_wavelength import TWO_PEAKS, mean_wavelength, wavelength
 from .rules import (NOT_RUN, Answer, Finding, above, below, close_to, conclude, larger, listed, no, refutable, text,
                     trend, unknown, yes)
 
-#: P(0) over the maximum of P(theta): below it there are two peaks, above it there is one.
-TWO_PEAKS = 0.95
 #: Change of the dip from one half of the time to the other below which layers count as formed.
 STILL = 0.1
-#: Wavelengths of layers [mm]: shorter ones are of a few rods, longer ones of the bending director.
-BAND = (8.0, 24.0)
 
 
 def dip(runs: Runs) -> Estimate:
@@ -31,7 +28,7 @@ def dip(runs: Runs) -> Estimate:
     heights = [float(np.interp(0.0, np.asarray(p.axis), np.asarray(p))) for p in _densities(runs)]
     if found.error == 0 and len(heights) > 1:
         mean, error = mean_of_samples(heights)
-        return replace(found, error=student_factor(len(heights)) * error / mean)
+        return replace(found, error=student_factor(len(heights)) * error / mean, dof=len(heights) - 1)
     return found
 
 
@@ -99,30 +96,8 @@ def theta_m(run: Run) -> Estimate:
     return Estimate(math.degrees(abs(best.x[0])), steady=number_of(run, "S").steady, unit="deg")
 
 
-def wavelength(run: Run) -> Estimate:
-    """The wavelength of the layers [mm] of a run that has two peaks in P(theta).
-
-    In a box that is much wider than they are it is that of the mean wave number of the spectrum between 8 and 24 mm,
-    weighted with the power: which one of many neighbouring waves is the highest is chance. Its error is left to the
-    replicas. In a narrower box it is that of the highest wave and its neighbours, with the step of the box in its
-    error: the waves that fit into the box are L/n, L being its side across the rods, so that what lies between two of
-    them is not seen. A uniform error over that step is added.
-    """
-    found = number_of(run, "wavelength_mm")
-    if not found.is_known:
-        return found
-    if not number_of(run, "dip").value < TWO_PEAKS:
-        return Estimate(reason="no second peak")
-    _, across = box_of(run)
-    if across > 4 * BAND[1] and "/layers/spectrum_across" in run:
-        q, power = np.asarray(run["/layers/q_per_mm"]), np.asarray(run["/layers/spectrum_across"])
-        inside = (q > 2 * math.pi / BAND[1]) & (q < 2 * math.pi / BAND[0])
-        mean = float(np.sum(q[inside] * power[inside]) / np.sum(power[inside]))
-        return Estimate(2 * math.pi / mean, steady=number_of(run, "S").steady)
-    n = round(across / found.value)
-    step = across / max(n - 0.5, 0.5) - across / (n + 0.5)
-    error = math.hypot(found.error if math.isfinite(found.error) else 0.0, step / math.sqrt(12))
-    return replace(found, error=error)
+def _mean_angle(runs: Runs) -> Estimate:
+    return runs.of(theta_m)
 
 
 def _angle_text(runs: Runs) -> str:
@@ -164,12 +139,13 @@ def layers_when_dense(evidence: Evidence) -> Finding:
             answer = close_to(runs.of(theta_m), 10, 4) if two.word else two
         answers.append(answer.placed(f"{packing:g}"))
         found.append(f"φ = {packing:g}: {_angle_text(runs)} in {box_text(runs[0])}{_start_text(runs)}")
-    return conclude(answers, "; ".join(found))
+    # where none says no, what is open is not agreed to; where some do, the statement holds in part
+    return conclude(answers, "; ".join(found), everywhere=all(answer.word is not False for answer in answers))
 
 
 def _crest(run: Run) -> Estimate:
     """G2 across the director a wavelength away less that half a wavelength away."""
-    lam = number_of(run, "wavelength_mm").value
+    lam = wavelength(run).value
     if not math.isfinite(lam) or "/pairs/cut/g2_across" not in run:
         return Estimate(reason="no layers")
     g2 = run["/pairs/cut/g2_across"]
@@ -181,13 +157,13 @@ def _crest(run: Run) -> Estimate:
 
 def g2_oscillates(evidence: Evidence) -> Finding:
     answers, found = [], []
-    for packing in (0.80, 0.85):
-        runs = layered(evidence["layers"].at(4.5, packing))
-        if not runs:
-            continue
-        rise = runs.of(_crest)
-        answers.append(above(rise, 0).placed(f"{packing:g}"))
-        found.append(f"{text(rise)} at φ = {packing:g}")
+    for name in ("layers", "strip"):
+        for packing in (0.80, 0.85):
+            runs = layered(evidence[name].at(4.5, packing))
+            if runs:
+                rise = runs.of(_crest)
+                answers.append(above(rise, 0).placed(f"{packing:g} in {box_text(runs[0])}"))
+                found.append(f"{text(rise)} at φ = {packing:g} in {box_text(runs[0])}")
     return conclude(answers,
                     "G₂ across the director, a wavelength away less half a wavelength away: " + "; ".join(found))
 
@@ -225,12 +201,13 @@ def crystal_at_a_narrow_gap(evidence: Evidence) -> Finding:
     return refutable(yes(), found, f"its Bragg peak is {ratio:.1f} times that of the layers, and P(θ) has one peak")
 
 
-def _trend(series: list[tuple[Runs, str]], of: Callable[[Run], Estimate], rising: bool, unit: str) -> Finding:
-    """A trend of the layers in series of one key each; those that cannot tell do not count where one can."""
+def _trend(series: list[tuple[Runs, str]], of: Callable[[Runs], Estimate], rising: bool, unit: str) -> Finding:
+    """A trend of the layers in series of one key each. It is one question: a series that cannot tell does not count
+    beside one that can, and is named."""
     symbols = {PACKING: "φ", LENGTH: "ℓ", END: "d"}
     answers, found = [], []
     for runs, key in series:
-        points = layered(runs).points(key, of)
+        points = points_of(layered(runs), key, of)
         if len(runs.values(key)) < 2:
             continue
         where = ", ".join(f"{symbols[other]} = {key_of(runs[0], other):g}" for other in (LENGTH, PACKING)
@@ -240,7 +217,11 @@ def _trend(series: list[tuple[Runs, str]], of: Callable[[Run], Estimate], rising
                        .placed(where))
         found.append(f"{where}: " + (listed(points, symbols[key], unit) or "no layers"))
     able = [answer for answer in answers if answer.word is not None]
-    return conclude(able or answers, ". ".join(found))
+    finding = conclude(able or answers, ". ".join(found))
+    unable = "; ".join(f"{answer.at} ({answer.why})" for answer in answers if answer.word is None)
+    if able and unable:
+        finding.why += ("; " if finding.why else "") + f"cannot tell: {unable}"
+    return finding
 
 
 def _by_packing(evidence: Evidence) -> list[tuple[Runs, str]]:
@@ -259,15 +240,15 @@ def _by_end(evidence: Evidence) -> list[tuple[Runs, str]]:
 
 
 def angle_grows_with_packing(evidence: Evidence) -> Finding:
-    return _trend(_by_packing(evidence), theta_m, True, "°")
+    return _trend(_by_packing(evidence), _mean_angle, True, "°")
 
 
 def angle_falls_with_length(evidence: Evidence) -> Finding:
-    return _trend(_by_length(evidence), theta_m, False, "°")
+    return _trend(_by_length(evidence), _mean_angle, False, "°")
 
 
 def angle_falls_with_end(evidence: Evidence) -> Finding:
-    return _trend(_by_end(evidence), theta_m, False, "°")
+    return _trend(_by_end(evidence), _mean_angle, False, "°")
 
 
 def _two_peaks_in_order(runs: Runs) -> Answer:
@@ -295,15 +276,15 @@ def two_peaks_at_every_end(evidence: Evidence) -> Finding:
 
 
 def wavelength_falls_with_packing(evidence: Evidence) -> Finding:
-    return _trend(_by_packing(evidence), wavelength, False, " mm")
+    return _trend(_by_packing(evidence), mean_wavelength, False, " mm")
 
 
 def wavelength_grows_with_length(evidence: Evidence) -> Finding:
-    return _trend(_by_length(evidence), wavelength, True, " mm")
+    return _trend(_by_length(evidence), mean_wavelength, True, " mm")
 
 
 def wavelength_grows_with_end(evidence: Evidence) -> Finding:
-    return _trend(_by_end(evidence), wavelength, True, " mm")
+    return _trend(_by_end(evidence), mean_wavelength, True, " mm")
 
 
 def larger_box(evidence: Evidence) -> Finding:
@@ -311,8 +292,8 @@ def larger_box(evidence: Evidence) -> Finding:
     small = evidence["layer-trends"].at(4.0, 0.85, end=0.4)
     if not large or not small:
         return Finding()
-    lam = [layered(runs).of(wavelength) for runs in (small, large)]
-    theta = [layered(runs).of(theta_m) for runs in (small, large)]
+    lam = [mean_wavelength(layered(runs)) for runs in (small, large)]
+    theta = [_mean_angle(layered(runs)) for runs in (small, large)]
     boxes = [box_text(runs[0]) for runs in (small, large)]
     return conclude([larger(lam[1], lam[0]).placed("λ larger"), larger(theta[0], theta[1]).placed("θ_m smaller")],
                     f"ℓ = 4 mm, φ = 0.85: λ = {text(lam[0])} mm and {text(lam[1])} mm, θ_m = {text(theta[0])}° and "

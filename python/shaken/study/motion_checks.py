@@ -8,8 +8,15 @@ import numpy as np
 
 from ..estimate import Estimate
 from ..run import Run
-from .evidence import PACKING, SIDE, Evidence, Runs, key_of, mean_of_places, number_of
-from .rules import Finding, above, below, close_to, conclude, doubt, larger, listed, no, text, trend, unknown, yes
+from . import late_lags
+from .evidence import PACKING, SIDE, Evidence, Runs, key_of, mean_of_places, number_of, points_of
+from .rules import (Answer, Finding, above, below, close_to, conclude, doubt, larger, listed, no, text, trend, unknown,
+                    yes)
+
+#: Change of the slope of the MSD from one octave of lags to the next, as a part of it, below which motion is diffusive.
+SAME_SLOPE = 0.2
+#: Change of C2 from one octave of lags to the next below which it has levelled off.
+LEVEL = 0.05
 
 
 def papers_diffusion(packing: float) -> float:
@@ -19,12 +26,18 @@ def papers_diffusion(packing: float) -> float:
 
 def short_rods(evidence: Evidence) -> Runs:
     """Rods of 2.5 mm at each packing, in the largest box of the sets that follow them for long."""
-    runs = evidence.joined("diffusion", "short-rods").at(length=2.5)
+    runs = evidence.joined("diffusion", "short-rods", "mechanism").at(length=2.5)
     return Runs(run for packing in runs.values(PACKING) for run in runs.at(packing=packing).largest(SIDE))
 
 
+def long_time_diffusion(runs: Runs, direction: str = "total") -> Estimate:
+    """D [mm2/s] over the longest lags of these runs, in the plane or in one direction."""
+    own = "diffusion_mm2_s" if direction == "total" else f"diffusion_{direction}_mm2_s"
+    return late_lags.best(runs, late_lags.diffusion_at(direction), own)
+
+
 def long_rods(evidence: Evidence) -> Runs:
-    """Rods of 4.5 mm at each packing: those followed for longest."""
+    """Rods of 4.5 mm at each packing, of the set that follows them along the director where it has them."""
     followed, others = evidence["diffusion-along"], evidence["long-rods"]
     return Runs([*followed, *(run for run in others if key_of(run, PACKING) not in followed.values(PACKING))])
 
@@ -49,11 +62,11 @@ def tilt_and_velocity(evidence: Evidence) -> Finding:
         return Finding()
     speed, beyond = runs.number("tilt_fastest_mm_s"), runs.of(lambda run: speed_between(run, 0.31, 0.40))
 
-    def place_in(run: Run) -> Estimate:  # to a bin
-        n_z = np.asarray(run["/tilt/folded/n_z"])
-        return Estimate(abs(number_of(run, "tilt_fastest_n_z").value), float(n_z[1] - n_z[0]), True)
+    def place_in(run: Run) -> Estimate:
+        return Estimate(abs(number_of(run, "tilt_fastest_n_z").value), 0.0, True)
 
-    place = runs.of(place_in)
+    n_z = np.asarray(runs[0]["/tilt/folded/n_z"])
+    place = runs.of(place_in).with_further_error(float(n_z[1] - n_z[0]))  # to a bin, which all runs have in common
     return conclude([below(speed, 0).placed("against the tilt"), close_to(place, 0.2, 0.06).placed("fastest near 0.2"),
                      above(beyond, 0).placed("reversed beyond 0.3")],
                     f"fastest at n_z = ±{text(place)}, {text(speed)} mm/s along the tilt; beyond ±0.31 "
@@ -101,61 +114,63 @@ def persists_when_dense(evidence: Evidence) -> Finding:
 
 
 def diffusion_rises(evidence: Evidence) -> Finding:
-    points = [(at, e) for at, e in short_rods(evidence).points(PACKING, "diffusion_mm2_s") if at > 0.64]
+    everything = points_of(short_rods(evidence), PACKING, long_time_diffusion)
+    points = [(at, e) for at, e in everything if at > 0.64]
     if len(points) < 2:
         return Finding()
-    below_it = [(at, e) for at, e in short_rods(evidence).points(PACKING, "diffusion_mm2_s") if at < 0.66]
+    below_it = [(at, e) for at, e in everything if at < 0.66]
     falls = f"; below 0.65 it falls: {listed(below_it, 'φ')}" if len(below_it) > 1 else ""
     return conclude([trend(points, rising=True)], f"D = {listed(points, 'φ')} mm²/s{falls}")
 
 
 def diffusion_law(evidence: Evidence) -> Finding:
-    points = [(at, e) for at, e in short_rods(evidence).points(PACKING, "diffusion_mm2_s") if at > 0.64]
+    points = [(at, e) for at, e in points_of(short_rods(evidence), PACKING, long_time_diffusion) if at > 0.64]
     answers = [close_to(e, papers_diffusion(at), 0.2 * papers_diffusion(at)).placed(f"{at:g}") for at, e in points]
     found = "; ".join(f"{text(e)} ({papers_diffusion(at):.1f}) at {at:g}" for at, e in points)
     return conclude(answers, f"D in mm²/s (the paper's fit): {found}")
 
 
+def _becomes_diffusive(runs: Runs) -> tuple[Answer, str]:
+    """Whether the slope of the MSD no longer changes at the longest lags, and the numbers behind it. Where replicas are
+    too few to tell, the exponent at shorter lags is asked: once it is 1 it stays 1."""
+    change, exponent = runs.of(late_lags.change_of_slope("total")), runs.number("alpha_long")
+    if math.isfinite(change.error):
+        return close_to(change, 1, SAME_SLOPE), text(change)
+    return close_to(exponent, 1, 0.1), f"exponent {text(exponent)}"
+
+
 def diffusion_is_normal(evidence: Evidence) -> Finding:
-    answers, found = [], []
-    for when in ("short", "long"):
-        points = short_rods(evidence).points(PACKING, f"alpha_{when}")
-        answers += [close_to(e, 1, 0.1).placed(f"{when} times, {at:g}") for at, e in points]
-        if points:
-            found.append(f"{when}: {listed(points, 'φ')}")
-    return conclude(answers, "exponents at times that are " + "; ".join(found))
-
-
-def msd_slope(run: Run, direction: str, lag: float) -> Estimate:
-    """Half the slope of the MSD in one direction over the octave of lags that ends at `lag` [s]: D [mm2/s]."""
-    name = f"/msd/{direction}_mm2"
-    if name not in run:
-        return Estimate(reason="not measured")
-    msd = run[name]
-    t, values, errors = np.asarray(msd.axis), np.asarray(msd), np.asarray(msd.error)
-    if lag > t[-1] * 1.01:
-        return Estimate(reason=f"no lags of {lag:g} s")
-    first, last = np.argmin(abs(t - lag / 2)), np.argmin(abs(t - lag))
-    dt = t[last] - t[first]
-    error = math.sqrt(max(errors[last] ** 2 - errors[first] ** 2, errors[first] ** 2)) / (2 * dt)
-    return Estimate((values[last] - values[first]) / (2 * dt), error, number_of(run, "diffusion_mm2_s").steady)
+    runs = short_rods(evidence)
+    points = runs.points(PACKING, "alpha_short")
+    answers = [close_to(e, 1, 0.1).placed(f"short times, {at:g}") for at, e in points]
+    found = [f"exponents at short times: {listed(points, 'φ')}"] if points else []
+    late = []
+    for packing in runs.values(PACKING):
+        answer, numbers = _becomes_diffusive(runs.at(packing=packing))
+        if numbers.strip("exponent –"):
+            answers.append(answer.placed(f"long times, {packing:g}"))
+            late.append(f"{numbers} at φ = {packing:g}")
+    if late:
+        found.append("slope of the MSD at the longest lags, over that at half of them: " + "; ".join(late))
+    return conclude(answers, ". ".join(found))
 
 
 def diffusion_along_the_director(evidence: Evidence) -> Finding:
     runs = evidence["diffusion-along"]
-    across = dict(runs.points(PACKING, "diffusion_across_mm2_s"))
+    across = dict(points_of(runs, PACKING, lambda here: long_time_diffusion(here, "across")))
+    along = dict(points_of(runs, PACKING, lambda here: long_time_diffusion(here, "along")))
+    longest = late_lags.longest_lag(runs[0], "/msd/along_mm2") if runs else math.nan
+    at_20_s = late_lags.diffusion_at("along", lambda run, name: 20.48)
+    late = f"lags of {longest:.0f} s" if math.isfinite(longest) else "the longest lags"
     answers, found = [], []
-    for label, name in (("longest lags", "diffusion_along_mm2_s"),
-                        ("lags of 20 s", lambda run: msd_slope(run, "along", 20.48))):
-        along = dict(runs.points(PACKING, name))
-        if not {0.70, 0.80, 0.85} <= set(along):
+    for label, at in ((late, along), ("lags of 20 s", dict(runs.points(PACKING, at_20_s)))):
+        if not {0.70, 0.80, 0.85} <= set(at):
             continue
-        answers += [larger(along[0.80], along[0.70]).placed(f"rises to 0.80 ({label})"),
-                    larger(along[0.80], along[0.85]).placed(f"falls beyond ({label})")]
-        found.append(f"along, {label}: {listed(list(along.items()), 'φ')}")
+        answers += [larger(at[0.80], at[0.70]).placed(f"rises to 0.80 ({label})"),
+                    larger(at[0.80], at[0.85]).placed(f"falls beyond ({label})")]
+        found.append(f"along, {label}: {listed(list(at.items()), 'φ')}")
     if not answers or not {0.70, 0.80} <= set(across):
         return Finding()
-    along = dict(runs.points(PACKING, "diffusion_along_mm2_s"))
     answers += [larger(across[0.70], across[0.80]).placed("across it falls"),
                 larger(along[0.80], across[0.80]).placed("across it is smaller")]
     return conclude(answers, ". ".join(found) + f". Across: {listed(list(across.items()), 'φ')} (mm²/s)")
@@ -174,21 +189,32 @@ def no_superdiffusion_across(evidence: Evidence) -> Finding:
 
 
 def slower_when_denser(evidence: Evidence) -> Finding:
-    runs = evidence["short-rods"]
-    c2, c_v = runs.points(PACKING, "c2_decay_s"), runs.points(PACKING, "velocity_correlation_s")
+    runs = short_rods(evidence)
+    c2 = runs.points(PACKING, "c2_decay_s")
+    # below that it is the window over which velocities are averaged
+    c_v = [(at, e) for at, e in runs.points(PACKING, "velocity_correlation_s") if at > 0.64]
     if len(c2) < 2 or len(c_v) < 2:
         return Finding()
     return conclude([trend(c2, rising=True).placed("C₂"), trend(c_v, rising=True).placed("C_v")],
                     f"C₂ falls to 1/e in {listed(c2, 'φ', ' s')}. C_v: {listed(c_v, 'φ', ' s')}")
 
 
+def late_c2(runs: Runs) -> Estimate:
+    """C2 at the longest lags of these runs."""
+    return late_lags.best(runs, late_lags.level("/rotation/c2"), "c2_plateau")
+
+
 def c2_levels_off(evidence: Evidence) -> Finding:
-    points = [(at, e) for at, e in evidence["long-rods"].points(PACKING, "c2_plateau") if at > 0.59]
+    runs = Runs(run for run in long_rods(evidence) if key_of(run, PACKING) > 0.59)
+    points = points_of(runs, PACKING, late_c2)
     if len(points) < 2:
         return Finding()
+    changes = runs.points(PACKING, late_lags.change_of_level("/rotation/c2"))
     return conclude([trend(points, rising=True).placed("grows with packing"),
+                     *(close_to(e, 0, LEVEL).placed(f"level at {at:g}") for at, e in changes),
                      *(close_to(e, 1, 0.15).placed(f"near 1 at {at:g}") for at, e in points if at > 0.79)],
-                    listed(points, "φ"))
+                    f"{listed(points, 'φ')}" + (f"; over the last octave of lags it changes by {listed(changes, 'φ')}"
+                                                if changes else ""))
 
 
 #: Over which velocities are averaged, as in the paper [s]. Where rods have no memory beyond it, correlations
@@ -237,10 +263,16 @@ def rotation_subdiffusive(evidence: Evidence) -> Finding:
 
 
 def turning_saturates(evidence: Evidence) -> Finding:
-    points = [(at, e) for at, e in evidence["long-rods"].points(PACKING, "alpha_rotation_long")
-              if at < 0.46 or at > 0.74]
-    return conclude([(close_to(e, 1, 0.1) if at < 0.46 else below(e, 0.25)).placed(f"{at:g}") for at, e in points],
-                    f"exponent at long times {listed(points, 'φ')}")
+    runs = long_rods(evidence)
+    dilute = [(at, e) for at, e in runs.points(PACKING, "alpha_rotation_long") if at < 0.46]
+
+    def late(here: Runs) -> Estimate:
+        return late_lags.best(here, late_lags.exponent("/rotation/msad_rad2"), "alpha_rotation_long")
+
+    dense = [(at, e) for at, e in points_of(runs, PACKING, late) if at > 0.74]
+    return conclude([*(close_to(e, 1, 0.1).placed(f"{at:g}") for at, e in dilute),
+                     *(below(e, 0.25).placed(f"{at:g}") for at, e in dense)],
+                    f"exponent at long times {listed([*dilute, *dense], 'φ')}")
 
 
 def defects_move(evidence: Evidence) -> Finding:

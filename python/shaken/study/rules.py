@@ -6,9 +6,11 @@ import math
 from dataclasses import dataclass, field
 from typing import Iterable, Sequence
 
-from ..estimate import Estimate, decimals
+from scipy import stats
 
-#: Errors by which two numbers must differ before they count as different.
+from ..estimate import Estimate, decimals, joint_dof
+
+#: Errors by which two numbers must differ before they count as different: 95 %.
 SIGMAS = 2.0
 #: Errors by which neighbours of a trend may go the other way: with ten of them two would be met by chance.
 STEP_BACK = 3.0
@@ -79,12 +81,24 @@ def doubt(estimate: Estimate) -> str:
     return ""
 
 
+def margin(*estimates: Estimate, sigmas: float = SIGMAS) -> float:
+    """What a number may be away from its value, or a difference of two: so many errors. It is more where an error is
+    the scatter of a few replicas: what Student's t has at the same confidence."""
+    plain = []  # the errors as they were before they were widened to cover 68 %
+    for estimate in estimates:
+        covers_68 = stats.t.ppf(stats.norm.cdf(1), estimate.dof) if math.isfinite(estimate.dof) else 1.0
+        plain.append((judged_error(estimate) / covers_68, estimate.dof))
+    dof = joint_dof(plain)
+    quantile = stats.t.ppf(stats.norm.cdf(sigmas), dof) if math.isfinite(dof) else sigmas
+    return float(quantile * math.hypot(*(error for error, _ in plain)))
+
+
 def larger(a: Estimate, b: Estimate, sigmas: float = SIGMAS) -> Answer:
     """a > b, by the errors (and drifts) that they are judged with."""
     for estimate in (a, b):
         if why := doubt(estimate):
             return unknown(why)
-    apart = sigmas * math.hypot(judged_error(a), judged_error(b))
+    apart = margin(a, b, sigmas=sigmas)
     differences = [x - y for x in _values(a) for y in _values(b)]
     if min(differences) > apart:
         return yes()
@@ -105,7 +119,7 @@ def close_to(estimate: Estimate, target: float, tolerance: float) -> Answer:
     """Within `tolerance` of `target`, with its error to spare."""
     if why := doubt(estimate):
         return unknown(why)
-    aways, spare = [value - target for value in _values(estimate)], SIGMAS * judged_error(estimate)
+    aways, spare = [value - target for value in _values(estimate)], margin(estimate)
     if max(map(abs, aways)) + spare <= tolerance:
         return yes()
     is_off = min(aways) - spare > tolerance or max(aways) + spare < -tolerance

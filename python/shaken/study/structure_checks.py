@@ -16,6 +16,8 @@ from .rules import (CONTRADICTS, NOT_RUN, Finding, above, close_to, conclude, la
 NO_CORRELATION = 0.05
 #: G2 levels off at S^2: that of S = 0.5.
 PLATEAU = 0.25
+#: G2 at which its contours are compared, and by which part their reach along and across the director may differ.
+CONTOUR, ROUND = 0.2, 0.15
 #: tan of the most that a wave which bends the director may be away from it: 8.5 degrees.
 OBLIQUE = 0.15
 #: Part of a wave number within which two waves are of the same length.
@@ -44,6 +46,24 @@ def far_anisotropy(runs: Runs) -> Estimate:
         return mean_of_places(np.asarray(along - across)[first:], np.hypot(along.error, across.error)[first:], run)
 
     return runs.of(of)
+
+
+def contour_ratio(run: Run) -> Estimate:
+    """How far G2 reaches along the director over how far it does so across it: to where it falls to CONTOUR."""
+    if "/pairs/cut/g2_along" not in run:
+        return Estimate(reason="not measured")
+    reach, error = [], []
+    for name in ("g2_along", "g2_across"):
+        g2 = run[f"/pairs/cut/{name}"]
+        r, values, errors = np.asarray(g2.axis), np.asarray(g2), np.asarray(g2.error)
+        below = np.flatnonzero(values < CONTOUR)
+        if not len(below) or not below[0]:
+            return Estimate(reason=f"G₂ does not fall to {CONTOUR:g}")
+        i = below[0]
+        slope = (values[i] - values[i - 1]) / (r[i] - r[i - 1])
+        reach.append(float(r[i] + (CONTOUR - values[i]) / slope))
+        error.append(float(errors[i] / abs(slope)) / reach[-1])
+    return Estimate(reach[0] / reach[1], reach[0] / reach[1] * math.hypot(*error), run["S"].steady)
 
 
 def unevenness(runs: Runs, cut: str) -> Estimate:
@@ -79,16 +99,16 @@ def g2_decays_or_levels(evidence: Evidence) -> Finding:
             points.append((packing, far))
         if points:
             found.append(f"ℓ = {length:g} mm: {listed(points, 'φ')}")
-    return conclude(answers, "G₂ at half a box, " + ". ".join(found) if found else "")
+    return conclude(answers, "G₂ at half a box, " + ". ".join(found) if found else "", everywhere=True)
 
 
 def g2_isotropic_when_dilute(evidence: Evidence) -> Finding:
     runs = evidence["dilute"].at(packing=0.45)
     if not runs:
         return Finding()
-    difference = far_anisotropy(runs)
-    return conclude([close_to(difference, 0, NO_CORRELATION)],
-                    f"along − across, far out at φ = 0.45: {text(difference)}")
+    ratio = runs.of(contour_ratio)
+    return conclude([close_to(ratio, 1, ROUND)], f"at φ = 0.45 G₂ falls to {CONTOUR:g} at distances along and across "
+                                                 f"the director whose ratio is {text(ratio)}")
 
 
 def g2_anisotropic(evidence: Evidence) -> Finding:

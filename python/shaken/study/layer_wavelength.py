@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: MIT
+"""The wavelength of the layers, from the spectrum of the director across itself."""
+from __future__ import annotations
+
+import functools
+import math
+
+import numpy as np
+from scipy.optimize import minimize
+
+from ..estimate import Estimate
+from ..run import Run
+from .evidence import Runs, box_of, number_of
+
+#: P(0) over the maximum of P(theta): below it there are two peaks, above it there is one.
+TWO_PEAKS = 0.95
+#: A box that is wider than this across the director [mm] has steps of the wave number that are small beside the peak of
+#: the layers.
+WIDE = 96.0
+#: Standard deviation of the peak of the layers, in ln q.
+PEAK_WIDTH = 0.2
+#: Waves that are looked at [mm], and those that layers can have.
+WAVES, OF_LAYERS = (5.0, 63.0), (8.0, 32.0)
+
+
+def expected_power(q: np.ndarray, floor: float, bending: float, layers: float, peak: float) -> np.ndarray:
+    """The spectrum of a layered nematic: `floor` of single rods, `bending` / q^2 of the director's own waves, and a peak
+    of height `layers` at the wave number `peak`."""
+    return floor + bending / q**2 + layers * np.exp(-(np.log(q / peak) / PEAK_WIDTH) ** 2 / 2)
+
+
+def peak_of(q: np.ndarray, power: np.ndarray) -> float:
+    """The wavelength of the peak in a spectrum [in 2 pi / q]; NaN where there is none.
+
+    The powers scatter about what is expected as those of a Gaussian field do, each by as much as it is itself, and the
+    fit is the one that is likeliest then: Whittle, *Arkiv foer Matematik* **2**, 423 (1953). The highest wave would be
+    chance, and the mean over a band is pulled to its middle by the waves that are none of the layers.
+    """
+    wave = 2 * math.pi / q
+    chosen = (wave > WAVES[0]) & (wave < WAVES[1]) & (power > 0)
+    q, wave, power = q[chosen], wave[chosen], power[chosen] / np.median(power[chosen])
+
+    def unlikely(logarithms: np.ndarray) -> float:
+        expected = expected_power(q, *np.exp(np.clip(logarithms, -30, 30)))
+        return float(np.sum(np.log(expected) + power / expected))
+
+    low, high = np.percentile(power, 10), power[np.argmax(wave)]
+    starts = [np.log([low, max(high - low, 0.1 * low) * (2 * math.pi / 30) ** 2, power.max() / 2, 2 * math.pi / wave])
+              for wave in (10.0, 12.5, 16.0, 20.0, 25.0)]
+    fits = [minimize(unlikely, start, method="Nelder-Mead", options={"maxiter": 4000, "xatol": 1e-4, "fatol": 1e-4})
+            for start in starts]
+    found = [(float(fit.fun), float(2 * math.pi / np.exp(np.clip(fit.x[3], -30, 30)))) for fit in fits]
+    inside = [(fun, wave) for fun, wave in found if OF_LAYERS[0] < wave < OF_LAYERS[1]]
+    return min(inside)[1] if inside else math.nan
+
+
+@functools.lru_cache(maxsize=1024)
+def _cached_peak(_id: str, q: bytes, power: bytes) -> float:
+    return peak_of(np.frombuffer(q), np.frombuffer(power))
+
+
+def _is_wide(run: Run) -> bool:
+    return box_of(run)[1] > WIDE and "/layers/spectrum_across" in run
+
+
+def wavelength(run: Run) -> Estimate:
+    """The wavelength of the layers [mm] of a run that has two peaks in P(theta).
+
+    In a box that is much wider than they are it is that of the peak in the spectrum, and its error is left to the
+    replicas. In a narrower box it is that of the highest wave and its neighbours, as the run has it.
+    """
+    found = number_of(run, "wavelength_mm")
+    if not found.is_known:
+        return found
+    if not number_of(run, "dip").value < TWO_PEAKS:
+        return Estimate(reason="no second peak")
+    if not _is_wide(run):
+        return found
+    spectrum = [np.ascontiguousarray(run[f"/layers/{name}"], dtype=float).tobytes()
+                for name in ("q_per_mm", "spectrum_across")]
+    peak = _cached_peak(run.id, *spectrum)
+    return Estimate(peak, steady=number_of(run, "S").steady, reason="" if math.isfinite(peak) else "no peak")
+
+
+def mean_wavelength(runs: Runs) -> Estimate:
+    """The wavelength of the layers [mm] of the runs of a state point.
+
+    The waves that fit into a box are L/n, L being its side across the rods, so that in a narrow one what lies between
+    two of them is not seen: a uniform error over that step is added to that of the mean, for the replicas share it.
+    """
+    found = runs.of(wavelength)
+    if not found.is_known or all(_is_wide(run) for run in runs):
+        return found
+    _, across = box_of(runs[0])
+    n = max(round(across / found.value), 1)
+    step = across / max(n - 0.5, 0.5) - across / (n + 0.5)
+    return found.with_further_error(step / math.sqrt(12))
