@@ -61,9 +61,6 @@ Schema values_schema(const Field& field) {
     }
     case Form::kSize:  // an array of numbers is one size, one of arrays several
       return any_of({one, array_of(refer_to(values_name(field)))});
-    case Form::kNumbers:  // an array of numbers could be one list or several numbers: only an array of lists is clear
-    case Form::kPairs:
-      return any_of({{{"type", "null"}}, array_of(one)});
     default:
       return any_of({one, array_of(one)});
   }

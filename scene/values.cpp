@@ -81,12 +81,10 @@ class ValuesReader {
 
   /// Adds what `node` stands for; false if there are too many values, which ends it.
   bool add(const Node& node) {
-    const bool is_size = field_.form == Form::kSize && node.kind == Node::Kind::kArray && !node.items.empty() &&
-                         node.items.front().kind != Node::Kind::kArray;
-    if (node.kind == Node::Kind::kArray && !is_size) {
+    if (node.kind == Node::Kind::kArray && depth_of(node) != depth_of_value()) {
       if (node.items.empty()) report(node, "no values to sweep over");
       return std::all_of(node.items.begin(), node.items.end(), [this](const Node& item) {
-        const bool nested = item.kind == Node::Kind::kArray && field_.form != Form::kSize;
+        const bool nested = item.kind == Node::Kind::kArray && depth_of_value() == 0;
         return nested ? add_one(item) : add(item);
       });
     }
@@ -120,6 +118,25 @@ class ValuesReader {
   std::vector<Node> take() { return std::move(values_); }
 
  private:
+  /// How many arrays lie within each other.
+  static int depth_of(const Node& node) {
+    if (node.kind != Node::Kind::kArray) return 0;
+    return 1 + (node.items.empty() ? 0 : depth_of(node.items.front()));
+  }
+
+  /// The same, of a single value of this key: an array that is deeper holds several.
+  int depth_of_value() const {
+    switch (field_.form) {
+      case Form::kSize:
+      case Form::kNumbers:
+        return 1;
+      case Form::kPairs:
+        return 2;
+      default:
+        return 0;
+    }
+  }
+
   void report(const Node& node, std::string message) {
     problems_.push_back(problem_at(node.place, field_.path, std::move(message)));
   }

@@ -139,7 +139,8 @@ Json sweep_report(const Sweep& sweep, std::span<const Job> begun, const SweepWor
       if (job.pid == 0) any_handed_over = true;  // to a cluster, where it may wait; others have just begun
     }
   }
-  const bool known = !any_waits || (work.seconds_per_work && (n_reporting > 0 || !any_handed_over));
+  const bool only_held = !any_waits && n_reporting == 0 && sweep.counts[JobState::kHeld] > 0;
+  const bool known = !only_held && (!any_waits || (work.seconds_per_work && (n_reporting > 0 || !any_handed_over)));
   // where some wait that have been handed over, as many are at work as can be
   const int at_once = any_handed_over ? n_reporting : std::max(n_reporting, slots);
   const double per_work = work.seconds_per_work.value_or(0);

@@ -214,9 +214,15 @@ Api::Answer Api::add_replicas(const Call& call) const {
   auto jobs = with_replicas(queue_, sweep.id, n, info_.runs());
   if (!jobs) throw Refusal(409, jobs.error().message);
   Terms terms{.at_most = sweep.at_most, .executor = sweep.executor, .settings = sweep.settings};
+  int priority = 0;
+  if (const std::vector<Job> present = queue_.jobs(sweep.id); !present.empty()) {  // jobs keep these, not the sweep
+    terms.soft_limit = present.front().soft_limit;
+    terms.time_limit = present.front().time_limit;
+    priority = present.front().priority;
+  }
   for (const std::string& word : sweep.after) terms.after.push_back(target_named(word));
   if (const auto rule = StopRule::parse(sweep.stop_if)) terms.stop_if = *rule;
-  return submitted(sweep.name, 0, *std::move(jobs), terms);
+  return submitted(sweep.name, priority, *std::move(jobs), terms);
 }
 
 Api::Answer Api::submitted(const std::string& name, int priority, std::vector<NewJob> jobs, const Terms& terms) const {

@@ -10,11 +10,10 @@ namespace {
 class Cite : public Verb {
  public:
   VerbInfo info() const override {
-    return {
-        "cite", kHelpGroup, "Print how to cite Shaken and the paper whose system it simulates, as BibTeX",
-        "  shaken cite >> references.bib\n"
-        "\nPlease name the version. The seed and the scene of a run are in its summary.json: with both, anybody can "
-        "compute it again, bit for bit."};
+    return {"cite", kHelpGroup, "Print how to cite Shaken and the paper whose system it simulates, as BibTeX",
+            "  shaken cite >> references.bib\n"
+            "\nPlease name the version. The scene of a run, with its seed, is in its scene.json: with it anybody can "
+            "compute the run again, bit for bit."};
   }
   void declare(Arguments&) override {}
 

@@ -165,8 +165,8 @@ def derived(value: float, terms: Iterable[tuple[float, Estimate]], unit: str = "
 
 
 def joint_dof(errors: Iterable[tuple[float, float]]) -> float:
-    """Degrees of freedom of errors that are added in quadrature, from (error, its own ones): Welch, *Biometrika* **34**,
-    28 (1947)."""
+    """Degrees of freedom of errors that are added in quadrature, from (error, its own ones): Welch, *Biometrika*
+    **34**, 28 (1947)."""
     parts = list(errors)
     few = math.fsum(error**4 / dof for error, dof in parts)
     return math.fsum(error**2 for error, _ in parts) ** 2 / few if few > 0 else math.inf

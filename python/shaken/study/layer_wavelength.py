@@ -24,8 +24,8 @@ WAVES, OF_LAYERS = (5.0, 63.0), (8.0, 32.0)
 
 
 def expected_power(q: np.ndarray, floor: float, bending: float, layers: float, peak: float) -> np.ndarray:
-    """The spectrum of a layered nematic: `floor` of single rods, `bending` / q^2 of the director's own waves, and a peak
-    of height `layers` at the wave number `peak`."""
+    """The spectrum of a layered nematic: `floor` of single rods, `bending` / q^2 of the director's own waves, and a
+    peak of height `layers` at the wave number `peak`."""
     return floor + bending / q**2 + layers * np.exp(-(np.log(q / peak) / PEAK_WIDTH) ** 2 / 2)
 
 

@@ -146,7 +146,8 @@ def transition_rises_with_size(evidence: Evidence) -> Finding:
               if len(runs.at(side=side).values(PACKING)) > 1]
     if len(points) < 2:
         return Finding()
-    return conclude([trend(points, rising=True)], "S = 0.5 is passed at φ = " + listed(points, "L", ""))
+    passed = [(side, phi) for side, phi in points if phi.is_known]
+    return conclude([trend(points, rising=True)], "S = 0.5 is passed at φ = " + listed(passed, "L", ""))
 
 
 def long_range(evidence: Evidence) -> Finding:

@@ -27,7 +27,7 @@ def origin(evidence: Evidence) -> str:
         versions = run.summary["versions"]
         words = f"shaken {versions['shaken']}, physics {versions['physics']}, {versions['compiler']}"
         by_version.setdefault(words, []).append(run.summary.get("finished") or "")
-    return "".join(f"- {len(times)} runs by {words}, the last on {max(times)[:10]}\n"
+    return "".join(f"- {len(times)} run{'s' * (len(times) > 1)} by {words}, the last on {max(times)[:10]}\n"
                    for words, times in sorted(by_version.items()))
 
 
@@ -63,6 +63,13 @@ def _tally(found: list[Verdict]) -> str:
              "no data": ("has no runs yet", "have no runs yet")}
     listed = [f"{counts[verdict]} {said[counts[verdict] > 1]}" for verdict, said in words.items() if counts[verdict]]
     return _wrapped(f"Of the paper's {len(STATEMENTS)} statements {', '.join(listed)}.").rstrip() + "\n"
+
+
+def questions(found: list[Verdict]) -> str:
+    """How many questions the statements ask, and how many of them are open, in a sentence."""
+    answers = [answer for verdict in found for answer in verdict.finding.answers]
+    open_ = sum(answer.word is None for answer in answers)
+    return _wrapped(f"The statements ask {len(answers)} questions, of which {open_} are open.")
 
 
 #: Statements about the phase diagram, figure 3.
@@ -114,6 +121,7 @@ def sections(evidence: Evidence, folder: str = "figures", pages: str = "validati
     on_pages = {id_ for page in PAGES for id_ in page.figures}
     beyond = [figure for figure in FIGURES if figure.id not in on_pages]
     return {"origin": lambda: origin(evidence), "tally": lambda: _tally(found()),
+            "questions": lambda: questions(found()),
             "claims": lambda: as_table(found(), link), "phases": lambda: phases(evidence),
             "sweeps": lambda: sets_table(evidence), "index": lambda: index(found(), pages),
             "figures beyond": lambda: "\n".join(images(evidence, beyond, folder)),

@@ -16,7 +16,7 @@ SIGMAS = 2.0
 STEP_BACK = 3.0
 
 AGREES, IN_PART, DISAGREES = "agrees", "in part", "disagrees"
-CONSISTENT = "consistent"               # it could only have been refuted, and was not
+CONSISTENT = "consistent"               # refuted nowhere: it could only have been, or it holds where it is decided
 CONTRADICTS = "contradicts itself"      # the sentence, not the runs
 OPEN, NO_DATA = "open", "no data"
 
@@ -159,10 +159,10 @@ class Finding:
 
 def conclude(answers: Iterable[Answer], found: str, *, everywhere: bool = False) -> Finding:
     """All yes: agrees. All no: disagrees. Some of both: in part, and where. Of answers that are open none counts for
-    either side: where more than half say yes and none no, it agrees there, and the rest is named
-    as open; not where runs are still to come.
+    either side: where more than half say yes and none no, the runs are consistent with the statement, and the rest is
+    named as open; not where runs are still to come.
 
-    everywhere: of what is said to hold everywhere one no is enough to disagree; with some open it is not agreed to
+    everywhere: of what is said to hold everywhere one no is enough to disagree
     """
     given = list(answers)
     if not given:
@@ -180,8 +180,7 @@ def conclude(answers: Iterable[Answer], found: str, *, everywhere: bool = False)
     if not open_:
         return Finding(AGREES, found, "", given)
     if 2 * len(says_yes) > len(given) and all(a.why != NOT_RUN for a in open_):
-        return Finding(CONSISTENT if everywhere else AGREES, found,
-                       f"at {len(says_yes)} of {len(given)}; open: {reasons}", given)
+        return Finding(CONSISTENT, found, f"at {len(says_yes)} of {len(given)}; open: {reasons}", given)
     return Finding(OPEN, found, reasons, given)
 
 

@@ -27,9 +27,10 @@ class Pair:
 
     @property
     def where(self) -> str:
-        """The scene, as cells of a table: length, area fraction, side of the box, strength of shaking."""
+        """The scene, as cells of a table: length, area fraction, side of the box, gap, strength of shaking."""
         run = self.desk[0]
-        return (f"{run.key(LENGTH):g} mm | {key_of(run, PACKING):.3g} | {run.key(SIDE):g} mm | {run.key(GAMMA):g} | "
+        return (f"{run.key(LENGTH):g} mm | {key_of(run, PACKING):.3g} | {run.key(SIDE):g} mm | "
+                f"{key_of(run, GAP):g} mm | {run.key(GAMMA):g} | "
                 f"{len(self.desk)} + {len(self.paper)}")
 
 
@@ -99,8 +100,8 @@ def differences(evidence: Evidence) -> str:
     S stands as it is, all others in per cent of the magnitude at 4 us. The errors are those of both
     together; where a control knows no error, that of the runs at 16 us is taken for it, for as many seconds.
     """
-    lines = ["| ℓ | φ | box | Γ | runs | " + " | ".join(q.heading for q in COMPARED) + " |",
-             "|---" * (5 + len(COMPARED)) + "|"]
+    lines = ["| ℓ | φ | box | gap | Γ | runs | " + " | ".join(q.heading for q in COMPARED) + " |",
+             "|---" * (6 + len(COMPARED)) + "|"]
     for pair in pairs(evidence):
         lines.append(f"| {pair.where} | " + " | ".join(_difference(pair, q) for q in COMPARED) + " |")
     return "\n".join(lines) + "\n"
@@ -125,7 +126,7 @@ def prices(evidence: Evidence) -> str:
     table of Markdown. The square of an error falls with the length of a run; what a run did not get so far is
     extrapolated from the errors that it had."""
     heads = [f"{q.heading} {q.goal}: {step}" for q in PRICED for step in ("16 us", "4 us")]
-    lines = ["| ℓ | φ | box | Γ | runs | " + " | ".join(heads) + " |", "|---" * (5 + len(heads)) + "|"]
+    lines = ["| ℓ | φ | box | gap | Γ | runs | " + " | ".join(heads) + " |", "|---" * (6 + len(heads)) + "|"]
     of_pairs = pairs(evidence)
     compared = {_scene(pair.desk[0]) for pair in of_pairs}
     for pair in [*of_pairs, *(one for one in layered(evidence) if _scene(one.desk[0]) not in compared)]:

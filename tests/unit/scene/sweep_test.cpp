@@ -367,6 +367,11 @@ TEST(Sweep, SettingsOfSeveralValuesAreAxes) {
   EXPECT_THAT(labels(sweep_of("{}", {"box.gap=[1.2,1.4]"})), ElementsAre("box.gap=1.2", "box.gap=1.4"));
   EXPECT_THAT(labels(sweep_of("{}", {"movie.size=[640,480],[1280,720]"})),
               ElementsAre("movie.size=[640,480]", "movie.size=[1280,720]"));
+  // an array as deep as a value of its key is one value
+  EXPECT_EQ(sweep_of("{}", {"rods.bead_diameters=[0.4,0.8,0.4]"}).points[0].plan.system.rod.bead_diameters.size(), 3U);
+  EXPECT_EQ(sweep_of("{}", {"rods.bead_diameters=[[0.4,0.8,0.4],[0.8,0.8]]"}).points.size(), 2U);
+  EXPECT_EQ(sweep_of("{}", {"box.side=20", "posts.places=[[5,5],[10,10]]"}).points.size(), 1U);
+  EXPECT_EQ(sweep_of("{}", {"box.side=20", "posts.places=[[[5,5]],[[10,10],[5,15]]]"}).points.size(), 2U);
 }
 
 TEST(Sweep, SettingsTakeThePlaceOfGridAxes) {

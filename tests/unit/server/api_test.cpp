@@ -552,6 +552,9 @@ TEST_F(ApiTest, ARunningJobShowsItsProgress) {
   EXPECT_EQ(get("/v1/jobs/" + ids[0]).json["job"]["progress"]["order"], 0.25);
   EXPECT_DOUBLE_EQ(get("/v1/sweeps/s1").json["sweep"]["progress"].get<double>(), 0.5 * part({ids[0]}));
   EXPECT_EQ(get("/v1/sweeps/s1").json["sweep"]["eta_s"], -1.0) << "nothing is known of the queued ones yet";
+  submit({{"text", R"({"rods": {"length": 3.25}})"}, {"name", "held"}});
+  EXPECT_EQ(post("/v1/sweeps/held/hold").status, 200);
+  EXPECT_EQ(get("/v1/sweeps/held").json["sweep"]["eta_s"], -1.0) << "what is held has no end in sight";
 
   begin(queue_, ids[1]);
   queue_.ended(ids[1], JobEvent::kWorkerDone);
@@ -1055,6 +1058,12 @@ TEST_F(ApiTest, ASweepGetsMoreReplicasAsIfSubmittedSo) {
   EXPECT_EQ(post("/v1/sweeps/four/replicas", R"({"replicas": 4})").json["counts"]["new"], 4);
   EXPECT_EQ(submit({{"text", kSweep}, {"name", "four"}, {"replicas", 4}}).json["counts"]["new"], 0);
 
+  submit({{"text", "{}"}, {"name", "long"}, {"soft_limit_s", 600}, {"time_limit_s", 3600}, {"priority", 5}});
+  for (const Json& job : post("/v1/sweeps/long/replicas", R"({"replicas": 2})").json["jobs"]) {
+    EXPECT_EQ(job["soft_limit_s"], 600) << "the limits and the priority stay";
+    EXPECT_EQ(job["time_limit_s"], 3600);
+    EXPECT_EQ(job["priority"], 5);
+  }
   EXPECT_EQ(post("/v1/sweeps/four/replicas", R"({"replicas": 0})").status, 400);
   EXPECT_EQ(post("/v1/sweeps/four/replicas", "{}").status, 400);
   submit({{"text", R"({"scene": {}, "sweep": {"grid": {"time.seed": [1, 2]}}})"}, {"name", "seeds"}});
