@@ -368,8 +368,9 @@ TEST(Sweep, SettingsOfSeveralValuesAreAxes) {
   EXPECT_THAT(labels(sweep_of("{}", {"movie.size=[640,480],[1280,720]"})),
               ElementsAre("movie.size=[640,480]", "movie.size=[1280,720]"));
   // an array as deep as a value of its key is one value
-  EXPECT_EQ(sweep_of("{}", {"rods.bead_diameters=[0.4,0.8,0.4]"}).points[0].plan.system.rod.bead_diameters.size(), 3U);
-  EXPECT_EQ(sweep_of("{}", {"rods.bead_diameters=[[0.4,0.8,0.4],[0.8,0.8]]"}).points.size(), 2U);
+  const std::string bead = R"({"rods": {"length": 1}})";
+  EXPECT_EQ(sweep_of(bead, {"rods.bead_diameters=[0.8,0.6]"}).points[0].plan.system.rod.bead_diameters.size(), 2U);
+  EXPECT_EQ(sweep_of(bead, {"rods.bead_diameters=[[0.8,0.6],[0.8,0.8]]"}).points.size(), 2U);
   EXPECT_EQ(sweep_of("{}", {"box.side=20", "posts.places=[[5,5],[10,10]]"}).points.size(), 1U);
   EXPECT_EQ(sweep_of("{}", {"box.side=20", "posts.places=[[[5,5]],[[10,10],[5,15]]]"}).points.size(), 2U);
 }
