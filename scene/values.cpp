@@ -81,7 +81,7 @@ class ValuesReader {
 
   /// Adds what `node` stands for; false if there are too many values, which ends it.
   bool add(const Node& node) {
-    if (node.kind == Node::Kind::kArray && depth_of(node) != depth_of_value()) {
+    if (node.kind == Node::Kind::kArray && depth_of(node) > depth_of_value()) {
       if (node.items.empty()) report(node, "no values to sweep over");
       return std::all_of(node.items.begin(), node.items.end(), [this](const Node& item) {
         const bool nested = item.kind == Node::Kind::kArray && depth_of_value() == 0;
@@ -121,7 +121,9 @@ class ValuesReader {
   /// How many arrays lie within each other.
   static int depth_of(const Node& node) {
     if (node.kind != Node::Kind::kArray) return 0;
-    return 1 + (node.items.empty() ? 0 : depth_of(node.items.front()));
+    int deepest = 0;
+    for (const Node& item : node.items) deepest = std::max(deepest, depth_of(item));
+    return 1 + deepest;
   }
 
   /// The same, of a single value of this key: an array that is deeper holds several.

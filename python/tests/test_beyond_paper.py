@@ -105,6 +105,7 @@ def test_ways_are_in_boxes_and_their_common_drift_is_named():
     evidence = Evidence([run("long-rods", {"diffusion_along_mm2_s": (10.0, 1.0)}, msd(6400.0, 6000.0), packing=0.85),
                          run("long-rods", {}, msd(100.0, 100.0), packing=0.55)])
     (row,) = rows(beyond_paper.streaming(evidence))
+    assert row[3:6] == ["–", "10.0 ± 1.0", "–"], "one run without long octaves has its own D"
     assert row[8:] == ["100", "2.00 ± 0.10", "25.0 %"], "and what is not dense is no stream"
 
 

@@ -229,7 +229,7 @@ def test_the_phase_diagram_stands_beside_the_papers_words():
 
 
 def _timed_run(step: float, numbers: dict[str, Estimate], cpu: float = 3600.0, time: float = 100.0) -> SimpleNamespace:
-    keys = {"rods.length": 4.5, "rods.area_fraction": 0.75, "box.side": 33.492, "plates.gamma": 7.0,
+    keys = {"rods.length": 4.5, "rods.area_fraction": 0.75, "box.side": 33.492, "box.gap": 1.2, "plates.gamma": 7.0,
             "plates.frequency": 200.0, "time.step": step}
     return SimpleNamespace(id=f"{step}{sorted(numbers)}{cpu}", sweeps=["long-rods-desk"], key=keys.get, parameters=keys,
                            numbers=numbers, steady=True, summary={"cpu_seconds": cpu, "sim_seconds": time})
@@ -245,15 +245,15 @@ def test_the_two_steps_are_compared_and_priced():
     (pair,) = time_step.pairs(evidence)
     assert len(pair.desk) == 3 and len(pair.paper) == 1
     row = time_step.differences(evidence).splitlines()[2].split(" | ")
-    assert row[:5] == ["| 4.5 mm", "0.75", "33.492 mm", "7", "3 + 1"]
+    assert row[:6] == ["| 4.5 mm", "0.75", "33.492 mm", "1.2 mm", "7", "3 + 1"]
     # errors: of three means 0.0115 (their scatter 0.02 / sqrt 3, and what they know themselves), and 0.01
-    assert row[5] == "−0.010 ± 0.015" and row[6] == "−1.1 ± 1.7 %"
+    assert row[6] == "−0.010 ± 0.015" and row[7] == "−1.1 ± 1.7 %"
     # an hour with an error of 0.02 for one of 0.005: 16 hours; at the finer step 2 h x (0.01 / 0.005)^2
     row = time_step.prices(evidence).splitlines()[2].split(" | ")
-    assert row[5:9] == ["16.0", "8", "–", "–"]
+    assert row[6:10] == ["16.0", "8", "–", "–"]
     # D: (0.04 / (0.05 x 1.8))^2 h and so on
     hours = [cpu / 3600 * (0.04 / (0.05 * 2 * value)) ** 2 for value, cpu in found]
-    assert row[9] == f"{sum(hours) / 3:.2g}"
+    assert row[10] == f"{sum(hours) / 3:.2g}"
     # a run of another length is not compared
     other = Evidence([_timed_run(16e-6, order(0.9, 0.02), time=50.0), _timed_run(4e-6, order(0.9, 0.02))])
     assert time_step.pairs(other) == []

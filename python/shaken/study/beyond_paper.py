@@ -141,10 +141,10 @@ def shaking(evidence: Evidence) -> str:
 
 
 def longest_lag(direction: str) -> Column:
-    """The lag at the end of the octave over which D is read."""
+    """The lag at the end of the octave over which D is read; a dash where it is the runs' own."""
     def of(here: Runs) -> str:
-        lag = late_lags.longest_lag(here[0], f"/msd/{direction}_mm2")
-        return f"{lag:.0f}" if math.isfinite(lag) else "–"
+        is_late = math.isfinite(here.of(late_lags.diffusion_at(direction)).error)
+        return f"{late_lags.longest_lag(here[0], f'/msd/{direction}_mm2'):.0f}" if is_late else "–"
 
     return "lag (s)", of
 
@@ -160,7 +160,7 @@ def diffusion_minimum(evidence: Evidence) -> str:
     runs = evidence.joined("short-rods", "mechanism").at(length=2.5)
     return table(by(runs, PACKING, SIDE), [
         PACKED, BOX, SEEDS, longest_lag("total"), ("D (mm²/s)", lambda here: text(long_time_diffusion(here))),
-        number("slope, over that at half the lag", late_lags.change_of_slope("total")),
+        number("slope, over that at half the lag", late_lags.change_of_slope("/msd/total_mm2")),
         number("exponent, short lags", "alpha_short"),
         number("persistence time (s)", "persistence_time_s"), number("length (mm)", "persistence_length_mm"),
         ("tilt keeps its sign (ms)", switching)])
@@ -202,7 +202,7 @@ def streaming(evidence: Evidence) -> str:
     return table(points, [
         PACKED, BOX, SEEDS, longest_lag("along"),
         ("D along (mm²/s)", lambda here: text(long_time_diffusion(here, "along"))),
-        number("slope, over that at half the lag", late_lags.change_of_slope("along")),
+        number("slope, over that at half the lag", late_lags.change_of_slope("/msd/along_mm2")),
         number("exponent", late_lags.exponent("/msd/along_mm2")),
         number("C_v along, 0.8 to 2.8 s (mm²/s²)", late_velocity_correlation), ("longest lag (s)", longest),
         number("way along by then, in boxes", way_in_boxes), ("of it common drift", drift)])

@@ -7,9 +7,10 @@ import math
 from collections import Counter
 from contextvars import ContextVar
 from dataclasses import dataclass, replace
-from typing import Callable, Iterable, Iterator
+from typing import Callable, Iterable, Iterator, Sequence
 
 import numpy as np
+from scipy import stats
 
 from ..estimate import NAN, Estimate, derived, replica_mean
 from ..plots.series import mean_curve
@@ -93,10 +94,25 @@ def reads() -> Iterator[list[Read]]:
         _reads.reset(before)
 
 
-def mean(estimates: Iterable[Estimate]) -> Estimate:
-    """The mean over replicas (`replica_mean`). Whether it is steady is asked of all of them together: of the mean of
-    their drifts, where all have one, for of many runs some drift by chance."""
-    found = replica_mean(estimates)
+def _by_scatter(known: list[Estimate]) -> dict[str, float]:
+    alone = replica_mean(replace(estimate, error=NAN) for estimate in known)
+    return {"error": alone.error, "dof": alone.dof}
+
+
+def mean(estimates: Sequence[Estimate]) -> Estimate:
+    """The mean over replicas (`replica_mean`), with an error to judge by: where they scatter by more than their own
+    errors allow, by chi square at 5 %, only their scatter counts, as if they had none.
+
+    Whether it is steady is asked of all of them together: of the mean of their drifts, where all have one, for of many
+    runs some drift by chance.
+    """
+    known = [estimate for estimate in estimates if estimate.is_known]
+    found = replica_mean(known or estimates)
+    own = math.fsum(estimate.error**2 for estimate in known)
+    if len(known) > 1 and math.isfinite(own):
+        scatter = math.fsum((estimate.value - found.value) ** 2 for estimate in known)
+        if scatter * len(known) > own * stats.chi2.ppf(0.95, len(known) - 1):
+            found = replace(found, **_by_scatter(known))
     if math.isfinite(found.drift) and math.isfinite(found.drift_error):
         return replace(found, steady=abs(found.drift) <= 2 * found.drift_error)
     return found

@@ -94,9 +94,10 @@ def diffusion_at(direction: str, lag: Callable[[Run, str], float] = longest_lag)
     return read
 
 
-def change_of_slope(direction: str) -> Reading:
-    """The slope of the MSD over the last octave divided by that over the octave before: 1 where D is a constant."""
-    return _reading(f"/msd/{direction}_mm2", 2, lambda last, before: last.slope / before.slope)
+def change_of_slope(name: str) -> Reading:
+    """The slope of a curve over the last octave divided by that over the octave before: 1 of an MSD where D is a
+    constant, whatever came before; t^a has 2^(a - 1)."""
+    return _reading(name, 2, lambda last, before: last.slope / before.slope)
 
 
 def exponent(name: str) -> Reading:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import math
+from typing import Callable, Sequence
 
 import numpy as np
 from scipy.optimize import minimize
@@ -17,16 +18,24 @@ TWO_PEAKS = 0.95
 #: A box that is wider than this across the director [mm] has steps of the wave number that are small beside the peak of
 #: the layers.
 WIDE = 96.0
-#: Standard deviation of the peak of the layers, in ln q.
-PEAK_WIDTH = 0.2
+#: Standard deviation of the peak of the layers, in ln q: the least and the most that it can be.
+PEAK_WIDTHS = (0.1, 0.35)
+#: By how much a peak must raise the logarithm of the likelihood: of spectra without one three in a hundred do so.
+LEAST_GAIN = 4.0
 #: Waves that are looked at [mm], and those that layers can have.
 WAVES, OF_LAYERS = (5.0, 63.0), (8.0, 32.0)
 
 
-def expected_power(q: np.ndarray, floor: float, bending: float, layers: float, peak: float) -> np.ndarray:
+def expected_power(q: np.ndarray, floor: float, bending: float, layers: float, peak: float, width: float) -> np.ndarray:
     """The spectrum of a layered nematic: `floor` of single rods, `bending` / q^2 of the director's own waves, and a
-    peak of height `layers` at the wave number `peak`."""
-    return floor + bending / q**2 + layers * np.exp(-(np.log(q / peak) / PEAK_WIDTH) ** 2 / 2)
+    peak of height `layers` and standard deviation `width` (in ln q) at the wave number `peak`."""
+    return floor + bending / q**2 + layers * np.exp(-(np.log(q / peak) / width) ** 2 / 2)
+
+
+def _width(logit: float) -> float:
+    """A width between the least and the most, of any number."""
+    low, high = PEAK_WIDTHS
+    return low + (high - low) / (1 + math.exp(-min(max(logit, -30), 30)))
 
 
 def peak_of(q: np.ndarray, power: np.ndarray) -> float:
@@ -40,17 +49,23 @@ def peak_of(q: np.ndarray, power: np.ndarray) -> float:
     chosen = (wave > WAVES[0]) & (wave < WAVES[1]) & (power > 0)
     q, wave, power = q[chosen], wave[chosen], power[chosen] / np.median(power[chosen])
 
-    def unlikely(logarithms: np.ndarray) -> float:
-        expected = expected_power(q, *np.exp(np.clip(logarithms, -30, 30)))
-        return float(np.sum(np.log(expected) + power / expected))
+    def expected(fitted: np.ndarray) -> np.ndarray:
+        floor, bending, layers, peak = np.exp(np.clip(fitted[:4], -30, 30))
+        return expected_power(q, floor, bending, layers, peak, _width(fitted[4]))
+
+    def best(start: Sequence[float], model: Callable[[np.ndarray], np.ndarray]) -> tuple[float, np.ndarray]:
+        fit = minimize(lambda fitted: float(np.sum(np.log(model(fitted)) + power / model(fitted))), start,
+                       method="Nelder-Mead", options={"maxiter": 4000, "xatol": 1e-4, "fatol": 1e-4})
+        return float(fit.fun), fit.x
 
     low, high = np.percentile(power, 10), power[np.argmax(wave)]
-    starts = [np.log([low, max(high - low, 0.1 * low) * (2 * math.pi / 30) ** 2, power.max() / 2, 2 * math.pi / wave])
-              for wave in (10.0, 12.5, 16.0, 20.0, 25.0)]
-    fits = [minimize(unlikely, start, method="Nelder-Mead", options={"maxiter": 4000, "xatol": 1e-4, "fatol": 1e-4})
-            for start in starts]
-    found = [(float(fit.fun), float(2 * math.pi / np.exp(np.clip(fit.x[3], -30, 30)))) for fit in fits]
-    inside = [(fun, wave) for fun, wave in found if OF_LAYERS[0] < wave < OF_LAYERS[1]]
+    plain = [math.log(low), math.log(max(high - low, 0.1 * low) * (2 * math.pi / 30) ** 2)]
+    without, _ = best(plain, lambda fitted: expected(np.array([*fitted, -30.0, 0.0, 0.0])))
+    fits = [best([*plain, math.log(power.max() / 2), math.log(2 * math.pi / start), 0.0], expected)
+            for start in (10.0, 12.5, 16.0, 20.0, 25.0)]
+    found = [(unlikely, 2 * math.pi / math.exp(min(max(fitted[3], -30), 30))) for unlikely, fitted in fits
+             if without - unlikely > LEAST_GAIN]
+    inside = [(unlikely, peak) for unlikely, peak in found if OF_LAYERS[0] < peak < OF_LAYERS[1]]
     return min(inside)[1] if inside else math.nan
 
 

@@ -14,7 +14,7 @@ from .rules import (Answer, Finding, above, below, close_to, conclude, doubt, la
                     yes)
 
 #: Change of the slope of the MSD from one octave of lags to the next, as a part of it, below which motion is diffusive.
-SAME_SLOPE = 0.2
+SAME_SLOPE = 0.1
 #: Change of C2 from one octave of lags to the next below which it has levelled off.
 LEVEL = 0.05
 
@@ -130,13 +130,14 @@ def diffusion_law(evidence: Evidence) -> Finding:
     return conclude(answers, f"D in mm²/s (the paper's fit): {found}")
 
 
-def _becomes_diffusive(runs: Runs) -> tuple[Answer, str]:
-    """Whether the slope of the MSD no longer changes at the longest lags, and the numbers behind it. Where replicas are
-    too few to tell, the exponent at shorter lags is asked: once it is 1 it stays 1."""
-    change, exponent = runs.of(late_lags.change_of_slope("total")), runs.number("alpha_long")
-    if math.isfinite(change.error):
-        return close_to(change, 1, SAME_SLOPE), text(change)
-    return close_to(exponent, 1, 0.1), f"exponent {text(exponent)}"
+def _grows_linearly(runs: Runs, curve: str, exponent: str) -> tuple[Answer, str]:
+    """Whether a square displacement grows linearly in time, and the number behind it: its exponent is 1 at the lags at
+    which single runs have an error, or its slope no longer changes at the longest ones."""
+    early, change = runs.number(exponent), runs.of(late_lags.change_of_slope(curve))
+    answer = close_to(early, 1, 0.1)
+    if answer.word or not math.isfinite(change.error):
+        return answer, f"exponent {text(early)}" if early.is_known else ""
+    return close_to(change, 1, SAME_SLOPE), f"slope {text(change)}"
 
 
 def diffusion_is_normal(evidence: Evidence) -> Finding:
@@ -146,12 +147,12 @@ def diffusion_is_normal(evidence: Evidence) -> Finding:
     found = [f"exponents at short times: {listed(points, 'φ')}"] if points else []
     late = []
     for packing in runs.values(PACKING):
-        answer, numbers = _becomes_diffusive(runs.at(packing=packing))
-        if numbers.strip("exponent –"):
+        answer, numbers = _grows_linearly(runs.at(packing=packing), "/msd/total_mm2", "alpha_long")
+        if numbers:
             answers.append(answer.placed(f"long times, {packing:g}"))
             late.append(f"{numbers} at φ = {packing:g}")
     if late:
-        found.append("slope of the MSD at the longest lags, over that at half of them: " + "; ".join(late))
+        found.append("at long times, as exponent or as slope over that at half the lag: " + "; ".join(late))
     return conclude(answers, ". ".join(found))
 
 
@@ -179,7 +180,12 @@ def diffusion_along_the_director(evidence: Evidence) -> Finding:
 def no_superdiffusion_across(evidence: Evidence) -> Finding:
     answers, found = [], []
     for when in ("short", "long"):
-        points = [(at, e) for at, e in long_rods(evidence).points(PACKING, f"alpha_across_{when}") if at > 0.59]
+        runs, own = long_rods(evidence), f"alpha_across_{when}"
+
+        def exponent(here: Runs, own: str = own, late: bool = when == "long") -> Estimate:
+            return late_lags.best(here, late_lags.exponent("/msd/across_mm2"), own) if late else here.number(own)
+
+        points = [(at, e) for at, e in points_of(runs, PACKING, exponent) if at > 0.59]
         answers += [below(e, 1.05).placed(f"{when} times, {at:g}") for at, e in points]
         if points and when == "short":
             answers.append(trend(points, rising=False).placed("falls with packing"))
@@ -263,16 +269,21 @@ def rotation_subdiffusive(evidence: Evidence) -> Finding:
 
 
 def turning_saturates(evidence: Evidence) -> Finding:
-    runs = long_rods(evidence)
-    dilute = [(at, e) for at, e in runs.points(PACKING, "alpha_rotation_long") if at < 0.46]
-
-    def late(here: Runs) -> Estimate:
-        return late_lags.best(here, late_lags.exponent("/rotation/msad_rad2"), "alpha_rotation_long")
-
-    dense = [(at, e) for at, e in points_of(runs, PACKING, late) if at > 0.74]
-    return conclude([*(close_to(e, 1, 0.1).placed(f"{at:g}") for at, e in dilute),
-                     *(below(e, 0.25).placed(f"{at:g}") for at, e in dense)],
-                    f"exponent at long times {listed([*dilute, *dense], 'φ')}")
+    runs, curve, own = long_rods(evidence), "/rotation/msad_rad2", "alpha_rotation_long"
+    answers, found = [], []
+    for packing in runs.values(PACKING):
+        here = runs.at(packing=packing)
+        if packing < 0.46:
+            answer, numbers = _grows_linearly(here, curve, own)
+        elif packing > 0.74:
+            late = late_lags.best(here, late_lags.exponent(curve), own)
+            answer, numbers = below(late, 0.25), f"exponent {text(late)}" if late.is_known else ""
+        else:
+            continue
+        if numbers:
+            answers.append(answer.placed(f"{packing:g}"))
+            found.append(f"{numbers} at φ = {packing:g}")
+    return conclude(answers, "at long times: " + "; ".join(found))
 
 
 def defects_move(evidence: Evidence) -> Finding:

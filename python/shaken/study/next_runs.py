@@ -69,7 +69,7 @@ DECIDING: dict[str, tuple[str, tuple[Batch, ...]]] = {
     "angle-packing": ("six seeds of each packing in the strip: the set `strip`",
                       (Batch(4.5, 0.80, STRIP, 280, 3), Batch(4.5, 0.85, STRIP, 310, 3))),
     "wavelength-packing": ("some 20 seeds of each packing in the strip, if the means stay where they are",
-                           (Batch(4.5, 0.80, STRIP, 280, 16), Batch(4.5, 0.85, STRIP, 310, 17))),
+                           (Batch(4.5, 0.80, STRIP, 280, 14), Batch(4.5, 0.85, STRIP, 310, 14))),
     "wavelength-length": ("six seeds of 3.5 and 4.5 mm in the strip",
                           (Batch(3.5, 0.85, STRIP, 310, 3), Batch(4.5, 0.85, STRIP, 310, 3))),
     "wavelength-end": ("three seeds with ends of 0.5 mm in the strip: the set `strip`",

@@ -81,24 +81,24 @@ def doubt(estimate: Estimate) -> str:
     return ""
 
 
-def margin(*estimates: Estimate, sigmas: float = SIGMAS) -> float:
-    """What a number may be away from its value, or a difference of two: so many errors. It is more where an error is
-    the scatter of a few replicas: what Student's t has at the same confidence."""
+def margin(*estimates: Estimate) -> float:
+    """What a number may be away from its value, or a difference of two: two errors, and more where an error is the
+    scatter of a few replicas: what Student's t has at the same confidence."""
     plain = []  # the errors as they were before they were widened to cover 68 %
     for estimate in estimates:
         covers_68 = stats.t.ppf(stats.norm.cdf(1), estimate.dof) if math.isfinite(estimate.dof) else 1.0
         plain.append((judged_error(estimate) / covers_68, estimate.dof))
     dof = joint_dof(plain)
-    quantile = stats.t.ppf(stats.norm.cdf(sigmas), dof) if math.isfinite(dof) else sigmas
+    quantile = stats.t.ppf(stats.norm.cdf(SIGMAS), dof) if math.isfinite(dof) else SIGMAS
     return float(quantile * math.hypot(*(error for error, _ in plain)))
 
 
-def larger(a: Estimate, b: Estimate, sigmas: float = SIGMAS) -> Answer:
-    """a > b, by the errors (and drifts) that they are judged with."""
+def larger(a: Estimate, b: Estimate, apart: float | None = None) -> Answer:
+    """a > b, by the errors (and drifts) that they are judged with; apart: by that much in place of two errors."""
     for estimate in (a, b):
         if why := doubt(estimate):
             return unknown(why)
-    apart = margin(a, b, sigmas=sigmas)
+    apart = margin(a, b) if apart is None else apart
     differences = [x - y for x in _values(a) for y in _values(b)]
     if min(differences) > apart:
         return yes()
@@ -136,7 +136,7 @@ def trend(points: Sequence[tuple[float, Estimate]], rising: bool) -> Answer:
     if not rising:
         deciding.reverse()
     for before, after in zip(deciding, deciding[1:]):
-        if larger(before, after, STEP_BACK).word:
+        if larger(before, after, STEP_BACK * math.hypot(judged_error(before), judged_error(after))).word:
             return no()
     return larger(deciding[-1], deciding[0])
 

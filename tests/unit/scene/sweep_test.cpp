@@ -371,6 +371,8 @@ TEST(Sweep, SettingsOfSeveralValuesAreAxes) {
   const std::string bead = R"({"rods": {"length": 1}})";
   EXPECT_EQ(sweep_of(bead, {"rods.bead_diameters=[0.8,0.6]"}).points[0].plan.system.rod.bead_diameters.size(), 2U);
   EXPECT_EQ(sweep_of(bead, {"rods.bead_diameters=[[0.8,0.6],[0.8,0.8]]"}).points.size(), 2U);
+  EXPECT_EQ(sweep_of(bead, {"rods.bead_diameters=[[0.8,0.6],null]"}).points.size(), 2U);
+  EXPECT_EQ(sweep_of(bead, {"rods.bead_diameters=[null,[0.8,0.6]]"}).points.size(), 2U);
   EXPECT_EQ(sweep_of("{}", {"box.side=20", "posts.places=[[5,5],[10,10]]"}).points.size(), 1U);
   EXPECT_EQ(sweep_of("{}", {"box.side=20", "posts.places=[[[5,5]],[[10,10],[5,15]]]"}).points.size(), 2U);
 }

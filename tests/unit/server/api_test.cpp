@@ -1059,7 +1059,9 @@ TEST_F(ApiTest, ASweepGetsMoreReplicasAsIfSubmittedSo) {
   EXPECT_EQ(submit({{"text", kSweep}, {"name", "four"}, {"replicas", 4}}).json["counts"]["new"], 0);
 
   submit({{"text", "{}"}, {"name", "long"}, {"soft_limit_s", 600}, {"time_limit_s", 3600}, {"priority", 5}});
-  for (const Json& job : post("/v1/sweeps/long/replicas", R"({"replicas": 2})").json["jobs"]) {
+  const Json twice = post("/v1/sweeps/long/replicas", R"({"replicas": 2})").json;
+  ASSERT_EQ(twice["jobs"].size(), 2U);
+  for (const Json& job : twice["jobs"]) {
     EXPECT_EQ(job["soft_limit_s"], 600) << "the limits and the priority stay";
     EXPECT_EQ(job["time_limit_s"], 3600);
     EXPECT_EQ(job["priority"], 5);
