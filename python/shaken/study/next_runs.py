@@ -53,7 +53,7 @@ DECIDING: dict[str, tuple[str, tuple[Batch, ...]]] = {
                     Batch(4.5, 0.70, 133.968, 400, 1))),
     "larger-box": ("two seeds in a box of 84 mm: the set `larger-box`", (Batch(4.0, 0.85, 83.73, 400, 2),)),
     "defects": ("a run in the paper's box: the first of the set `no-order`", (Batch(3.0, 0.85, 83.73, 400, 1),)),
-    "isotropic": ("nine seeds: the set `dilute`", (Batch(4.5, 0.45, 66.984, 100, 6),)),
+    "isotropic": ("twenty seeds: the set `dilute`", (Batch(4.5, 0.45, 66.984, 100, 11),)),
     "layers": ("eight seeds at 0.75, and six at 0.80 in the strip: the sets `layers` and `strip`",
                (Batch(4.5, 0.75, 41.865, 400, 4), Batch(4.5, 0.80, STRIP, 280, 2))),
     "g2-oscillates": ("eight seeds at 0.80 in the square, and six of each packing in the strip: the sets `layers` and "
