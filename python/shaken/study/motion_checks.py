@@ -178,19 +178,17 @@ def diffusion_along_the_director(evidence: Evidence) -> Finding:
 
 
 def no_superdiffusion_across(evidence: Evidence) -> Finding:
+    runs = Runs(run for run in long_rods(evidence) if key_of(run, PACKING) > 0.59)
+    short = runs.points(PACKING, "alpha_across_short")
+    late = points_of(runs, PACKING, lambda here: late_lags.best(here, late_lags.exponent("/msd/across_mm2"),
+                                                                "alpha_across_long"))
     answers, found = [], []
-    for when in ("short", "long"):
-        runs, own = long_rods(evidence), f"alpha_across_{when}"
-
-        def exponent(here: Runs, own: str = own, late: bool = when == "long") -> Estimate:
-            return late_lags.best(here, late_lags.exponent("/msd/across_mm2"), own) if late else here.number(own)
-
-        points = [(at, e) for at, e in points_of(runs, PACKING, exponent) if at > 0.59]
+    for when, points in (("short", short), ("long", late)):
         answers += [below(e, 1.05).placed(f"{when} times, {at:g}") for at, e in points]
-        if points and when == "short":
-            answers.append(trend(points, rising=False).placed("falls with packing"))
         if points:
             found.append(f"{when}: {listed(points, 'φ')}")
+    if short:
+        answers.append(trend(short, rising=False).placed("falls with packing"))
     return conclude(answers, "exponents across at times that are " + "; ".join(found))
 
 
