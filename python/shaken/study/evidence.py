@@ -94,11 +94,6 @@ def reads() -> Iterator[list[Read]]:
         _reads.reset(before)
 
 
-def _by_scatter(known: list[Estimate]) -> dict[str, float]:
-    alone = replica_mean(replace(estimate, error=NAN) for estimate in known)
-    return {"error": alone.error, "dof": alone.dof}
-
-
 def mean(estimates: Sequence[Estimate]) -> Estimate:
     """The mean over replicas (`replica_mean`), with an error to judge by: where they scatter by more than their own
     errors allow, by chi square at 5 %, only their scatter counts, as if they had none.
@@ -112,7 +107,8 @@ def mean(estimates: Sequence[Estimate]) -> Estimate:
     if len(known) > 1 and math.isfinite(own):
         scatter = math.fsum((estimate.value - found.value) ** 2 for estimate in known)
         if scatter * len(known) > own * stats.chi2.ppf(0.95, len(known) - 1):
-            found = replace(found, **_by_scatter(known))
+            alone = replica_mean(replace(estimate, error=NAN) for estimate in known)
+            found = replace(found, error=alone.error, dof=alone.dof)
     if math.isfinite(found.drift) and math.isfinite(found.drift_error):
         return replace(found, steady=abs(found.drift) <= 2 * found.drift_error)
     return found

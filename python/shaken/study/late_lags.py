@@ -17,7 +17,7 @@ from ..estimate import Estimate
 from ..run import Run
 from .evidence import Runs, number_of
 
-#: The longest lag that is used, in measured times: a half, and what the lags, which are whole samples, are above it.
+#: The longest lag that is used, in measured times: a half, with room for the lags that runs have, such as 41 s of 80.
 LONGEST = 0.52
 
 Reading = Callable[[Run], Estimate]

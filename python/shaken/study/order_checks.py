@@ -8,7 +8,7 @@ import numpy as np
 
 from ..estimate import NAN, Estimate, derived
 from ..run import Run
-from .evidence import (GAMMA, LENGTH, PACKING, PAPERS_BOX, SIDE, SMALL_DRIFT, Evidence, Runs, crossing, key_of)
+from .evidence import GAMMA, LENGTH, PACKING, PAPERS_BOX, SIDE, SMALL_DRIFT, Evidence, Runs, crossing, key_of
 from .rules import (NOT_RUN, Answer, Finding, above, below, close_to, conclude, doubt, larger, listed, no, refutable,
                     text, trend, unknown, yes)
 from .structure_checks import far_g2

@@ -45,7 +45,7 @@ class Scale:
 
 SCALES = {scale.name: scale for scale in (
     Scale("tiny", "draft", side=0.3, least_side=16.5, time=0.01, replicas=2, shown="minutes: to see that all is there"),
-    Scale("desk", "desk", shown="some 40 hours of one core: what decides the statements"),
+    Scale("desk", "desk", shown="some 50 hours of one core: what decides the statements"),
     Scale("paper", "paper", side=2.0, least_square=83.73, time=3.0,
           shown="the paper's box, times and step: a cluster's"))}
 
