@@ -287,6 +287,13 @@ def merge(source: str | Path, into: str | Path) -> list[Path]:
 
 
 def archived_runs(folder: str | Path) -> Iterator[ArchivedRun]:
-    """The runs of an archive, in the order of their ids."""
+    """The runs of an archive, in the order of their ids. Raises ShakenError, after the others, with all files that
+    are damaged."""
+    problems = []
     for path in sorted(Path(folder).glob("*" + SUFFIX)):
-        yield read_archived(path)
+        try:
+            yield read_archived(path)
+        except ShakenError as error:
+            problems.append(str(error))
+    if problems:
+        raise ShakenError("\n".join(problems))

@@ -78,17 +78,20 @@ class Daemon:
         """The jobs of a sweep with the summaries of those that have ended (ROW of docs/protocol.md)."""
         return self.ask("GET", "/v1/results?sweep=" + urllib.parse.quote(sweep, safe=""))["rows"]
 
-    def submit(self, scene: Mapping[str, Any] | str, *, replicas: int | None = None, name: str | None = None,
+    def submit(self, scene: Mapping[str, Any] | str | Path, *, replicas: int | None = None, name: str | None = None,
                settings: Mapping[str, Any] | None = None, priority: int = 0, **terms: Any) -> str:
-        """Queues a scene or a sweep, a dict as docs/scene.md has it or the text of a file, and returns the id of its
-        sweep. Points that are done already are not done again.
+        """Queues a scene or a sweep, a dict as docs/scene.md has it, the text of a file or its path, and returns the id
+        of its sweep. Points that are done already are not done again.
 
-        settings: keys that are set, or swept by several values: {"rods.length": [2.5, 4.5]}
+        settings: keys that are set, or swept by several values: {"rods.length": [2.5, 4.5]}; a value is a text as on
+                  the command line, or what JSON can say
         terms:    soft_limit_s, time_limit_s, at_most, after, stop_if, as in SUBMISSION of docs/protocol.md
 
         Raises ShakenError with all problems of the scene; nothing is queued then.
         """
-        request: dict[str, Any] = {"text": scene if isinstance(scene, str) else json.dumps(scene),
+        if isinstance(scene, Path):
+            scene = scene.read_text()
+        request: dict[str, Any] = {"text": scene if isinstance(scene, str) else json.dumps(scene, default=_plain),
                                    "priority": priority, **terms}
         if settings:
             request["settings"] = [f"{path}={_setting(value)}" for path, value in settings.items()]
@@ -125,8 +128,20 @@ class Daemon:
         return self.ask("POST", f"/v1/{kind}/{urllib.parse.quote(sweep_or_job, safe='')}/cancel")["cancelled"]
 
 
+def _plain(value: Any) -> Any:
+    """For JSON: the numbers of numpy as Python's."""
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    raise ShakenError(f"a scene cannot have {value!r}: only what JSON can say")
+
+
 def _setting(value: Any) -> str:
-    return ",".join(str(v) for v in value) if isinstance(value, (list, tuple)) else str(value)
+    """A setting as after `-s`: one value, or those of a sweep with commas between them."""
+    if hasattr(value, "tolist"):
+        value = value.tolist()
+    if isinstance(value, (list, tuple)) and not any(isinstance(v, (list, tuple)) for v in value):
+        return ",".join(map(_setting, value))
+    return value if isinstance(value, str) else json.dumps(value, default=_plain)
 
 
 def _print_progress(sweep: Mapping[str, Any]) -> None:

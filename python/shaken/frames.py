@@ -114,6 +114,9 @@ class Trajectory:
         return len(self.times)
 
     def __getitem__(self, k: int) -> Frame:
+        """Frame k, counted from the end where it is below 0; a slice is none: `frames()` gives many."""
+        if isinstance(k, slice):
+            raise ShakenError("a trajectory gives one frame at a time; frames() gives many")
         k = range(len(self))[k]
         rods = self._rods
         return Frame(float(self.times[k]), int(rods["position/step"][k]), rods["position/value"][k].astype(float),

@@ -231,6 +231,18 @@ class Run:
         return f"<run {self.id[:8]}: {self.summary.get('n_rods')} rods, {time:g} s, S = {self.numbers.get('S', '-')}>"
 
 
+def _present_state(directory: Path) -> str:
+    """What progress.json says of a run that is not done."""
+    try:
+        progress = json.loads((directory / "progress.json").read_text())
+        word, why = str(progress["state"]), str(progress.get("message") or "")
+    except (OSError, ValueError, KeyError, TypeError):
+        return "the run has not ended yet"
+    if word == "failed":
+        return "the run has failed" + (f": {why}" if why else "")
+    return "the run was stopped before its end" if word == "stopped" else "the run has not ended yet"
+
+
 class DirectoryRun(Run):
     """A run in its directory. Nothing but scene.json and summary.json is read until it is asked for."""
 
@@ -244,7 +256,7 @@ class DirectoryRun(Run):
             raise ShakenError(f"{self.directory} has no {missing}: " + (
                 "it holds imported rods, which have not been simulated; open a run that starts from them"
                 if (self.directory / "imported.json").exists() else
-                "the run has not ended yet (`shaken status` says how far it is)" if missing == "summary.json" else
+                f"{_present_state(self.directory)} (see `shaken status`)" if missing == "summary.json" else
                 "it is no directory of a run")) from None
         except (OSError, ValueError) as error:
             raise ShakenError(f"{self.directory}: {error}") from None
@@ -273,7 +285,8 @@ class DirectoryRun(Run):
         path = self.directory / "trajectory.h5"
         if not path.exists():
             raise ShakenError(f"{self.directory} has no trajectory.h5: " + (
-                "its frames are still being recorded" if (self.directory / "trajectory.part").exists() else
+                f"{_present_state(self.directory)}, and its frames lie in trajectory.part until it ends"
+                if (self.directory / "trajectory.part").exists() else
                 "the scene has no `trajectory`, which records frames"))
         return Trajectory(path)
 

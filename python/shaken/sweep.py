@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import urllib.parse
 from pathlib import Path
 from typing import Any, Iterable, Iterator, Mapping, Sequence
 
@@ -201,7 +202,7 @@ def results(source: "Daemon | str | Path | None" = None, sweep: str | None = Non
         if not sweeps:
             raise ShakenError(f"the daemon at {daemon.root} has no sweeps")
         sweep = sweeps[-1]["id"]
-    name = daemon.ask("GET", f"/v1/sweeps/{sweep}")["sweep"]["name"]
+    name = daemon.ask("GET", "/v1/sweeps/" + urllib.parse.quote(sweep, safe=""))["sweep"]["name"]
 
     def runs() -> Iterator[tuple[Mapping[str, Any], Run | None]]:
         for row in daemon.rows(sweep):

@@ -109,3 +109,12 @@ def test_damaged_files_are_refused(tmp_path, damage):
     path.write_bytes(damage(path.read_bytes()))
     with pytest.raises(shaken.ShakenError, match="no file of an archive"):
         shaken.open(path)
+
+
+def test_of_an_archive_all_damaged_files_are_named(tmp_path):
+    archive.add_run(made_up_run(tmp_path / "run"), tmp_path / "archive")
+    for name in ("1", "2"):
+        (tmp_path / "archive" / (name + archive.SUFFIX)).write_text("junk")
+    found = []
+    with pytest.raises(shaken.ShakenError, match="1.run.xz is no file.*\n.*2.run.xz is no file"):
+        found.extend(archive.archived_runs(tmp_path / "archive"))

@@ -155,11 +155,20 @@ def test_what_is_no_run_is_said_to_be_none(tmp_path, run_at):
     (made_up_run(tmp_path / "early") / "summary.json").unlink()
     with pytest.raises(shaken.ShakenError, match="has not ended yet"):
         shaken.open(tmp_path / "early")
+    for state, why, said in (("failed", "rods overlap", "has failed: rods overlap"),
+                             ("stopped", "asked to stop", "was stopped before its end"),
+                             ("running", "", "has not ended yet")):
+        (tmp_path / "early/progress.json").write_text(json.dumps({"state": state, "message": why}))
+        with pytest.raises(shaken.ShakenError, match=said):
+            shaken.open(tmp_path / "early")
     (tmp_path / "early/imported.json").write_text("{}")
     with pytest.raises(shaken.ShakenError, match="imported rods, which have not been simulated"):
         shaken.open(tmp_path / "early")
     with pytest.raises(shaken.ShakenError, match="does not record|records frames"):
         next(run_at("a").frames())
+    (run_at("b").directory / "trajectory.part").write_bytes(b"")
+    with pytest.raises(shaken.ShakenError, match="trajectory.part until it ends"):
+        next(run_at("b").frames())
 
 
 def test_a_prefix_of_an_id_is_enough(tmp_path):

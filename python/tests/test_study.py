@@ -11,8 +11,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from conftest import PROGRAMS
-from shaken.archive import Snapshot
+from conftest import PROGRAMS, made_up_run
+from shaken.archive import Snapshot, add_run
 from shaken.errors import ShakenError
 from shaken.estimate import Estimate
 from shaken.study import running, sets, time_step
@@ -84,7 +84,9 @@ def test_a_plan_for_a_computing_centre(programs, tmp_path):
     (["99"], "no such figure: 99"), (["--format", "jpg"], "png, pdf or svg"), (["--width", "wide"], "--width takes"),
     (["--budget", "3q"], "is no time"), (["--plan", "p.md"], "--plan is for Slurm"), (["--memory", "2G"], "for Slurm"),
     (["--report", "nowhere.md"], "no such file"), (["--draw-only", "--dry-run"], "exclude each other"),
-    (["--scale", "huge"], "tiny, desk, paper")])
+    (["--scale", "huge"], "tiny, desk, paper"), (["--width", "5mm"], "from 40mm"),
+    (["--configs", "nowhere", "--dry-run"], "nowhere has no sweeps of the figures"),
+    (["--archive", "nowhere", "--draw-only"], "nowhere is none")])
 def test_bad_options_are_refused_before_anything_runs(programs, words, said):
     done = figures(programs, *words, check=False)
     assert done.returncode == 2 and said in done.stderr
@@ -94,6 +96,18 @@ def test_bad_options_are_refused_before_anything_runs(programs, words, said):
 def test_an_empty_archive_is_said_to_be_one(programs, tmp_path):
     done = figures(programs, "--draw-only", "--archive", tmp_path, check=False)
     assert done.returncode == 1 and "nothing to draw" in done.stderr
+
+
+def test_a_figure_without_runs_is_said_to_have_none(programs, tmp_path):
+    add_run(made_up_run(tmp_path / "run"), tmp_path / "archive", sweeps=["mechanism-tiny"])
+    done = figures(programs, 4, "--draw-only", "--archive", tmp_path / "archive", "-o", tmp_path / "out", check=False)
+    assert done.returncode == 1 and "no runs of these figures" in done.stderr
+
+
+def test_a_full_disk_is_told_in_a_line(programs):
+    command = f"{sys.executable} {SOURCE}/python/shaken/study/__main__.py --list > /dev/full"
+    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 1 and done.stderr == "shaken: [Errno 28] No space left on device\n"
 
 
 def test_every_set_has_its_sweep_at_every_scale(programs):

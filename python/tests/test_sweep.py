@@ -2,6 +2,7 @@
 import json
 import math
 
+import numpy as np
 import pytest
 
 import shaken
@@ -82,6 +83,15 @@ def test_the_daemon_and_its_results_are_those_of_the_program(programs):
         daemon.submit({"rods": {"lenght": 2}})
     assert daemon.submit({"time": {"measure": "1 h"}, "box": {"side": "14 mm"}}, name="long") != sweep_id
     assert daemon.cancel("long") == 1
+    # values are JSON's, and names anything
+    name = "näme with #?% & space"
+    daemon.submit(SWEEP, name=name, settings={"trajectory": None, "measure.msd": {}, "rods.length": np.array([2.5, 3])})
+    assert len(shaken.results(daemon, name)) == 4 and daemon.cancel(name) > 0
+    (programs.root / "file.json").write_text(json.dumps(SWEEP["scene"]))
+    daemon.submit(programs.root / "file.json", name="of a file",
+                  settings={"posts.places": [[4, 4], [8, 8]], "rods.area_fraction": 0.4})
+    assert daemon.jobs("of a file")[0]["parameters"] == {}
+    daemon.cancel("of a file")
     with pytest.raises(shaken.ShakenError, match="'nothing'|no sweep"):
         shaken.results(daemon, "nothing")
 

@@ -42,7 +42,7 @@ def parser() -> argparse.ArgumentParser:
     found.add_argument("--draw-only", action="store_true", help="draw from the archive; no daemon is asked")
     found.add_argument("--collect", action="store_true", help="first archive all runs of the daemon that are done")
     found.add_argument("--format", default="png", help="png, pdf or svg")
-    found.add_argument("--width", default="183mm", help="89mm, 120mm or 183mm")
+    found.add_argument("--width", default="183mm", help="89mm, 120mm, 183mm or another from 40mm to 500mm")
     found.add_argument("--cores", type=int, default=os.cpu_count() or 1, help="cores that a plan is made for")
     found.add_argument("--plan", type=Path, help="file of a plan for a computing centre; nothing is started")
     found.add_argument("--executor", help="local or slurm: where the runs run")
@@ -75,7 +75,10 @@ def sent(sweep: dict[str, Any], options: argparse.Namespace) -> dict[str, Any]:
 def configs_folder(given: Path | None) -> Path:
     """The folder of the desk's sweeps: as given, that of the sources, or that of an installation."""
     if given:
-        return given if not (given / "figures" / "desk").is_dir() else given / "figures" / "desk"
+        folder = given / "figures" / "desk" if (given / "figures" / "desk").is_dir() else given
+        if not any(folder.glob("*.json")):
+            raise ShakenError(f"{given} has no sweeps of the figures: give the folder that has configs/figures/desk")
+        return folder
     places = [Path(__file__).resolve().parents[3] / "configs", Path("/usr/share/shaken/configs"),
               Path("/usr/local/share/shaken/configs")]
     if os.environ.get("SHAKEN_CONFIGS"):
@@ -94,8 +97,8 @@ def problems_of(options: argparse.Namespace) -> list[str]:
     if options.format not in ("png", "pdf", "svg"):
         found.append(f"--format takes png, pdf or svg, not '{options.format}'")
     try:
-        if not 0 < 25.4 * inches(options.width) <= 500:
-            found.append(f"--width takes 89mm, 120mm, 183mm or another up to 500mm, not '{options.width}'")
+        if not 40 <= 25.4 * inches(options.width) <= 500:
+            found.append(f"--width takes 89mm, 120mm, 183mm or another from 40mm to 500mm, not '{options.width}'")
     except ValueError:
         found.append(f"--width takes 89mm, 120mm, 183mm or another, not '{options.width}'")
     if options.draw_only and options.dry_run:
@@ -121,6 +124,13 @@ def problems_of(options: argparse.Namespace) -> list[str]:
         chosen(options.figures)
     except ShakenError as error:
         found.append(str(error))
+    if not (options.draw_only or options.list):
+        try:
+            configs_folder(options.configs)
+        except ShakenError as error:
+            found.append(str(error))
+    if options.archive and (options.archive.exists() or options.draw_only) and not options.archive.is_dir():
+        found.append(f"--archive takes the folder of an archive, and {options.archive} is none")
     found += [f"{report}: there is no such file, whose marked sections could be written anew"
               for report in options.report if not report.is_file()]
     return found
@@ -138,6 +148,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return code
     except BrokenPipeError:  # whoever read has gone, as `head` does
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return FAILED
+    except OSError as error:  # a full disk, or one that cannot be written to
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        print(f"shaken: {error}", file=sys.stderr)
         return FAILED
     except ShakenError as error:
         print(f"shaken: {error}", file=sys.stderr)
@@ -171,7 +185,6 @@ def _run(options: argparse.Namespace) -> int:
         if options.dry_run:
             print(json.dumps(_plan_json(plan), indent=2) if options.json else plan.table())
             return OK
-        out.mkdir(parents=True, exist_ok=True)
         if plan.missing:
             if not _agreed(plan, options):
                 print("nothing was started", file=sys.stderr)
@@ -181,6 +194,8 @@ def _run(options: argparse.Namespace) -> int:
                       if any(name.endswith("-" + options.scale) for name in run.sweeps))
     if not evidence.sets:
         raise ShakenError(f"{archive} has no runs of scale {options.scale}: there is nothing to draw")
+    if not any(evidence[name] for figure in figures for name in figure.sets):
+        raise ShakenError(f"{archive} has no runs of these figures: there is nothing to draw")
     _draw(options, figures, evidence, out)
     return FAILED if failed else OK
 
@@ -202,6 +217,7 @@ def _run_plan(plan: running.Plan, program: str, out: Path, options: argparse.Nam
 
 
 def _draw(options: argparse.Namespace, figures: list[Figure], evidence: Evidence, out: Path) -> None:
+    out.mkdir(parents=True, exist_ok=True)
     made = draw(figures, evidence, out, width=25.4 * inches(options.width), form=options.format,
                 origin={"Software": "shaken figures"})
     found = judged(evidence, of_figures({figure.id for figure in figures} if options.figures else ()))

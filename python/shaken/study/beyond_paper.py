@@ -12,9 +12,10 @@ from ..run import Run
 from . import late_lags
 from .evidence import (BEADS, END, FREQUENCY, GAMMA, LENGTH, PACKING, SIDE, Evidence, Runs, box_of, box_text,
                        by, is_from_a_fluid, key_of, number_of)
+from .late_lags import long_time_diffusion
 from .layer_checks import layered, theta_m
 from .layer_wavelength import mean_wavelength
-from .motion_checks import late_velocity_correlation, long_time_diffusion, papers_diffusion, speed_between
+from .motion_checks import late_velocity_correlation, papers_diffusion, speed_between
 from .order_checks import power_of_size
 from .rules import text
 from .structure_checks import mean_waves, ordered_in_large_boxes
@@ -135,8 +136,9 @@ def shaking(evidence: Evidence) -> str:
     """Order and motion at area fraction 0.75 against the strength of shaking."""
     shaken = Runs(run for run in evidence["shaking"] if key_of(run, GAMMA) > 0)
     return table(by(shaken, LENGTH, GAMMA), [
-        LONG, key("Γ", GAMMA), BOX, SEEDS, number("S", "S"), number("D (mm²/s)", "diffusion_mm2_s"),
-        number("exponent, long lags", "alpha_long"),
+        LONG, key("Γ", GAMMA), BOX, SEEDS, number("S", "S"), longest_lag("total"),
+        ("D (mm²/s)", lambda here: text(long_time_diffusion(here))),
+        number("exponent there", late_lags.exponent("/msd/total_mm2")),
         number("D_r (rad²/s)", "rotational_diffusion_rad2_s")])
 
 

@@ -13,9 +13,10 @@ from ..plots.sheet import Sheet
 from ..run import Run
 from .beyond_paper import swimming_defects
 from .evidence import FREQUENCY, LENGTH, PACKING, SIDE, Runs, key_of, number_of, points_of
+from .late_lags import long_time_diffusion
 from .material import Material, angle_bar, draw_curves, draw_points, draw_rods, first_snapshot, packing_scale
 from .motion_checks import (FREE_OF_THE_WINDOW, VELOCITY_WINDOW, late_c2, late_velocity_correlation, long_rods,
-                            long_time_diffusion, papers_diffusion, short_rods, speed_between)
+                            papers_diffusion, short_rods, speed_between)
 
 
 def tilt(material: Material) -> Sheet:

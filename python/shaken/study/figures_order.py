@@ -7,7 +7,8 @@ import numpy as np
 from ..plots import names
 from ..plots.sheet import Sheet
 from .layer_checks import two_peaks
-from .evidence import LENGTH, PACKING, SIDE, Runs, key_of
+from .evidence import GAMMA, LENGTH, PACKING, SIDE, Runs, key_of, points_of
+from .late_lags import long_time_diffusion
 from .material import (Material, angle_bar, draw_curves, draw_points, draw_rods, first_snapshot, packing_scale)
 from .order_checks import ORDERED, phase_diagram, pooled_density, transition
 from .structure_checks import far_g2
@@ -50,7 +51,8 @@ def order(material: Material) -> Sheet:
     lengths, packings = runs.values(LENGTH), runs.values(PACKING)
     grid = np.array([[runs.at(length, packing).number("S").value if runs.at(length, packing) else np.nan
                       for packing in packings] for length in lengths])
-    panel.map(packings, lengths, grid, names.axis_title("S"), limits=(0, 1), square=False)
+    if runs:
+        panel.map(packings, lengths, grid, names.axis_title("S"), limits=(0, 1), square=False)
     passed = [(transition(runs.at(length)), length) for length in lengths]
     passed = [(phi, length) for phi, length in passed if phi.is_known]
     if passed:
@@ -129,12 +131,15 @@ def steady(material: Material) -> Sheet:
 
 def shaking(material: Material) -> Sheet:
     """Order and motion against the strength of shaking."""
-    runs = Runs(run for run in material.evidence["shaking"] if key_of(run, "plates.gamma") > 0)
+    runs = Runs(run for run in material.evidence["shaking"] if key_of(run, GAMMA) > 0)
     sheet = material.sheet(3)
     for panel, name in zip(sheet, ("S", "diffusion_mm2_s", "rotational_diffusion_rad2_s")):
-        panel.titles(names.axis_title("plates.gamma"), names.axis_title(name))
+        panel.titles(names.axis_title(GAMMA), names.axis_title(name))
         for k, length in enumerate(runs.values(LENGTH)):
-            draw_points(panel, runs.at(length).points("plates.gamma", name), names.value_label(LENGTH, length), k)
+            here = runs.at(length)
+            late = name == "diffusion_mm2_s"
+            points = points_of(here, GAMMA, long_time_diffusion) if late else here.points(GAMMA, name)
+            draw_points(panel, points, names.value_label(LENGTH, length), k)
         panel.range(y=(0, 1 if name == "S" else None))
         panel.reference(x=7, label="the paper's")
     material.stamp(sheet[1], "activity")

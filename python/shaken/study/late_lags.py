@@ -58,7 +58,7 @@ def octave(run: Run, name: str, end: float) -> Octave | None:
         return None
     curve = run[name]
     lags, values = np.asarray(curve.axis), np.asarray(curve)
-    if end > lags[-1] * 1.01:
+    if not len(lags) or end > lags[-1] * 1.01:
         return None
     first, last = int(np.argmin(abs(lags - end / 2))), int(np.argmin(abs(lags - end)))
     chosen = slice(first, last + 1)
@@ -124,3 +124,9 @@ def best(runs: Runs, late: Reading, own: str) -> Estimate:
     the runs give at shorter lags."""
     found = runs.of(late)
     return found if math.isfinite(found.error) else runs.number(own)
+
+
+def long_time_diffusion(runs: Runs, direction: str = "total") -> Estimate:
+    """D [mm2/s] over the longest lags of these runs, in the plane or in one direction."""
+    own = "diffusion_mm2_s" if direction == "total" else f"diffusion_{direction}_mm2_s"
+    return best(runs, diffusion_at(direction), own)

@@ -10,6 +10,7 @@ from ..estimate import Estimate
 from ..run import Run
 from . import late_lags
 from .evidence import PACKING, SIDE, Evidence, Runs, key_of, mean_of_places, number_of, points_of
+from .late_lags import long_time_diffusion
 from .rules import (Answer, Finding, above, below, close_to, conclude, doubt, larger, listed, no, text, trend, unknown,
                     yes)
 
@@ -28,12 +29,6 @@ def short_rods(evidence: Evidence) -> Runs:
     """Rods of 2.5 mm at each packing, in the largest box of the sets that follow them for long."""
     runs = evidence.joined("diffusion", "short-rods", "mechanism").at(length=2.5)
     return Runs(run for packing in runs.values(PACKING) for run in runs.at(packing=packing).largest(SIDE))
-
-
-def long_time_diffusion(runs: Runs, direction: str = "total") -> Estimate:
-    """D [mm2/s] over the longest lags of these runs, in the plane or in one direction."""
-    own = "diffusion_mm2_s" if direction == "total" else f"diffusion_{direction}_mm2_s"
-    return late_lags.best(runs, late_lags.diffusion_at(direction), own)
 
 
 def long_rods(evidence: Evidence) -> Runs:

@@ -3,27 +3,30 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 
 import numpy as np
 
 from ..estimate import NAN, Estimate, derived
 from ..run import Run
-from .evidence import GAMMA, LENGTH, PACKING, PAPERS_BOX, SIDE, SMALL_DRIFT, Evidence, Runs, crossing, key_of
+from .evidence import (GAMMA, LENGTH, PACKING, PAPERS_BOX, SIDE, SMALL_DRIFT, Evidence, Runs, crossing, key_of,
+                       points_of)
+from .late_lags import long_time_diffusion
 from .rules import (NOT_RUN, Answer, Finding, above, below, close_to, conclude, doubt, larger, listed, no, refutable,
                     text, trend, unknown, yes)
 from .structure_checks import far_g2
 
 #: <S> above which a state counts as ordered, as the paper draws the line.
 ORDERED = 0.5
-#: The box of the phase diagram [mm].
-DIAGRAMS_BOX = 33.492
 #: Packings from which on the end of a rise is judged.
 DENSE = 0.8
 
 
 def phase_diagram(evidence: Evidence) -> Runs:
-    """The runs of the phase diagram: all lengths and packings in its box."""
-    return evidence.joined("long-rods", "short-rods", "crossings", "phases").at(side=DIAGRAMS_BOX)
+    """The runs of the phase diagram: all lengths and packings, in the box that most of these runs have."""
+    runs = evidence.joined("long-rods", "short-rods", "crossings", "phases")
+    sides = Counter(key_of(run, SIDE) for run in runs)
+    return runs.at(side=sides.most_common(1)[0][0]) if sides else runs
 
 
 def transition(runs: Runs) -> Estimate:
@@ -281,7 +284,7 @@ def activity(evidence: Evidence) -> Finding:
     runs = evidence["shaking"].at(length=2.5)
     moving = Runs(run for run in runs if key_of(run, GAMMA) > 0)
     still = runs.where(GAMMA, 0.0)
-    d = moving.points(GAMMA, "diffusion_mm2_s")
+    d = points_of(moving, GAMMA, long_time_diffusion)
     if len(d) < 2:
         return Finding()
     answers: list[Answer] = [trend(d, rising=True).placed("D grows with Γ")]
