@@ -40,6 +40,8 @@ std::string progress_text(double fraction, const std::string& count, double eta)
 std::string csv_field(std::string_view text);
 /// Bytes in base64 (RFC 4648).
 std::string base64(std::string_view bytes);
+/// A word of a command line as a shell takes it: in quotes where it needs them.
+std::string shell_word(std::string_view text);
 /// What lies between separators, without what is empty: "/v1//jobs/" by '/' is "v1" and "jobs".
 std::vector<std::string> split(std::string_view text, char separator);
 

@@ -9,6 +9,7 @@
 #include "base/failure.h"
 #include "base/plots_by_python.h"
 #include "base/process.h"
+#include "base/text.h"
 #include "client/live/api_client.h"
 #include "client/live/target.h"
 #include "proto/bus.h"
@@ -57,7 +58,7 @@ CheckResult check_daemon(const fs::path& root) {
     return {Level::kOk, "daemon", message, ""};
   } catch (const Failure& failure) {
     // `shaken run` works without one.
-    return {Level::kWarn, "daemon", failure.what(), fmt::format("shakend --root {} &", root.string())};
+    return {Level::kWarn, "daemon", failure.what(), fmt::format("shakend --root {} &", shell_word(root.string()))};
   } catch (const Json::exception& error) {
     return {Level::kFail, "daemon", error.what(), "restart the daemon"};
   }

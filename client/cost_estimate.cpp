@@ -46,12 +46,12 @@ double work_of(const scene::RunPlan& plan) {
   constexpr double kDensest = 0.95;
   const System& system = plan.system;
   const double area_fraction = std::min(kDensest, scene::total_area_fraction_of(system));
-  return system.n_all_rods() * plan.total_time() * scene::relative_cost(system.dt, system.impacts) /
+  return system.n_all_rods() * plan.longest_time() * scene::relative_cost(system.dt, system.impacts) /
          (1 - area_fraction);
 }
 
 /// What is measured, recorded and drawn goes with this.
-double rod_seconds(const scene::RunPlan& plan) { return plan.system.n_all_rods() * plan.total_time(); }
+double rod_seconds(const scene::RunPlan& plan) { return plan.system.n_all_rods() * plan.longest_time(); }
 
 /// The costs of all points by that of one. Frames become more with the time of a run; checkpoints and observables, kept
 /// at its end, hardly do.

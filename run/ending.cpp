@@ -77,9 +77,10 @@ std::string describe_ending(const Json& summary, const std::filesystem::path& di
   list(files.observables(), curves_of(files.observables()).c_str());
   list(files.recorded(), "every rod, frame by frame");
   list(files.movie(), "the film");
-  text += fmt::format("next: shaken plot {}", directory.string());
+  const std::string where = shell_word(directory.string());
+  text += fmt::format("next: shaken plot {}", where);
   if (std::filesystem::exists(files.recorded())) {
-    text += fmt::format(";  shaken movie {} --frame last", directory.string());
+    text += fmt::format(";  shaken movie {} --frame last", where);
   }
   return text + "\n";
 }

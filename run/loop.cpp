@@ -151,7 +151,7 @@ class Loop {
 
   void aim_at(Tick end) {
     end_ = end;
-    progress_.sim_time_total = static_cast<double>(end) * plan_.system.dt;
+    progress_.sim_time_total = static_cast<double>(std::max(end, scene::most_ticks(plan_))) * plan_.system.dt;
   }
 
   /// To end_. What came of the run if it does not get there.
@@ -305,7 +305,8 @@ class Loop {
     std::filesystem::remove(directory_.movie(), ignored);  // of the run when it was shorter
     if (auto done = write_results("done", "", {}); !done) return finish_without_disk(done.error());
     std::filesystem::remove(directory_.frames(), ignored);
-    report("running");  // all of it; what is left is to draw it
+    progress_.sim_time_total = run_.simulation.time();  // with `until`, it may have been more
+    report("running");                                  // all of it; what is left is to draw it
     return {RunState::kDone, ""};
   }
 
@@ -330,7 +331,9 @@ class Loop {
   }
 
   RunOutcome finish_without_disk(const Error& error) {
-    const std::string message = error.message + "; the run goes on from its last checkpoint when started again";
+    const std::string message =
+        error.message + (checkpoint_tick_ > 0 ? "; the run goes on from its last checkpoint when started again"
+                                              : "; there is no checkpoint yet: the run begins anew when started again");
     report("failed", message);
     return failure(message);
   }

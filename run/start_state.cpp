@@ -58,8 +58,14 @@ std::vector<RunDirectory> find_run(const std::vector<path>& folders, const std::
 /// Folders of runs in which one may be found that `directory` starts from.
 std::vector<path> folders_near(const path& directory) {
   std::vector<path> folders;
-  if (!directory.empty()) folders.push_back(std::filesystem::absolute(directory / "..").lexically_normal());
-  if (const auto root = data_root()) folders.push_back(*root / "runs");
+  if (!directory.empty()) {
+    const path beside = std::filesystem::absolute(directory / "..").lexically_normal();
+    folders.push_back(beside.has_filename() ? beside : beside.parent_path());  // without a slash at its end
+  }
+  if (const auto root = data_root()) {
+    const path runs = std::filesystem::absolute(*root / "runs").lexically_normal();
+    if (folders.empty() || folders.front() != runs) folders.push_back(runs);
+  }
   return folders;
 }
 

@@ -12,11 +12,11 @@ constexpr double kGrowth = 1.25;  // from one end to the next
 
 Tick ticks_of(const RunPlan& plan, double time) { return std::llround(time / plan.system.dt); }
 
-Tick most_ticks(const RunPlan& plan) { return ticks_of(plan, plan.longest_time()); }
-
 }  // namespace
 
 Tick total_ticks(const RunPlan& plan) { return ticks_of(plan, plan.total_time()); }
+
+Tick most_ticks(const RunPlan& plan) { return ticks_of(plan, plan.longest_time()); }
 
 Tick next_end(const RunPlan& plan, Tick from) {
   if (!plan.until) return std::max(total_ticks(plan), from);

@@ -11,6 +11,8 @@ namespace shaken::scene {
 
 /// Ticks from start to end of the plan; with `until`, at least.
 Tick total_ticks(const RunPlan& plan);
+/// Ticks from start to end of the plan; with `until`, at most.
+Tick most_ticks(const RunPlan& plan);
 
 /// The first tick >= `from` at which the run may end. With `until` these are `time.measure`, and each time a quarter
 /// more, up to `until.at_most`: they follow from the plan alone, so that a run that was stopped ends where it would

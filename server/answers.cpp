@@ -113,7 +113,20 @@ Json job_report(const Job& job, const std::filesystem::path& runs) {
           {"progress", has_progress ? progress_of(job, directory) : Json(nullptr)}};
 }
 
-Json sweep_report(const Sweep& sweep, std::span<const Job> begun, const SweepWork& work, int slots,
+Line line_of(std::map<std::int64_t, double> ahead, std::span<const Job> active, const std::filesystem::path& runs) {
+  Line line{.ahead = std::move(ahead)};
+  for (const Job& job : active) {
+    if (job.state == JobState::kStopping) continue;
+    const run::RunDirectory directory{runs / job.id};
+    const auto progress = run::read_progress(directory.progress());
+    if (!progress || !is_progress_of(job, progress->state, directory) || progress->eta < 0) continue;
+    line.running_s += progress->eta;
+    ++line.n_running;
+  }
+  return line;
+}
+
+Json sweep_report(const Sweep& sweep, std::span<const Job> begun, const SweepWork& work, const Line& line, int slots,
                   const std::filesystem::path& runs) {
   double finished = work.done;
   double longest = 0;  // wall seconds to the end of the last active job that reports one, and of the longest chain
@@ -128,7 +141,7 @@ Json sweep_report(const Sweep& sweep, std::span<const Job> begun, const SweepWor
     const double done = reports ? job.work * std::clamp(progress->fraction(), 0.0, 1.0) : 0;
     finished += done;
     if (job.state == JobState::kQueued) waiting -= done;
-    if (!is_active(job)) continue;
+    if (!is_active(job) || job.state == JobState::kStopping) continue;
     if (reports && progress->eta >= 0) {
       ++n_reporting;
       longest = std::max(longest, progress->eta);
@@ -141,10 +154,16 @@ Json sweep_report(const Sweep& sweep, std::span<const Job> begun, const SweepWor
   }
   const bool only_held = !any_waits && n_reporting == 0 && sweep.counts[JobState::kHeld] > 0;
   const bool known = !only_held && (!any_waits || (work.seconds_per_work && (n_reporting > 0 || !any_handed_over)));
-  // where some wait that have been handed over, as many are at work as can be
-  const int at_once = any_handed_over ? n_reporting : std::max(n_reporting, slots);
   const double per_work = work.seconds_per_work.value_or(0);
-  const double all = sum + std::max(waiting, 0.0) * per_work;
+  double all = sum + std::max(waiting, 0.0) * per_work;
+  // where some wait that have been handed over, as many are at work as can be, and others have the places of their own
+  int at_once = n_reporting;
+  if (!any_handed_over) {
+    at_once = std::max({line.n_running, n_reporting, slots});
+    if (const auto found = line.ahead.find(sweep.id); found != line.ahead.end() && any_waits) {
+      all += std::max(line.running_s - sum, 0.0) + found->second * per_work;
+    }
+  }
   longest = std::max(longest, work.longest_chain * per_work);
   return {{"id", sweep_word(sweep.id)},
           {"name", sweep.name},

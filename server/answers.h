@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
@@ -20,8 +22,18 @@ Json job_report(const Job& job, const std::filesystem::path& runs);
 /// the executor may hear of later.
 std::string reason_of(const Job& job, const std::filesystem::path& runs);
 
+/// What all sweeps wait for together.
+struct Line {
+  std::map<std::int64_t, double> ahead;  ///< see Queue::work_ahead
+  double running_s = 0;                  ///< wall seconds that the running jobs have left, one after the other
+  int n_running = 0;                     ///< jobs of which that is known
+};
+
+/// `active`: the running jobs of all sweeps.
+Line line_of(std::map<std::int64_t, double> ahead, std::span<const Job> active, const std::filesystem::path& runs);
+
 /// SWEEP of docs/protocol.md. `begun`: its jobs that have not ended, and were started.
-Json sweep_report(const Sweep& sweep, std::span<const Job> begun, const SweepWork& work, int slots,
+Json sweep_report(const Sweep& sweep, std::span<const Job> begun, const SweepWork& work, const Line& line, int slots,
                   const std::filesystem::path& runs);
 
 /// A row of the results table of docs/protocol.md.

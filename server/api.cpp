@@ -250,7 +250,8 @@ Api::Answer Api::submitted(const std::string& name, int priority, std::vector<Ne
 
 Api::Answer Api::list_sweeps(const Call&) const {
   Json sweeps = Json::array();
-  for (const Sweep& sweep : queue_.sweeps()) sweeps.push_back(report(sweep));
+  const Line line = this->line();
+  for (const Sweep& sweep : queue_.sweeps()) sweeps.push_back(report(sweep, line));
   return {200, {{"sweeps", sweeps}}, ""};
 }
 
@@ -433,11 +434,15 @@ std::vector<Job> Api::find_jobs(const Call& call) const {
   return queue_.jobs(sweep, state);
 }
 
-Json Api::report(const Sweep& sweep) const {
+Line Api::line() const { return line_of(queue_.work_ahead(), queue_.active(), info_.runs()); }
+
+Json Api::report(const Sweep& sweep) const { return report(sweep, line()); }
+
+Json Api::report(const Sweep& sweep, const Line& line) const {
   Sweep now = sweep;
   SweepWork work;
   const std::vector<Job> begun = queue_.begun(now, work);
-  return sweep_report(now, begun, work, info_.slots, info_.runs());
+  return sweep_report(now, begun, work, line, info_.slots, info_.runs());
 }
 
 Json Api::report(std::span<const Job> jobs) const {

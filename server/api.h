@@ -62,7 +62,9 @@ class Api {
   std::vector<Job> find_jobs(const Call& call) const;
   /// A parameter of the path that counts something; 0 if it is not there. `meaning` is for the refusal.
   static std::int64_t count_in(const Call& call, const std::string& parameter, const std::string& meaning);
+  Line line() const;
   Json report(const Sweep& sweep) const;
+  Json report(const Sweep& sweep, const Line& line) const;
   Json report(std::span<const Job> jobs) const;
 
   Queue& queue_;

@@ -122,7 +122,9 @@ std::vector<Cleaned> clean(Queue& queue, const fs::path& runs, const CleanReques
     if (!request.dry_run && (run.job || request.unknown)) {
       run.kept = remove_run(runs, id, [&]() -> std::string {
         if (run.job) return queue.clean(id, run.job->state) ? "" : "it was asked for again a moment ago";
-        return queue.job(id) ? "it was submitted a moment ago" : "";
+        if (queue.job(id)) return "it was submitted a moment ago";
+        const std::vector<std::string> next = queue.starting_from(id);
+        return next.empty() ? "" : "job " + next.front() + " is to start from it";
       });
       run.removed = run.kept.empty();
       spdlog::info("run {}: {}", id, run.removed ? "cleaned on request" : "not cleaned: " + run.kept);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "server/job_end.h"
 
+#include <spdlog/spdlog.h>
+
 #include <csignal>
 #include <cstring>
 #include <sstream>
@@ -18,6 +20,15 @@ constexpr auto kBadInputCode = static_cast<int>(ExitCode::kBadInput);
 constexpr auto kNoRoomCode = static_cast<int>(ExitCode::kNoRoom);
 constexpr auto kStoppedOnRequest = static_cast<int>(ExitCode::kStopped);
 
+/// A line of the worker's log, "2026-11-28T13:06:32.775 error no room", without its time and level.
+std::string without_time(const std::string& line) {
+  const std::size_t time = line.find(' '), level = line.find(' ', time + 1);
+  const bool has_time = time != std::string::npos && time > 10 && line[4] == '-' && line[10] == 'T';
+  if (!has_time || level == std::string::npos) return line;
+  const std::string word = line.substr(time + 1, level - time - 1);
+  return spdlog::level::from_str(word) == spdlog::level::off ? line : line.substr(level + 1);
+}
+
 /// The last line of the worker with anything on it, of the last 4 KiB; empty if the log cannot be read.
 std::string last_line(const std::filesystem::path& file) {
   constexpr int kTail = 4096;
@@ -32,7 +43,7 @@ std::string last_line(const std::filesystem::path& file) {
     else if (line.find_first_not_of(" \t\r") != std::string::npos)
       last = line;
   }
-  return last;
+  return without_time(last);
 }
 
 /// What worker `pid` said of its failure.

@@ -51,13 +51,27 @@ std::vector<Point> points_of(const std::vector<Job>& jobs) {
   return points;
 }
 
+/// When runs end from which others of the sweep start [s], by the ids of the first replicas.
+std::map<std::string, double> ends_of_stages(const Queue& queue, const std::vector<Point>& points) {
+  std::map<std::string, double> ends;
+  for (const Point& point : points) {
+    const Job& first = point.replicas.begin()->second;
+    if (first.starts_from.empty()) continue;
+    const auto plan = scene::load_scene(queue.scene(first.id), "job " + first.id);
+    if (plan && plan->start) ends.emplace(plan->start->run, plan->start->time);
+  }
+  return ends;
+}
+
 }  // namespace
 
 Result<std::vector<NewJob>> with_replicas(const Queue& queue, std::int64_t sweep, int n,
                                           const std::filesystem::path& runs) {
   std::vector<NewJob> jobs;
   std::map<std::pair<std::string, int>, std::string> ids;  // by the id of a point's first replica, and the replica
-  for (const Point& point : points_of(queue.jobs(sweep))) {
+  const std::vector<Point> points = points_of(queue.jobs(sweep));
+  const std::map<std::string, double> ends = ends_of_stages(queue, points);
+  for (const Point& point : points) {
     const auto& [first, known] = *point.replicas.begin();
     const auto parameters = nlohmann::json::parse(known.parameters, nullptr, false);
     if (parameters.is_object() && parameters.contains("time.seed")) {
@@ -71,6 +85,10 @@ Result<std::vector<NewJob>> with_replicas(const Queue& queue, std::int64_t sweep
     if (!plan) return Error{keys::to_string(plan.error())};
     const std::uint64_t seed = plan->system.seed - static_cast<std::uint64_t>(first - 1);
     const std::string start = plan->start ? plan->start->run : "";
+    // a stage that was extended since the next one started from it is not for its replicas
+    if (const auto end = ends.find(known.id); end != ends.end() && !plan->until) {
+      plan->measure_time = end->second - plan->steady.value_or(0);
+    }
     const int n_all = std::max(n, point.replicas.rbegin()->first);
     for (int replica = 1; replica <= n_all; ++replica) {
       NewJob job;
@@ -90,6 +108,9 @@ Result<std::vector<NewJob>> with_replicas(const Queue& queue, std::int64_t sweep
         job.id = scene::run_id(*plan);
         job.scene = scene::to_json(*plan).dump(2) + "\n";
         job.has_results = run::is_done(run::RunDirectory{runs / job.id}, *plan);
+        if (plan->start && queue.job(job.starts_from)) {
+          if (const std::string why = refuse_start(*plan->start, queue, runs); !why.empty()) return Error{why};
+        }
       }
       ids[{known.id, replica}] = job.id;
       jobs.push_back(std::move(job));

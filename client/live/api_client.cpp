@@ -94,8 +94,8 @@ httplib::Result ApiClient::Connection::asked(const std::function<httplib::Result
 
 void ApiClient::Connection::fail_without_answer(httplib::Error error) const {
   if (error == httplib::Error::Connection) {
-    throw Failure(ExitCode::kNoDaemon,
-                  fmt::format("no daemon at {}: start one with `shakend --root {} &`", socket.string(), root.string()));
+    throw Failure(ExitCode::kNoDaemon, fmt::format("no daemon at {}: start one with `shakend --root {} &`",
+                                                   socket.string(), shell_word(root.string())));
   }
   throw Failure(ExitCode::kNoDaemon, fmt::format("the daemon at {} gave no answer ({}): see {}", socket.string(),
                                                  httplib::to_string(error), (root / "shakend.log").string()));

@@ -44,8 +44,16 @@ Target find_target(ApiClient& session, const std::string& id) {
 
 std::vector<Target> find_targets(ApiClient& session, const std::vector<std::string>& ids) {
   std::vector<Target> targets;
-  targets.reserve(ids.size());
-  for (const std::string& id : ids) targets.push_back(find_target(session, id));
+  std::string problems;
+  for (const std::string& id : ids) {
+    try {
+      targets.push_back(find_target(session, id));
+    } catch (const Failure& failure) {
+      if (failure.code != ExitCode::kBadInput) throw;
+      problems += (problems.empty() ? "" : "\n") + std::string(failure.what());
+    }
+  }
+  if (!problems.empty()) throw Failure(ExitCode::kBadInput, problems);
   return targets;
 }
 

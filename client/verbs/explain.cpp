@@ -121,7 +121,7 @@ class Explain : public Verb {
       text += fmt::format(": {} runs; shown is {}", sweep.points.size(), point.label);
     }
     const auto gamma = scene::gamma_of(s);
-    const double total = point.plan.total_time();
+    const double total = point.plan.longest_time();
     const auto differ = [](double spread) {
       return spread > 0 ? fmt::format(" (+- {:.4g} %)", 100 * spread) : std::string();
     };
@@ -178,9 +178,9 @@ class Explain : public Verb {
     if (s.has_inclination()) text += fmt::format("          inclined by {} degrees\n", number_text(s.inclination));
     const scene::AccuracyLevel* known = scene::accuracy_level(s);
     const std::string level = known ? fmt::format(" (\"{}\")", known->name) : "";
-    text += fmt::format("  time    {} in {} steps of {}{}; steady state {}\n",
-                        keys::format_quantity(total, Dimension::kTime), number_text(std::round(total / s.dt)),
-                        keys::format_quantity(s.dt, Dimension::kTime), level,
+    text += fmt::format("  time    {}{} in {} steps of {}{}; steady state {}\n",
+                        keys::format_quantity(total, Dimension::kTime), point.plan.until ? " at most" : "",
+                        number_text(std::round(total / s.dt)), keys::format_quantity(s.dt, Dimension::kTime), level,
                         point.plan.steady ? "from " + keys::format_quantity(*point.plan.steady, Dimension::kTime)
                                           : std::string("found from S(t)"));
     console.out << text << "\n";

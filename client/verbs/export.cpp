@@ -105,8 +105,8 @@ class Export : public Verb {
       if (format_ == "gsd" && to_stdout()) add_problem("gsd is no text: --out takes a file for it");
       if (format_ == "csv" && chooses_frames()) add_problem("--from, --to, --every and --last choose frames, not csv");
       if (format_ == "csv" && observables_.empty()) {
-        add_problem(
-            fmt::format("csv takes --observable NAME; `shaken export {} --list` lists the names", printable(id_)));
+        add_problem(fmt::format("csv takes --observable NAME; `shaken export {} --list` lists the names",
+                                shell_word(printable(id_))));
       }
       if (format_ != "csv" && !observables_.empty()) add_problem("--observable goes with --format csv");
       if (wants_summary() && observables_.size() > 1) add_problem("--observable summary stands by itself");

@@ -40,7 +40,7 @@ class Prober {
       : plan_(plan), simulation_(std::move(simulation)), cpu_(cpu), dt_(plan.system.dt) {}
 
   Result<RunCost> run() {
-    cost_.run_ticks = static_cast<double>(scene::total_ticks(plan_));
+    cost_.run_ticks = static_cast<double>(scene::most_ticks(plan_));
     if (auto done = time_ticks(); !done) return done.error();
     // what is sampled or recorded is read first, all rods of it
     snapshot_cpu_ = time_of([&] { snapshot_ = simulation_.snapshot(); }, each_, 2);
@@ -118,7 +118,7 @@ class Prober {
       sample();
       sample();
       arrays.merge(measurements.reduce(due.time).arrays);
-      cost_.parts["measure_" + std::string(kind.name)] = {cadence->count(scene::total_ticks(plan_)),
+      cost_.parts["measure_" + std::string(kind.name)] = {cadence->count(scene::most_ticks(plan_)),
                                                           time_of(sample, each_, 2) + snapshot_cpu_, 0};
     }
     // the file of the first samples, and what grows with their number
@@ -154,7 +154,7 @@ class Prober {
     const std::optional<Cadence> recording = recording_of(plan_);
     if (!recording) return {};
     Cost& frames = cost_.parts["trajectory"];
-    frames.count = scene::total_ticks(plan_) / recording->period() + 1;
+    frames.count = scene::most_ticks(plan_) / recording->period() + 1;
     double bytes[2] = {0, 0};
     for (const int n : {1, 1 + kFrames}) {
       const ScratchFolder folder;
@@ -186,7 +186,7 @@ class Prober {
       cpu[n > 1] = children_cpu_seconds() - before;
     }
     const double each = std::max(0.0, (cpu[1] - cpu[0]) / 2);
-    cost_.parts["movie"] = {scene::total_ticks(plan_) / cadence.period() + 1, each, std::max(0.0, cpu[0] - each)};
+    cost_.parts["movie"] = {scene::most_ticks(plan_) / cadence.period() + 1, each, std::max(0.0, cpu[0] - each)};
   }
 
   Result<void> time_checkpoints() {

@@ -225,8 +225,8 @@ void Queue::update_waiting(std::int64_t sweep) {
   if (all_done) store_.end_waiting(sweep);
 }
 
-/// Jobs that start from run `id` wait until it is done, and are held where nothing will come of it. One that is not in
-/// the queue keeps nobody waiting: its results may be on the disk.
+/// Jobs that are to start from run `id` wait until it is done, and are held where nothing will come of it. One that is
+/// not in the queue keeps nobody waiting: its results may be on the disk.
 void Queue::update_starts_from(const std::string& id) {
   const auto run = store_.job(id);
   if (!run) return;
@@ -234,9 +234,11 @@ void Queue::update_starts_from(const std::string& id) {
                            run->phase == JobPhase::kHeldForOthers;
   const std::string reason = fmt::format("it is to start from run {}: {}", id, to_word(run->state));
   for (const std::string& next : store_.ids_starting_from(id)) {
-    store_.set_waiting_for_start(next, run->state != JobState::kDone);
-    apply(next, is_hopeless ? kPrerequisiteFailed : kPrerequisiteRetried,
-          is_hopeless ? reason : "run " + id + " goes on", is_hopeless ? reason : "");
+    const bool is_needed = store_.job(next)->attempt == 0;  // afterwards it goes on from its own state
+    store_.set_waiting_for_start(next, is_needed && run->state != JobState::kDone);
+    const bool never_starts = is_needed && is_hopeless;
+    apply(next, never_starts ? kPrerequisiteFailed : kPrerequisiteRetried,
+          never_starts ? reason : "run " + id + " goes on", never_starts ? reason : "");
   }
 }
 

@@ -79,6 +79,9 @@ class Queue {
   std::vector<Job> jobs(std::optional<std::int64_t> sweep, std::optional<JobState> state = std::nullopt) const;
   /// Jobs of a sweep that have not ended, and were started; brings its counts, and `work`, to the same moment.
   std::vector<Job> begun(Sweep& sweep, SweepWork& work) const;
+  /// Of each sweep with queued jobs: the work of the queued jobs of others whose turn is before that of its last one.
+  std::map<std::int64_t, double> work_ahead() const { return read(&QueueStore::work_ahead); }
+  std::vector<Job> active() const { return read(&QueueStore::active); }  ///< running and stopping ones, of all sweeps
   std::optional<Job> job(const std::string& id) const;
   /// Ids that begin with `prefix`, in alphabetical order, at most `limit`.
   std::vector<std::string> ids_beginning_with(const std::string& prefix, int limit) const {

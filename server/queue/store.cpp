@@ -266,6 +266,17 @@ SweepWork QueueStore::work_of(std::int64_t sweep) const {
   return work;
 }
 
+std::map<std::int64_t, double> QueueStore::work_ahead() const {
+  Query query = database_.query(
+      "WITH line AS (SELECT j.number, j.work, SUM(j.work) OVER (PARTITION BY s.executor ORDER BY j.priority DESC, "
+      "j.turn, j.number) AS total FROM jobs j JOIN sweeps s ON s.id = j.sweep WHERE j.state = 'queued') "
+      "SELECT m.sweep, MAX(line.total) - TOTAL(line.work) FROM line JOIN members m ON m.job = line.number "
+      "GROUP BY m.sweep");
+  std::map<std::int64_t, double> ahead;
+  while (query.next()) ahead.emplace(query.integer(0), query.real(1));
+  return ahead;
+}
+
 std::vector<Change> QueueStore::history(const std::string& id) const {
   return read_changes(database_.query(kSelectJournal + "WHERE job = ?1 ORDER BY sequence", id));
 }

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -86,6 +87,8 @@ class QueueStore {
   JobCounts counts() const;
   JobCounts counts_of(const Target& target) const;
   SweepWork work_of(std::int64_t sweep) const;
+  /// Of each sweep with queued jobs: the work of the queued jobs of others whose turn is before that of its last one.
+  std::map<std::int64_t, double> work_ahead() const;
   std::vector<Change> history(const std::string& id) const;
   std::vector<Change> changes_since(std::int64_t sequence, int limit) const;
   std::int64_t last_change() const;

@@ -104,6 +104,13 @@ TEST(Split, LeavesOutWhatIsEmpty) {
   EXPECT_EQ(split("", '/'), Parts{});
 }
 
+TEST(ShellWord, IsQuotedWhereTheShellWouldNotLeaveItAlone) {
+  EXPECT_EQ(shell_word("runs/a-1.b"), "runs/a-1.b");
+  EXPECT_EQ(shell_word(""), "''");
+  EXPECT_EQ(shell_word("my runs/ü"), "'my runs/ü'");
+  EXPECT_EQ(shell_word("it's $HOME"), R"('it'\''s $HOME')");
+}
+
 TEST(CsvField, QuotesOnlyWhereNeeded) {
   EXPECT_EQ(csv_field("plain text"), "plain text");
   EXPECT_EQ(csv_field("a,b"), "\"a,b\"");

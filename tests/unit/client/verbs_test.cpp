@@ -387,6 +387,9 @@ TEST_F(Verbs, JobsAreHeldAndPutFirst) {
   daemon_.on("POST /v1/sweeps/s1/hold", R"({"held": 1})");
   daemon_.on("POST /v1/sweeps/s1/priority", R"({"changed": 2})");
   EXPECT_THAT(run({"hold", "s1"}).out, HasSubstr("1 job held"));
+  const Outcome unknown = run({"hold", "n1", "s1", "n2"});
+  EXPECT_EQ(unknown.code, ExitCode::kBadInput);
+  EXPECT_THAT(unknown.err, AllOf(HasSubstr("is called 'n1'"), HasSubstr("is called 'n2'"), Not(HasSubstr("'s1'"))));
   EXPECT_THAT(run({"priority", "7", "s1"}).out, HasSubstr("2 jobs changed"));
   EXPECT_EQ(daemon_.requests().back().body, R"({"priority":7})");
   EXPECT_EQ(run({"priority", "much", "s1"}).code, ExitCode::kBadInput);

@@ -413,13 +413,23 @@ TEST(Run, ThatIsStoppedOnItsWayToALaterEndKnowsTheFormerOne) {
 
 TEST(Run, GoesOnUntilTheErrorIsSmallEnough) {
   const ScratchFolder folder;
-  ASSERT_EQ(run_in(folder.path(), plan_until(0.05, 20)).state, RunState::kDone);
+  std::vector<double> fractions;
+  RunCallbacks callbacks;
+  callbacks.on_progress = [&](const Progress& progress) { fractions.push_back(progress.fraction()); };
+  ASSERT_EQ(run_in(folder.path(), plan_until(0.05, 20), callbacks).state, RunState::kDone);
   const auto summary = summary_in(folder.path());
   EXPECT_LE(summary["order"]["sem"].get<double>(), 0.05);
   EXPECT_NE(summary["order"]["steady"], false);
   const auto tick = summary["exit"]["tick"].get<Tick>();
   EXPECT_GT(tick, scene::total_ticks(with_length(0.05))) << "else nothing was tested";
   EXPECT_LT(tick, scene::total_ticks(with_length(20)));
+
+  // progress is that to the latest end
+  EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+  EXPECT_EQ(fractions.back(), 1);
+  std::erase(fractions, 1.0);
+  ASSERT_FALSE(fractions.empty());
+  EXPECT_LE(fractions.back(), summary["sim_seconds"].get<double>() / 20);
 
   // one that stops on the way ends where this one did, for the possible ends follow from the plan
   const ScratchFolder stopped;
@@ -436,6 +446,16 @@ TEST(Run, GoesOnUntilTheErrorIsSmallEnough) {
               RunState::kDone);
     EXPECT_FALSE(is_done(RunDirectory{shorter.path()}, plan_until(0.05, 20))) << at;
   }
+}
+
+TEST(Run, WithoutACheckpointOnAFullDiskBeginsAnewAndSaysSo) {
+  const ScratchFolder folder;
+  for (const char* name : {"checkpoint.bin", "checkpoint.prev.bin"}) {
+    std::filesystem::create_directories(folder.path() / name / "in the way");
+  }
+  const RunOutcome outcome = run_in(folder.path(), with_length(0.05));
+  EXPECT_NE(outcome.state, RunState::kDone);
+  EXPECT_THAT(outcome.message, HasSubstr("there is no checkpoint yet: the run begins anew when started again"));
 }
 
 TEST(Run, EndsAtTheLatestWhereUntilSays) {

@@ -671,6 +671,38 @@ TEST_F(ApiTest, ProgressAndEtaOfASweepCountItsWorkAndNotItsJobs) {
   EXPECT_DOUBLE_EQ(sweep()["progress"].get<double>(), 2800.0 / 12800.0);
 }
 
+TEST_F(ApiTest, EtaCountsWhatOtherSweepsHaveBeforeIt) {
+  const auto submit = [&](const std::string& name, int priority, const std::string& digits) {
+    std::vector<NewJob> jobs;
+    for (const char digit : digits) {
+      jobs.push_back(new_job(digit));
+      jobs.back().scene = R"({"rods": {"count": 10}, "time": {"measure": 10}})";
+    }
+    queue_.submit(name, priority, jobs);
+    return jobs;
+  };
+  const auto ours = submit("ours", 0, "1234");
+  begin(queue_, ours[0].id);
+  queue_.add_wall(std::vector{std::pair{ours[0].id, std::chrono::milliseconds(30'000)}});
+  queue_.ended(ours[0].id, JobEvent::kWorkerDone);
+  const auto eta = [&] { return get("/v1/sweeps/ours").json["sweep"]["eta_s"].get<double>(); };
+  const auto eta_in_the_list = [&] { return get("/v1/sweeps").json["sweeps"][0]["eta_s"].get<double>(); };
+  EXPECT_DOUBLE_EQ(eta(), 3 * 30.0 / 3);
+  submit("later", 0, "56");
+  EXPECT_DOUBLE_EQ(eta(), 3 * 30.0 / 3) << "their turn is later";
+  const auto sooner = submit("sooner", 1, "789");
+  EXPECT_DOUBLE_EQ(eta(), 6 * 30.0 / 3);
+  EXPECT_DOUBLE_EQ(eta_in_the_list(), 6 * 30.0 / 3);
+  begin(queue_, sooner[0].id);
+  write_progress(directory_ / "runs" / sooner[0].id / "progress.json");
+  EXPECT_DOUBLE_EQ(eta(), (10 + 5 * 30.0) / 3) << "10 s are left of the one that runs";
+  EXPECT_DOUBLE_EQ(eta_in_the_list(), (10 + 5 * 30.0) / 3);
+  queue_.set_priority(target_named("s1"), 2);
+  EXPECT_DOUBLE_EQ(eta(), (10 + 3 * 30.0) / 3) << "before all that wait";
+  queue_.cancel(sooner[0].id);
+  EXPECT_DOUBLE_EQ(eta(), 3 * 30.0 / 3) << "that one stops, whatever it had left";
+}
+
 TEST_F(ApiTest, EtaOfAChainDoesNotShareItsStagesOutToSlots) {
   std::vector<NewJob> jobs;
   for (const char digit : {'1', '2', '3', '4'}) {
@@ -975,6 +1007,9 @@ TEST_F(ApiTest, ARunStartsFromImportedRodsAtZero) {
   write_text(directory_ / "runs" / id / "imported.json", "{}");
   const Response submitted = start("0");
   ASSERT_EQ(submitted.status, 201) << submitted.error();
+  const Json kept = post("/v1/clean", R"({"unknown": true})").json["runs"][0];
+  EXPECT_EQ(kept["removed"], false);
+  EXPECT_EQ(kept["kept"], "job " + submitted.json["jobs"][0]["id"].get<std::string>() + " is to start from it");
   EXPECT_TRUE(begin(queue_, submitted.json["jobs"][0]["id"])) << "it waits for nothing";
   EXPECT_THAT(start("9").error(), HasSubstr("the rods of run 0123456789abcdef are imported: set start.time to 0"));
 
@@ -1038,6 +1073,38 @@ TEST_F(ApiTest, StagesAreChainsThatRunBesideEachOther) {
                                           {"stages": [{"time.measure": "2 s"}, {"plates.gamma": 5}]}]})";
   EXPECT_THAT(submit({{"text", other}, {"name", "other"}}).error(),
               HasSubstr("stages that say the same from the start on must last equally long"));
+}
+
+TEST_F(ApiTest, AStageThatHasBegunNeedsItsStartNoMore) {
+  const Json jobs = submit({{"text", R"({"sweep": {"stages": [{}, {"plates.gamma": 6}]}})"}}).json["jobs"];
+  const std::string first = jobs[0]["id"], second = jobs[1]["id"];
+  begin(queue_, first);
+  queue_.ended(first, JobEvent::kWorkerDone);
+  ASSERT_TRUE(begin(queue_, second));
+  queue_.hold(second);
+  queue_.ended(second, JobEvent::kWorkerStopped);
+  ASSERT_TRUE(queue_.clean(first, JobState::kDone));
+  EXPECT_EQ(queue_.resume(second), 1);
+  EXPECT_TRUE(begin(queue_, second)) << "it goes on from its own state";
+}
+
+TEST_F(ApiTest, ReplicasOfAStageEndWhereTheNextOneStarts) {
+  const Json jobs =
+      submit({{"text", R"({"sweep": {"stages": [{}, {"plates.gamma": 6}]}})"}, {"name", "ramp"}}).json["jobs"];
+  for (const Json& job : jobs) {
+    begin(queue_, job["id"]);
+    queue_.ended(job["id"], JobEvent::kWorkerDone);
+  }
+  ASSERT_EQ(post("/v1/sweeps/ramp/extend", R"({"measure": "20 s"})").json["extended"], 2);
+  const Json more = post("/v1/sweeps/ramp/replicas", R"({"replicas": 2})").json;
+  const auto plan = [&](int k) {
+    return *scene::load_scene(queue_.scene(more["jobs"][k]["id"].get<std::string>()), "of a test");
+  };
+  ASSERT_EQ(more["counts"]["new"], 2);
+  EXPECT_GT(plan(0).total_time(), plan(1).total_time()) << "the first stage was extended";
+  EXPECT_EQ(plan(1).total_time(), plan(3).start->time);
+  EXPECT_EQ(plan(3).start->run, more["jobs"][1]["id"]);
+  EXPECT_EQ(plan(3).measure_time, 20);
 }
 
 TEST_F(ApiTest, ASweepGetsMoreReplicasAsIfSubmittedSo) {

@@ -55,6 +55,10 @@ TEST_F(VerdictTest, AFullDiskIsNoFailureOfTheJob) {
   write_text(run_.log(), "checkpoint.bin.tmp: No space left on device\n");
   EXPECT_EQ(exit(97).outcome, kNoRoom);
   EXPECT_EQ(exit(97).reason, "checkpoint.bin.tmp: No space left on device");
+  write_text(run_.log(), "2026-11-28T13:06:32.775 error cannot write a frame\n");
+  EXPECT_EQ(exit(97).reason, "cannot write a frame") << "neither time nor level";
+  write_text(run_.log(), "2026-11-28T13:06:32.775 frames cannot be written\n");
+  EXPECT_EQ(exit(97).reason, "2026-11-28T13:06:32.775 frames cannot be written") << "no level";
 }
 
 TEST_F(VerdictTest, TheLastLineOfTheLogExplains) {
