@@ -270,6 +270,17 @@ std::vector<Job> Queue::begun(Sweep& sweep, SweepWork& work) const {
   return n_ended == sweep.counts.total() ? std::vector<Job>{} : explained(store_.begun(sweep.id));
 }
 
+std::map<std::int64_t, double> Queue::work_ahead() const {
+  constexpr int kMany = 5000;  // some ten milliseconds
+  constexpr std::chrono::seconds kStale{2};
+  const std::lock_guard lock(mutex_);
+  if (const auto now = std::chrono::steady_clock::now(); now >= work_ahead_until_) {
+    work_ahead_ = store_.work_ahead();
+    work_ahead_until_ = store_.counts()[JobState::kQueued] > kMany ? now + kStale : now;
+  }
+  return work_ahead_;
+}
+
 std::optional<Job> Queue::job(const std::string& id) const {
   const std::lock_guard lock(mutex_);
   auto job = store_.job(id);

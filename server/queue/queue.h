@@ -80,7 +80,8 @@ class Queue {
   /// Jobs of a sweep that have not ended, and were started; brings its counts, and `work`, to the same moment.
   std::vector<Job> begun(Sweep& sweep, SweepWork& work) const;
   /// Of each sweep with queued jobs: the work of the queued jobs of others whose turn is before that of its last one.
-  std::map<std::int64_t, double> work_ahead() const { return read(&QueueStore::work_ahead); }
+  /// It reads all queued jobs; where they are many, the answer is up to two seconds old.
+  std::map<std::int64_t, double> work_ahead() const;
   std::vector<Job> active() const { return read(&QueueStore::active); }  ///< running and stopping ones, of all sweeps
   std::optional<Job> job(const std::string& id) const;
   /// Ids that begin with `prefix`, in alphabetical order, at most `limit`.
@@ -192,6 +193,8 @@ class Queue {
   std::vector<Job> explained(std::vector<Job> jobs) const;
 
   mutable std::mutex mutex_;
+  mutable std::map<std::int64_t, double> work_ahead_{};
+  mutable std::chrono::steady_clock::time_point work_ahead_until_{};
   mutable std::condition_variable changed_;
   QueueStore store_;
   std::int64_t last_change_ = 0;
