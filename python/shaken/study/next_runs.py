@@ -46,7 +46,7 @@ QUESTIONS: dict[str, tuple[str, Batch]] = {
 }
 
 #: Rods that freeze, which takes twice the time of others: three runs at the price of six.
-BLUNT = ("three seeds with ends of 0.5 mm in the strip: the set `strip`", (Batch(4.0, 0.85, STRIP, 310, 6),))
+BLUNT = ("six seeds with ends of 0.5 mm in the strip: the set `strip`", (Batch(4.0, 0.85, STRIP, 310, 3),))
 
 #: What would decide each statement that is open or may be, by its id.
 DECIDING: dict[str, tuple[str, tuple[Batch, ...]]] = {
@@ -66,8 +66,8 @@ DECIDING: dict[str, tuple[str, tuple[Batch, ...]]] = {
     "angle-end": BLUNT,
     "peaks-end": ("rows of 0.5 and 0.6 mm for the paper's 110 min, three seeds each: whether they melt",
                   (Batch(4.0, 0.85, 41.865, 6600, 6),)),
-    "angle-packing": ("some 50 seeds of each packing in the strip, if the means stay where they are",
-                      (Batch(4.5, 0.80, STRIP, 280, 44), Batch(4.5, 0.85, STRIP, 310, 44))),
+    "angle-packing": ("three seeds of 4.0 mm at 0.825 in the strip: the set `strip`",
+                      (Batch(4.0, 0.825, STRIP, 310, 3),)),
     "wavelength-packing": ("some 12 seeds at 0.85 in the strip, if the means stay where they are",
                            (Batch(4.5, 0.85, STRIP, 310, 6),)),
     "wavelength-length": ("six seeds of 3.5 and 4.5 mm in the strip",
