@@ -192,8 +192,9 @@ def layer_trends(material: Material) -> Sheet:
     """Angle, wavelength and order of the layers against packing."""
     trends = material.evidence.joined("layers", "layer-trends")
     series = [(trends.at(length, end=0.4), names.value_label(LENGTH, length)) for length in (4.0, 4.5)]
-    strips = Runs(run for run in material.evidence["strip"].at(4.5) if key_of(run, PACKING) > 0.78)
-    series += [(strips, f"{names.value_label(LENGTH, 4.5)}, {box_text(strips[0])}")] if strips else []
+    for length in (4.0, 4.5):
+        strips = Runs(run for run in material.evidence["strip"].at(length, end=0.4) if key_of(run, PACKING) > 0.78)
+        series += [(strips, f"{names.value_label(LENGTH, length)}, {box_text(strips[0])}")] if strips else []
     sheet = material.sheet(3)
     for panel, name, statement in zip(sheet, ("theta_m_deg", "wavelength_mm", "layer_order"),
                                       ("angle-packing", "wavelength-packing", "")):
