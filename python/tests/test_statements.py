@@ -9,7 +9,7 @@ import pytest
 
 from shaken.estimate import Estimate, replica_mean
 from shaken.run import Arrays, Run
-from shaken.study import figures_order, late_lags, layer_checks, order_checks, rules, structure_checks
+from shaken.study import figures_motion, figures_order, late_lags, layer_checks, order_checks, rules, structure_checks
 from shaken.study.evidence import Evidence, Runs, crossing
 from shaken.study.material import Material
 from shaken.study.order_checks import n_peaks
@@ -695,7 +695,8 @@ def test_a_verdict_tells_the_samples_seeds_boxes_and_times_that_it_stands_on():
 
 
 @pytest.mark.parametrize("evidence", [
-    [*runs("long-rods", 0.45, side=83.73, S=0.1), *runs("phases", 0.75, side=83.73, S=0.9),
+    [*runs("long-rods", 0.45, {"defect_density_per_mm2": 0.01}, side=83.73, S=0.1),
+     *runs("phases", 0.75, side=83.73, S=0.9),
      *runs("phases", 0.75, side=167.46, n=1)],
     runs("layers", 0.80)], ids=["in the paper's box", "without a run of its own"])
 def test_the_phase_diagram_is_drawn_in_the_box_that_most_runs_have(evidence):
@@ -703,3 +704,5 @@ def test_the_phase_diagram_is_drawn_in_the_box_that_most_runs_have(evidence):
     sheet = figures_order.order(Material(evidence, 183.0))
     assert {run.key("box.side") for run in order_checks.phase_diagram(evidence)} <= {83.73}
     assert sheet[1].has_picture == bool(order_checks.phase_diagram(evidence))
+    melting = figures_motion.melting(Material(evidence, 183.0))
+    assert bool(melting[0].drawn) == bool(order_checks.phase_diagram(evidence))

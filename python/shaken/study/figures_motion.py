@@ -17,6 +17,7 @@ from .late_lags import long_time_diffusion
 from .material import Material, angle_bar, draw_curves, draw_points, draw_rods, first_snapshot, packing_scale
 from .motion_checks import (FREE_OF_THE_WINDOW, VELOCITY_WINDOW, late_c2, late_velocity_correlation, long_rods,
                             papers_diffusion, short_rods, speed_between)
+from .order_checks import phase_diagram
 
 
 def tilt(material: Material) -> Sheet:
@@ -247,7 +248,7 @@ def defects(material: Material) -> Sheet:
 
 def melting(material: Material) -> Sheet:
     """Defects against packing and order, and how those that last move."""
-    runs = material.evidence.joined("long-rods", "short-rods", "crossings", "phases").at(side=33.492)
+    runs = phase_diagram(material.evidence)
     sheet = material.sheet(3, height=55)
     three = sheet[2].titles(names.axis_title(PACKING), "velocity of +1/2 (mm/s)", "head first where > 0")
     one = sheet[0].titles(names.axis_title(PACKING), names.axis_title("defect_density_per_mm2"), "defects")

@@ -45,7 +45,7 @@ QUESTIONS: dict[str, tuple[str, Batch]] = {
     "elastic constants": ("0.55 in twice the box, two seeds", Batch(4.5, 0.55, 133.968, 300, 2)),
 }
 
-#: Rods that freeze, which takes twice the time of others: three runs at the price of six.
+#: Rods that freeze, each seed into layers of its own.
 BLUNT = ("six seeds with ends of 0.5 mm in the strip: the set `strip`", (Batch(4.0, 0.85, STRIP, 310, 3),))
 
 #: What would decide each statement that is open or may be, by its id.

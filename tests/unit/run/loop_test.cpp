@@ -413,10 +413,14 @@ TEST(Run, ThatIsStoppedOnItsWayToALaterEndKnowsTheFormerOne) {
 
 TEST(Run, GoesOnUntilTheErrorIsSmallEnough) {
   const ScratchFolder folder;
+  RunOptions options;
+  options.directory = folder.path();
+  options.job_id = "job";
+  options.progress_every = WallSeconds(0.01);
   std::vector<double> fractions;
   RunCallbacks callbacks;
   callbacks.on_progress = [&](const Progress& progress) { fractions.push_back(progress.fraction()); };
-  ASSERT_EQ(run_in(folder.path(), plan_until(0.05, 20), callbacks).state, RunState::kDone);
+  ASSERT_EQ(run(plan_until(0.05, 20), options, callbacks).state, RunState::kDone);
   const auto summary = summary_in(folder.path());
   EXPECT_LE(summary["order"]["sem"].get<double>(), 0.05);
   EXPECT_NE(summary["order"]["steady"], false);
