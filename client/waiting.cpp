@@ -57,9 +57,8 @@ ExitCode wait_for(ApiClient& session, std::vector<Target> targets, std::optional
     int n_ended = 0;
     double fraction = 0;
     for (const auto& [id, job] : jobs) {
-      const std::string state = text_of(job, "state");
-      n_done += state == "done";
-      n_ended += is_final(state);
+      n_done += text_of(job, "state") == "done";
+      n_ended += has_ended(job);
       fraction += job_fraction(job) / static_cast<double>(jobs.size());
     }
     const int n_jobs = static_cast<int>(jobs.size());

@@ -40,7 +40,7 @@ std::vector<std::string> WaitingReasons::news(const std::vector<Json>& jobs, Clo
   std::map<std::string, Group> groups;
   for (const Json& job : jobs) {
     const std::string state = text_of(job, "state"), reason = text_of(job, "reason");
-    if (is_final(state) || reason.empty()) continue;
+    if (reason.empty() || has_ended(job)) continue;
     const std::string text = (state == "running" ? "handed over" : state) + ": " + reason;
     Group& group = groups[without_numbers(text)];
     if (group.n++ == 0) group.text = text;

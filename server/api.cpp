@@ -281,7 +281,10 @@ Api::Answer Api::show_log(const Call& call) const {
   const Job job = find_job(call.id);
   const std::int64_t offset = count_in(call, "offset", "a number of bytes");
   const LogSlice slice = read_slice(run::RunDirectory{info_.runs() / job.id}.log(), offset, kLogSliceBytes);
-  return {200, {{"text", slice.text}, {"offset", slice.next}, {"state", to_word(job.state)}}, ""};
+  return {
+      200,
+      {{"text", slice.text}, {"offset", slice.next}, {"state", to_word(job.state)}, {"ended", has_ended(job.state)}},
+      ""};
 }
 
 Api::Answer Api::show_history(const Call& call) const {

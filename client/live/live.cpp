@@ -114,6 +114,7 @@ void LiveJobs::note_api(const Json& answer) {
   LiveJob& job = jobs_[place->second];
   job.label = text_of(answer, "label");
   job.state = answer.at("state").get<std::string>();
+  job.ended = has_ended(answer);
   job.reason = text_of(answer, "reason");
   const auto progress = answer.find("progress");
   job.draws_film = job.is_running() && progress != answer.end() && text_of(*progress, "state") == "rendering";
@@ -162,7 +163,7 @@ void LiveJobs::note(const defects_t& message) {
 }
 
 bool LiveJobs::all_ended() const {
-  return std::all_of(jobs_.begin(), jobs_.end(), [](const LiveJob& job) { return is_final(job.state); });
+  return std::all_of(jobs_.begin(), jobs_.end(), [](const LiveJob& job) { return job.ended; });
 }
 
 std::int64_t LiveJobs::received() const {

@@ -66,6 +66,7 @@ struct LiveJob {
   std::string id;
   std::string label;
   std::string state = "queued";
+  bool ended = false;
   std::string reason;
   double sim_time = 0;        ///< [s]
   double sim_time_total = 0;  ///< [s]; 0 while unknown

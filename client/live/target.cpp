@@ -90,9 +90,7 @@ std::vector<Json> jobs_of(const Target& target) {
   return {jobs.begin(), jobs.end()};
 }
 
-bool is_final(std::string_view state) {
-  return state == "done" || state == "failed" || state == "timed out" || state == "cancelled";
-}
+bool has_ended(const Json& job) { return job.at("ended").get<bool>(); }
 
 std::string short_id(const std::string& id) { return id.substr(0, 8); }
 

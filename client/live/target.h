@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "client/live/api_client.h"
@@ -42,8 +41,8 @@ void refresh(ApiClient& session, Target& target);
 /// The target's jobs as of the last answer.
 std::vector<Json> jobs_of(const Target& target);
 
-/// Whether nothing more will happen to a job in this state by itself.
-bool is_final(std::string_view state);
+/// Whether nothing more happens to a job by itself, as the daemon says of it (JOB, or what it answers of its log).
+bool has_ended(const Json& job);
 
 /// The first letters of a job's id, as shown in tables; enough for commands to find it.
 std::string short_id(const std::string& id);

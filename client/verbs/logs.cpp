@@ -39,7 +39,7 @@ class Logs : public Verb {
       // A long log comes in pieces, also where it is not followed.
       if (!text.empty()) continue;
       if (!follow_) return ExitCode::kOk;
-      if (is_final(state)) break;
+      if (has_ended(answer)) break;
       guard.sleep_for(std::chrono::milliseconds(500));
     }
     context.console.err << fmt::format("job {} is {}\n", short_id(id), state);

@@ -137,7 +137,7 @@ class Record : public Verb {
     for (const Target& target : targets) {
       for (const Json& job : jobs_of(target)) {
         jobs_.insert(job.at("id").get<std::string>());
-        have_ended = have_ended && is_final(job.at("state").get<std::string>());
+        have_ended = have_ended && has_ended(job);
       }
     }
     return have_ended;

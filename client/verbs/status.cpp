@@ -36,10 +36,7 @@ std::string eta_text(double seconds) {
 }
 
 std::string sweep_eta_text(const Json& sweep) {
-  const Json& counts = sweep.at("counts");
-  const int unfinished =
-      counts.value("queued", 0) + counts.value("held", 0) + counts.value("running", 0) + counts.value("stopping", 0);
-  return unfinished > 0 ? eta_text(sweep.value("eta_s", -1.0)) : "";
+  return sweep.at("n_ended") < sweep.at("n_jobs") ? eta_text(sweep.value("eta_s", -1.0)) : "";
 }
 
 /// The terms of a sweep: how many of it run at once, what it comes after, its stop rule; empty where there are none.
@@ -61,7 +58,7 @@ std::string terms_text(const Json& sweep) {
 
 /// How long the job will take still, or how long its attempts took together.
 std::string time_text(const Json& job) {
-  if (is_final(text_of(job, "state"))) {
+  if (has_ended(job)) {
     // Counted by a clock that nobody sets; more than the time from the first start to the end would tell.
     const double wall = job.value("wall_s", 0.0);
     return wall > 0 ? "took " + duration_text(wall) : "";

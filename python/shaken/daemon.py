@@ -16,9 +16,6 @@ from .errors import ShakenError
 from .root import root_folder
 from .times import seconds
 
-#: States in which a job has come to an end.
-ENDED = ("done", "failed", "timed out", "cancelled", "held")
-
 
 class _Connection(http.client.HTTPConnection):
     """HTTP on a Unix socket."""
@@ -115,7 +112,7 @@ class Daemon:
             if show:
                 show(found)
             counts = {state: n for state, n in found["counts"].items() if n}
-            if not any(state not in ENDED for state in counts):
+            if found["n_ended"] == found["n_jobs"]:
                 return counts
             if end is not None and time.monotonic() >= end:
                 raise ShakenError(f"sweep {sweep} has not ended after {timeout}: {counts}")

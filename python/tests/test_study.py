@@ -155,7 +155,8 @@ class DaemonOfAFailure:
     def jobs(self, sweep):
         states = ["failed", "held", "cancelled", "held", "held", "failed"]
         before = [None, self.points[0].id, None, self.points[2].id, self.points[3].id, None]
-        return [{"id": point.id, "state": state, "label": "", "starts_from": start, "wall_s": 0, "reason": "lost"}
+        return [{"id": point.id, "state": state, "ended": state != "held", "label": "", "starts_from": start, "wall_s": 0,
+                 "reason": "lost"}
                 for point, state, start in zip(self.points, states, before)]
 
 
@@ -174,8 +175,8 @@ def test_a_finished_run_is_archived_once_however_long_the_others_take(monkeypatc
 
     def jobs(sweep):
         states = polls.pop(0)
-        return [{"id": id_, "state": state, "finished_utime": end, "label": "", "starts_from": None, "wall_s": 0,
-                 "reason": ""} for id_, (state, end) in zip("ab", states)]
+        return [{"id": id_, "state": state, "ended": state == "done", "finished_utime": end, "label": "",
+                 "starts_from": None, "wall_s": 0, "reason": ""} for id_, (state, end) in zip("ab", states)]
 
     read = []
     monkeypatch.setattr(running, "archive_job",

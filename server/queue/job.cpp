@@ -28,6 +28,12 @@ bool has_ended(JobState state) {
 
 std::int64_t JobCounts::total() const { return std::accumulate(n.begin(), n.end(), std::int64_t{0}); }
 
+std::int64_t JobCounts::ended() const {
+  return std::accumulate(
+      kJobStates.begin(), kJobStates.end(), std::int64_t{0},
+      [this](std::int64_t sum, JobState state) { return sum + (has_ended(state) ? (*this)[state] : 0); });
+}
+
 std::string sweep_word(std::int64_t id) { return std::string("s").append(std::to_string(id)); }
 
 std::optional<std::int64_t> sweep_number(std::string_view word) {

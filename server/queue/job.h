@@ -50,6 +50,7 @@ struct JobCounts {
   std::int64_t& operator[](JobState state) { return n[static_cast<std::size_t>(state)]; }
   std::int64_t operator[](JobState state) const { return n[static_cast<std::size_t>(state)]; }
   std::int64_t total() const;
+  std::int64_t ended() const;
 };
 
 /// One run of one scene. Times are microseconds since 1970-01-01 UTC, 0 where the event has not happened.

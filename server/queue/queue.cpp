@@ -265,9 +265,7 @@ std::vector<Job> Queue::begun(Sweep& sweep, SweepWork& work) const {
   const std::lock_guard lock(mutex_);
   sweep.counts = store_.counts_of(Target(sweep.id));
   work = store_.work_of(sweep.id);
-  std::int64_t n_ended = 0;
-  for (const JobState state : kJobStates) n_ended += has_ended(state) ? sweep.counts[state] : 0;
-  return n_ended == sweep.counts.total() ? std::vector<Job>{} : explained(store_.begun(sweep.id));
+  return sweep.counts.ended() == sweep.counts.total() ? std::vector<Job>{} : explained(store_.begun(sweep.id));
 }
 
 std::map<std::int64_t, double> Queue::work_ahead() const {

@@ -143,8 +143,8 @@ class Daemon:
             if not self.is_there:
                 return {"error": "no daemon: start one with: shakend --root /tmp/x"}
             self.n_done = min(self.n_done + (not self.stands), N_JOBS - 1)
-            sweeps = [{"id": "s1", "name": "many", "n_jobs": N_JOBS, "counts": self.counts(), "progress": self.n_done / N_JOBS,
-                       "eta_s": 100}]
+            sweeps = [{"id": "s1", "name": "many", "n_jobs": N_JOBS, "n_ended": self.n_done, "counts": self.counts(),
+                       "progress": self.n_done / N_JOBS, "eta_s": 100}]
             return {"status": {"version": "0", "host": "nowhere", "slots": 1, "jobs": {**self.counts()},
                                "lcm": {"ok": True}}, "sweeps": [] if self.is_empty else sweeps, "jobs": [self.job(self.n_done)]}
 

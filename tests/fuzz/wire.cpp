@@ -29,6 +29,7 @@ client::Json job() {
   return {{"id", kJob},
           {"sweep", "s1"},
           {"state", "running"},
+          {"ended", false},
           {"reason", ""},
           {"label", "x"},
           {"replica", 1},

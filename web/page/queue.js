@@ -34,7 +34,7 @@ export class QueuePanel {
       item.bar.value = sweep.progress;
       const waits = sweep.counts.running + sweep.counts.queued > 0;
       // that of a sweep that is over, and was cancelled half way, would be empty
-      item.bar.hidden = !["queued", "held", "running", "stopping"].some((state) => sweep.counts[state] > 0);
+      item.bar.hidden = sweep.n_ended === sweep.n_jobs;
       item.counts.textContent = countsText(sweep.counts) + (waits && sweep.eta_s >= 0 ? `; ${duration(sweep.eta_s)} to go` : "");
     }
     this.choose(this.chosen);

@@ -17,7 +17,7 @@ from typing import Any, Callable, Iterable, Iterator
 import numpy as np
 
 from ..archive import add_run, archived_runs
-from ..daemon import ENDED, Daemon
+from ..daemon import Daemon
 from ..errors import ShakenError
 from ..run import Run
 
@@ -168,7 +168,7 @@ def run_plan(plan: Plan, daemon: Daemon, budget: float = math.inf, *, say: Calla
             say(f"{sweep['name']}: {sum(point.set == name for point in plan.missing)} runs, about "
                 f"{plan.cost(name) / 3600:.2f} CPU-h")
             continue
-        if not waiting and all(_has_ended(job, jobs) for job, _ in jobs.values()):
+        if not waiting and all(job["ended"] or job["state"] == "held" for job, _ in jobs.values()):
             return [f"{job['id'][:8]} {name} {job['label']}: {job['state']}: {job['reason']}"
                     for job, name in jobs.values() if job["state"] != "done"]
         time.sleep(every)
@@ -178,12 +178,6 @@ def _waits_for_start(job: dict[str, Any], jobs: dict[str, tuple[dict[str, Any], 
     """Whether a job starts from another of these that is not done, and so takes no place yet."""
     before = jobs.get(job["starts_from"] or "")
     return before is not None and before[0]["state"] != "done"
-
-
-def _has_ended(job: dict[str, Any], jobs: dict[str, tuple[dict[str, Any], str]]) -> bool:
-    """Whether a job has ended, or is held for good: one that starts from another which came to nothing."""
-    is_lost = job["state"] == "held" and _waits_for_start(job, jobs) and _has_ended(jobs[job["starts_from"]][0], jobs)
-    return job["state"] in ENDED or is_lost
 
 
 def _copy_film(job: dict[str, Any], plan: Plan, films: Path) -> None:

@@ -44,6 +44,7 @@ class Verbs : public ::testing::Test {
     return {{"id", id},
             {"sweep", "s1"},
             {"state", state},
+            {"ended", state == "done" || state == "failed" || state == "cancelled" || state == "timed out"},
             {"reason", state == "failed" ? "2 rods overlap by 0.3 mm" : ""},
             {"label", "rods.length=2.5"},
             {"parameters", {{"rods.length", 2.5}}},
@@ -59,15 +60,18 @@ class Verbs : public ::testing::Test {
   static Json sweep(const std::vector<Json>& jobs) {
     Json counts{{"queued", 0}, {"running", 0},   {"stopping", 0}, {"done", 0},
                 {"failed", 0}, {"timed out", 0}, {"cancelled", 0}};
+    std::size_t n_ended = 0;
     for (const Json& each : jobs) {
       Json& n = counts[each.at("state").get<std::string>()];
       n = n.get<int>() + 1;
+      n_ended += each.at("ended").get<bool>();
     }
     return {{"sweep",
              {{"id", "s1"},
               {"name", "phases"},
               {"created_utime", 1000},
               {"n_jobs", jobs.size()},
+              {"n_ended", n_ended},
               {"counts", counts},
               {"progress", 0.5},
               {"eta_s", 90.0}}},
@@ -340,7 +344,8 @@ TEST_F(Verbs, WaitGivesUpAfterTheTimeout) {
 TEST_F(Verbs, CtrlCIsExitCode130) {
   daemon_.on("GET /v1/sweeps/s1", text(sweep({job("1f0c000000000000", "running")})));
   daemon_.on("GET /v1/jobs/1f0c", text({{"job", job("1f0c000000000000", "running")}}));
-  daemon_.on("GET /v1/jobs/1f0c000000000000/log?offset=0", R"({"text": "", "offset": 0, "state": "running"})");
+  daemon_.on("GET /v1/jobs/1f0c000000000000/log?offset=0",
+             R"({"text": "", "offset": 0, "state": "running", "ended": false})");
   daemon_.on("GET /v1/status", R"({"lcm": {"url": "", "ok": false, "message": "no multicast route"}})");
   EXPECT_EQ(run_interrupted({"wait", "s1"}, 3).code, ExitCode::kInterrupted);
   EXPECT_EQ(run_interrupted({"logs", "1f0c", "-f"}, daemon_.requests().size() + 4).code, ExitCode::kInterrupted);
@@ -410,11 +415,13 @@ TEST_F(Verbs, HistoryTellsEveryChange) {
 
 TEST_F(Verbs, LogsComeInPiecesAndFollowEndsWithTheJob) {
   daemon_.on("GET /v1/jobs/1f0c", text({{"job", job("1f0c000000000000", "running")}}));
-  daemon_.on("GET /v1/jobs/1f0c000000000000/log?offset=0", R"({"text": "one\n", "offset": 4, "state": "running"})");
+  daemon_.on("GET /v1/jobs/1f0c000000000000/log?offset=0",
+             R"({"text": "one\n", "offset": 4, "state": "running", "ended": false})");
   daemon_.on("GET /v1/jobs/1f0c000000000000/log?offset=4",
-             {{200, R"({"text": "", "offset": 4, "state": "running"})"},
-              {200, R"({"text": "two\n", "offset": 8, "state": "failed"})"}});
-  daemon_.on("GET /v1/jobs/1f0c000000000000/log?offset=8", R"({"text": "", "offset": 8, "state": "failed"})");
+             {{200, R"({"text": "", "offset": 4, "state": "running", "ended": false})"},
+              {200, R"({"text": "two\n", "offset": 8, "state": "failed", "ended": true})"}});
+  daemon_.on("GET /v1/jobs/1f0c000000000000/log?offset=8",
+             R"({"text": "", "offset": 8, "state": "failed", "ended": true})");
   const Outcome outcome = run({"logs", "1f0c", "-f"});
   EXPECT_EQ(outcome.out, "one\ntwo\n");
   EXPECT_EQ(outcome.code, ExitCode::kFailed);
@@ -697,8 +704,9 @@ TEST_F(Verbs, NothingThatATerminalObeysIsPrinted) {
   daemon_.on("GET /v1/jobs/1f0c", text({{"job", failed}}));
   daemon_.on("GET /v1/jobs/1f0c000000000000", text({{"job", failed}}));
   daemon_.on("GET /v1/jobs/1f0c000000000000/log?offset=0",
-             text({{"text", evil + "\n"}, {"offset", 9}, {"state", "failed"}}));
-  daemon_.on("GET /v1/jobs/1f0c000000000000/log?offset=9", R"({"text": "", "offset": 9, "state": "failed"})");
+             text({{"text", evil + "\n"}, {"offset", 9}, {"state", "failed"}, {"ended", true}}));
+  daemon_.on("GET /v1/jobs/1f0c000000000000/log?offset=9",
+             R"({"text": "", "offset": 9, "state": "failed", "ended": true})");
   daemon_.on("GET /v1/results?sweep=s1", text({{"rows", {row}}}));
   daemon_.on("POST /v1/sweeps/s1/cancel", R"({"cancelled": 0})");
   daemon_.on("GET /v1/sweeps/refused", {{400, text({{"error", evil}})}});

@@ -14,7 +14,8 @@ using testing::IsEmpty;
 const std::string kRefused = "could not be started: sbatch: error: invalid partition. Next attempt at ";
 
 std::vector<Json> jobs(int n, const std::string& state, const std::string& reason) {
-  return std::vector<Json>(static_cast<std::size_t>(n), Json{{"state", state}, {"reason", reason}});
+  return std::vector<Json>(static_cast<std::size_t>(n),
+                           Json{{"state", state}, {"ended", state == "failed"}, {"reason", reason}});
 }
 
 TEST(WaitingReasons, TellsEachOnceWhenItStands) {

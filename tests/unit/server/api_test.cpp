@@ -181,6 +181,7 @@ TEST_F(ApiTest, ASubmitAnswersWithSweepJobsAndCounts) {
   EXPECT_EQ(sweep["id"], "s1");
   EXPECT_EQ(sweep["name"], "grid");
   EXPECT_EQ(sweep["n_jobs"], 4);
+  EXPECT_EQ(sweep["n_ended"], 0);
   EXPECT_EQ(sweep["counts"]["queued"], 4);
   EXPECT_EQ(sweep["progress"], 0.0);
   EXPECT_EQ(sweep["eta_s"], -1.0);
@@ -250,6 +251,7 @@ TEST_F(ApiTest, JobsAreHeldResumedRetriedAndPutFirst) {
   const auto ids = submit_four();
   EXPECT_EQ(post("/v1/jobs/" + ids[1] + "/hold").json.dump(), R"({"held":1})");
   EXPECT_EQ(get("/v1/jobs/" + ids[1]).json["job"]["state"], "held");
+  EXPECT_EQ(get("/v1/jobs/" + ids[1]).json["job"]["ended"], false) << "whoever waits for it waits on";
   EXPECT_EQ(get("/v1/jobs/" + ids[1]).json["job"]["reason"], "held on request");
   EXPECT_EQ(post("/v1/sweeps/s1/hold").json.dump(), R"({"held":3})");
   EXPECT_TRUE(queue_.next(10).empty());
@@ -317,6 +319,8 @@ TEST_F(ApiTest, TimeLimitsAreTakenAndShown) {
   queue_.ended(id, JobEvent::kWorkerStopped, "checkpoint");
   const Json ended = get("/v1/jobs?state=timed%20out").json["jobs"][0];
   EXPECT_EQ(ended["state"], "timed out");
+  EXPECT_EQ(ended["ended"], true);
+  EXPECT_EQ(get("/v1/sweeps").json["sweeps"][0]["n_ended"], 1);
   EXPECT_EQ(ended["wall_s"], 1.5);
   EXPECT_EQ(ended["reason"], "it ran for 2 h 00 min, its time limit; `shaken retry` gives it as much again");
 
@@ -724,7 +728,7 @@ TEST_F(ApiTest, EtaOfAChainDoesNotShareItsStagesOutToSlots) {
 
 TEST_F(ApiTest, ALogIsReadPieceByPiece) {
   const auto ids = submit_four();
-  EXPECT_EQ(get("/v1/jobs/" + ids[0] + "/log").json.dump(), R"({"text":"","offset":0,"state":"queued"})");
+  EXPECT_EQ(get("/v1/jobs/" + ids[0] + "/log").json.dump(), R"({"text":"","offset":0,"state":"queued","ended":false})");
   std::filesystem::create_directories(directory_ / "runs" / ids[0]);
   write_text(directory_ / "runs" / ids[0] / "worker.log", "one\ntwo\n\xff");
   const Response log = get("/v1/jobs/" + ids[0] + "/log?offset=4");

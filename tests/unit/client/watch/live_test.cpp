@@ -21,7 +21,9 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 Json api_job(const std::string& id, const std::string& state, double time) {
-  Json job{{"id", id}, {"label", "rods.length=2.5"}, {"state", state}, {"reason", ""}, {"progress", nullptr}};
+  Json job{{"id", id},       {"label", "rods.length=2.5"},
+           {"state", state}, {"ended", state == "done" || state == "failed" || state == "cancelled"},
+           {"reason", ""},   {"progress", nullptr}};
   if (time >= 0) {
     job["progress"] = {{"sim_time_s", time}, {"sim_time_total_s", 10.0},  {"sim_rate", 0.5}, {"eta_s", 12.0},
                        {"order", 0.25},      {"order_running_mean", 0.2}, {"n_rods", 271},   {"max_overlap_mm", 0.001}};

@@ -23,6 +23,7 @@ Json job_json(const std::string& id, const std::string& state, const std::string
   return {{"id", id},
           {"label", "rods.length=2.5"},
           {"state", state},
+          {"ended", state == "done"},
           {"reason", ""},
           {"progress",
            {{"state", progress_state},
