@@ -12,9 +12,12 @@ import urllib.parse
 from pathlib import Path
 from typing import Any, Callable, Mapping
 
-from .errors import ShakenError
+from .errors import NoDaemon, ShakenError
 from .root import root_folder
 from .times import seconds
+
+#: Wall time for which `wait` waits for a daemon that is away, as while it is restarted [s]; `shaken wait` as long.
+_MAY_BE_AWAY = 10.0
 
 
 class _Connection(http.client.HTTPConnection):
@@ -34,14 +37,24 @@ class Daemon:
     """A running shakend, asked over its socket (docs/protocol.md).
 
     `root` is its folder: $SHAKEN_ROOT, else ~/.local/share/shaken, if left out. All methods raise ShakenError with the
-    daemon's own words where it refuses, and where none answers.
+    daemon's own words where it refuses, and NoDaemon where none answers within `patience` [s].
     """
 
-    def __init__(self, root: str | Path | None = None) -> None:
-        self.root = root_folder(root)
+    def __init__(self, root: str | Path | None = None, patience: float = 0.0) -> None:
+        self.root, self.patience = root_folder(root), patience
 
     def ask(self, method: str, path: str, body: Mapping[str, Any] | None = None) -> dict[str, Any]:
         """The answer to a request of docs/protocol.md: `ask("GET", "/v1/status")`."""
+        end = time.monotonic() + self.patience
+        while True:
+            try:
+                return self._ask(method, path, body)
+            except NoDaemon:
+                if time.monotonic() >= end:
+                    raise
+                time.sleep(0.2)
+
+    def _ask(self, method: str, path: str, body: Mapping[str, Any] | None) -> dict[str, Any]:
         connection = _Connection(self.root / "shakend.sock", timeout=130)
         try:
             text = None if body is None else json.dumps(body)
@@ -49,14 +62,16 @@ class Daemon:
             response = connection.getresponse()
             answer = json.loads(response.read())
         except (FileNotFoundError, ConnectionRefusedError):
-            raise ShakenError(f"no daemon runs at {self.root}: start one with `shakend --root {self.root}`") from None
+            raise NoDaemon(f"no daemon runs at {self.root}: start one with `shakend --root {self.root}`") from None
+        except (ConnectionResetError, BrokenPipeError, http.client.IncompleteRead) as error:  # it has ended meanwhile; asking twice does no harm
+            raise NoDaemon(f"the daemon at {self.root} gave no answer: {error}") from None
         except (OSError, ValueError, http.client.HTTPException) as error:
             raise ShakenError(f"the daemon at {self.root} gave no answer: {error}") from None
         finally:
             connection.close()
         if response.status >= 400:
-            problems = [problem.get("message", "") for problem in answer.get("problems", [])]
-            raise ShakenError("\n".join([answer.get("error", f"HTTP {response.status}"), *problems]))
+            problems = [_problem_text(problem) for problem in answer.get("problems", [])]
+            raise ShakenError("\n".join(problems or [answer.get("error", f"HTTP {response.status}")]))
         return answer
 
     def status(self) -> dict[str, Any]:
@@ -78,7 +93,7 @@ class Daemon:
     def submit(self, scene: Mapping[str, Any] | str | Path, *, replicas: int | None = None, name: str | None = None,
                settings: Mapping[str, Any] | None = None, priority: int = 0, **terms: Any) -> str:
         """Queues a scene or a sweep, a dict as docs/scene.md has it, the text of a file or its path, and returns the id
-        of its sweep. Points that are done already are not done again.
+        of its sweep. Points that are done already are not done again. A text without "{" is a path.
 
         settings: keys that are set, or swept by several values: {"rods.length": [2.5, 4.5]}; a value is a text as on
                   the command line, or what JSON can say
@@ -86,10 +101,14 @@ class Daemon:
 
         Raises ShakenError with all problems of the scene; nothing is queued then.
         """
-        if isinstance(scene, Path):
-            scene = scene.read_text()
-        request: dict[str, Any] = {"text": scene if isinstance(scene, str) else json.dumps(scene, default=_plain),
-                                   "priority": priority, **terms}
+        request: dict[str, Any] = {"priority": priority, **terms}
+        if isinstance(scene, Path) or (isinstance(scene, str) and "{" not in scene):
+            request["file"] = str(scene)
+            try:
+                scene = Path(scene).read_text()
+            except (OSError, ValueError) as error:
+                raise ShakenError(f"{scene} is no text of a scene, and no file of one: {error}") from None
+        request["text"] = scene if isinstance(scene, str) else json.dumps(scene, default=_plain)
         if settings:
             request["settings"] = [f"{path}={_setting(value)}" for path, value in settings.items()]
         for key, value in (("replicas", replicas), ("name", name)):
@@ -99,7 +118,8 @@ class Daemon:
 
     def wait(self, sweep: str, *, timeout: float | str | None = None,
              progress: Callable[[dict[str, Any]], None] | bool = True, every: float = 1.0) -> dict[str, int]:
-        """Waits until all jobs of a sweep have ended, and returns how many are in which state.
+        """Waits until all jobs of a sweep have ended, as `shaken wait` does, and returns how many are in which state.
+        What is held has not ended. A daemon that is restarted meanwhile is waited for.
 
         timeout:  [s] or "10 min"; raises ShakenError when it is over
         progress: True prints a line with the time left where stderr is a terminal; a function gets the SWEEP of
@@ -107,8 +127,10 @@ class Daemon:
         """
         end = None if timeout is None else time.monotonic() + seconds(timeout)
         show = progress if callable(progress) else (_print_progress if progress and sys.stderr.isatty() else None)
+        daemon = self
         while True:
-            found = self.ask("GET", "/v1/sweeps/" + urllib.parse.quote(sweep, safe=""))["sweep"]
+            found = daemon.ask("GET", "/v1/sweeps/" + urllib.parse.quote(sweep, safe=""))["sweep"]
+            daemon = Daemon(self.root, max(self.patience, _MAY_BE_AWAY))  # it has been there
             if show:
                 show(found)
             counts = {state: n for state, n in found["counts"].items() if n}
@@ -123,6 +145,12 @@ class Daemon:
         is_job = re.fullmatch("[0-9a-f]{4,16}", sweep_or_job) and sweep_or_job not in {s["name"] for s in self.sweeps()}
         kind = "jobs" if is_job else "sweeps"
         return self.ask("POST", f"/v1/{kind}/{urllib.parse.quote(sweep_or_job, safe='')}/cancel")["cancelled"]
+
+
+def _problem_text(problem: Mapping[str, Any]) -> str:
+    """"scene.json:3:5: /rods/lenght: unknown key; did you mean rods.length?"."""
+    place = f":{problem['line']}:{problem['column']}" if problem.get("line") else ""
+    return ": ".join(filter(None, (f"{problem.get('file', '')}{place}", problem.get("path"), problem.get("message"))))
 
 
 def _plain(value: Any) -> Any:
