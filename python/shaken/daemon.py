@@ -14,7 +14,7 @@ from typing import Any, Callable, Mapping
 
 from .errors import NoDaemon, ShakenError
 from .root import root_folder
-from .times import seconds
+from .quantities import seconds
 
 #: Wall time for which `wait` waits for a daemon that is away, as while it is restarted [s]; `shaken wait` as long.
 _MAY_BE_AWAY = 10.0
@@ -63,7 +63,8 @@ class Daemon:
             answer = json.loads(response.read())
         except (FileNotFoundError, ConnectionRefusedError):
             raise NoDaemon(f"no daemon runs at {self.root}: start one with `shakend --root {self.root}`") from None
-        except (ConnectionResetError, BrokenPipeError, http.client.IncompleteRead) as error:  # it has ended meanwhile; asking twice does no harm
+        except (ConnectionResetError, BrokenPipeError, http.client.IncompleteRead) as error:
+            # it has ended meanwhile; whatever can be asked may be asked twice
             raise NoDaemon(f"the daemon at {self.root} gave no answer: {error}") from None
         except (OSError, ValueError, http.client.HTTPException) as error:
             raise ShakenError(f"the daemon at {self.root} gave no answer: {error}") from None

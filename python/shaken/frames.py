@@ -10,7 +10,7 @@ import numpy as np
 
 from .errors import ShakenError
 from .hdf5 import open_file
-from .times import seconds
+from .quantities import seconds
 
 
 @dataclass(frozen=True)
@@ -129,7 +129,7 @@ class Trajectory:
             yield from (self[k] for k in range(len(self)))
             return
         step = seconds(every)
-        if step <= 0:
+        if not step > 0:
             raise ShakenError(f"`every` must be above 0, not {every}")
         due = self.times[0] if len(self) else 0.0
         for k, time in enumerate(self.times):

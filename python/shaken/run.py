@@ -2,15 +2,17 @@
 """A run that has been done: its scene, its numbers with their errors, its curves, and its recorded frames."""
 from __future__ import annotations
 
+import difflib
 import functools
 import json
 import math
+import re
 from pathlib import Path
 from typing import Any, Iterator, Mapping
 
 import numpy as np
 
-from .errors import ShakenError
+from .errors import ShakenError, UnknownName
 from .estimate import NAN, Estimate
 from .frames import Frame, Trajectory
 from .hdf5 import h5py_module, open_file
@@ -43,14 +45,16 @@ _MAPS = {
                           ("v_across", "_mm_s"), ("tilt_squared", ""))},
     "/density/mean_area_fraction": _CELLS, "/density/area_fraction": ("/density/time_s", *_CELLS),
 }
+_SPECIES = re.compile("rods_[0-9]+")
 _TABLE = "/van_hove/displacement_mm"  # a row for each lag
 
 
 class Array(np.ndarray):
-    """Numbers of an observable: a numpy array that knows what it is.
+    """Numbers of an observable: a numpy array that knows what it is, and so do its slices, copies and pickles. What is
+    computed from it is an Array whose unit is not known, or a number.
 
-    name:   its path in observables.h5, "/msd/total_mm2"
-    unit:   "mm2"; "1" for a plain number
+    name:   its path in observables.h5, "/msd/total_mm2"; "" of what was computed
+    unit:   "mm2"; "1" for a plain number; None where it is not known
     axis:   the Array that it is measured at (lags, distances, times); None where it has none; a pair (of the rows, of
             the columns) for what has two dimensions: (across, along) of the maps of `pairs` and `defect_maps`,
             (q, lag) of F_s(q, t), (lag, displacement) of the van Hove function, whose displacements are a row for each
@@ -59,19 +63,53 @@ class Array(np.ndarray):
     """
 
     name: str
-    unit: str
+    unit: str | None
     axis: "Array | tuple[Array, ...] | None"
     error: "Array | None"
 
     def __new__(cls, values: Any, name: str = "", unit: str | None = None) -> "Array":
         array = np.asarray(values, dtype=float).view(cls)
-        array.name, array.unit = name, unit_of(name) if unit is None else unit
-        array.axis = array.error = None
+        array.name, array.unit = name, unit_of(name) if unit is None and name else unit
         return array
 
     def __array_finalize__(self, other: Any) -> None:
-        for attribute, default in (("name", ""), ("unit", "1"), ("axis", None), ("error", None)):
-            setattr(self, attribute, default)
+        is_view = isinstance(other, Array) and self.base is not None and (self.base is other or self.base is other.base)
+        self.name, self.unit = (other.name, other.unit) if is_view else ("", None)
+        self.axis = self.error = None  # a view may be turned, or a part: __getitem__ and copy know
+
+    def __array_wrap__(self, values: Any, context: Any = None) -> Any:
+        made = np.asarray(values)
+        return made.view(Array) if made.ndim else made[()]
+
+    def __getitem__(self, key: Any) -> Any:
+        found = super().__getitem__(key)
+        if isinstance(found, Array):
+            found.name, found.unit = self.name, self.unit
+            found.error = None if self.error is None else self.error[key]
+            has_place = isinstance(self.axis, Array) and self.axis.shape == self.shape
+            found.axis = self.axis[key] if has_place else self.axis if key is Ellipsis else None
+        return found
+
+    def copy(self, order: Any = "C") -> "Array":
+        made = super().copy(order)
+        made.name, made.unit, made.axis, made.error = self.name, self.unit, self.axis, self.error
+        return made
+
+    def __deepcopy__(self, memo: Any) -> "Array":
+        return self.copy()
+
+    def sort(self, *arguments: Any, **options: Any) -> None:
+        super().sort(*arguments, **options)
+        self.axis = self.error = None
+
+    def __reduce__(self) -> Any:
+        return _array_of, (np.asarray(self), self.name, self.unit, self.axis, self.error)
+
+
+def _array_of(values: np.ndarray, name: str, unit: str | None, axis: Any, error: Any) -> Array:
+    array = Array(values, name, unit)
+    array.axis, array.error = axis, error
+    return array
 
 
 def error_name(name: str) -> str:
@@ -92,7 +130,7 @@ class Arrays(Mapping[str, Array]):
     def __getitem__(self, name: str) -> Array:
         path = name if name.startswith("/") else "/" + name
         if path not in self._names:
-            raise KeyError(f"{path} was not measured; the run has {', '.join(self._names) or 'no arrays'}")
+            raise UnknownName(f"{path} was not measured", path, self._names, "the run has")
         return self._fetch(path)
 
     def _fetch(self, path: str) -> Array:
@@ -137,7 +175,7 @@ class Numbers(Mapping[str, Estimate]):
     def __getitem__(self, name: str) -> Estimate:
         if name in self._numbers:
             return self._numbers[name]
-        raise KeyError(f"'{name}' was not measured; the run has {', '.join(self._numbers) or 'no numbers'}")
+        raise UnknownName(f"'{name}' was not measured", name, self._numbers, "the run has")
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._numbers)
@@ -159,6 +197,14 @@ def numbers_of(summary: Mapping[str, Any]) -> Numbers:
     for name, measured in (summary.get("measured") or {}).items():
         numbers[name] = _estimate(measured, unit_of(name))
     return Numbers(numbers)
+
+
+def version_text(versions: Any) -> str:
+    """"shaken 0.1.0, physics 3" of the member `versions` of a summary; empty where it is not known."""
+    if not isinstance(versions, dict):
+        return ""
+    words = [f"{what} {versions[what]}" for what in ("shaken", "physics") if versions.get(what) is not None]
+    return ", ".join(words)
 
 
 def _float(value: Any) -> float:
@@ -200,14 +246,18 @@ class Run:
 
     def key(self, path: str) -> Any:
         """A key of the scene, "rods.length", in its default unit: as it was asked for if it was swept, else as
-        resolved. None where the scene does not have it."""
+        resolved. None where the scene does not say it. Raises UnknownName for a name that is nearly one of its keys."""
         if path in self.parameters:
             value = self.parameters[path]
             if not isinstance(value, str):
                 return value
         value = self.scene
         for part in path.split("."):
-            if not isinstance(value, dict) or part not in value:
+            if not isinstance(value, dict):
+                return None
+            if part not in value:
+                if not _SPECIES.fullmatch(part) and difflib.get_close_matches(part, value, 1, 0.8):
+                    raise UnknownName(f"the scene has no '{path}'", part, value, "there it has")
                 return None
             value = value[part]
         return value

@@ -8,9 +8,11 @@ from pathlib import Path
 from typing import Any, Iterable, Iterator, Mapping, Sequence
 
 from .daemon import Daemon
-from .errors import ShakenError
+from .errors import ShakenError, UnknownName
 from .estimate import Estimate, replica_mean
-from .run import DirectoryRun, Run
+from .plots import names
+from .quantities import UNITS, number_of, unit_in
+from .run import DirectoryRun, Run, version_text
 
 
 class Point:
@@ -31,15 +33,20 @@ class Point:
         return list(dict.fromkeys(name for run in self.runs for name in run.numbers))
 
     def __getitem__(self, name: str) -> Estimate:
-        """A number, the mean over the replicas (`replica_mean`); a KeyError where no run has it."""
+        """A number, the mean over the replicas (`replica_mean`). Raises UnknownName where no run has it."""
         found = [run.numbers[name] for run in self.runs if name in run.numbers]
         if not found:
-            raise KeyError(f"'{name}' was not measured at {self.label or 'this point'}")
+            raise UnknownName(f"'{name}' was not measured at {self.label or 'this point'}", name, self.names())
         return replica_mean(found)
+
+    @property
+    def version(self) -> str:
+        """What computed its runs, "shaken 0.1.0, physics 3"; "" where that is not known, or none is done."""
+        return version_text(self.runs[0].summary.get("versions")) if self.runs else ""
 
     def key(self, path: str) -> Any:
         """A key of the scene, "rods.length", as it was asked for if it was swept; None where the runs do not have it or
-        differ in it."""
+        differ in it. Raises UnknownName for what looks like a slip of the pen (Run.key)."""
         if path in self.parameters:
             return self.parameters[path]
         values = {json.dumps(run.key(path)) for run in self.runs}
@@ -70,8 +77,11 @@ class Sweep:
     def __len__(self) -> int:
         return len(self.points)
 
-    def __getitem__(self, k: int) -> Point:
-        return self.points[k]
+    def __getitem__(self, k: "int | slice | str") -> Any:
+        """Point k; of a slice a Sweep; of a name its column."""
+        if isinstance(k, str):
+            return self.column(k)
+        return Sweep(self.points[k], self.name) if isinstance(k, slice) else self.points[k]
 
     @property
     def parameters(self) -> list[str]:
@@ -84,26 +94,53 @@ class Sweep:
 
     def where(self, **conditions: Any) -> "Sweep":
         """The points whose keys have these values: `sweep.where(**{"rods.length": 4.5})`, or with a part of the name
-        that fits one swept key, `sweep.where(length=4.5)`."""
-        paths = {self._path(word): value for word, value in conditions.items()}
-        return Sweep([point for point in self.points
-                      if all(_equal(point.key(path), value) for path, value in paths.items())], self.name)
+        that fits one swept key, `sweep.where(length="4.5 mm")`; `version` is that of Point. Raises ShakenError for a
+        key that no point has and for a value that none has, with those that there are."""
+        found = self.points
+        for word, wanted in conditions.items():
+            path = word if word == "version" else self._path(word)
+            unit, own = unit_in(wanted), names.TABLE.get(path, ("", "", ""))[2]
+            if unit and own in UNITS and UNITS[own][0] != UNITS[unit][0]:
+                raise ShakenError(f"'{wanted}' is a {UNITS[unit][0]}, and {path} is in {own}")
+            values = [point.version if word == "version" else point.key(path) for point in found]
+            left = [point for point, value in zip(found, values) if _equal(value, wanted)]
+            if found and not left:
+                there = ", ".join(dict.fromkeys(map(str, values)))
+                raise ShakenError(f"no point has {path} = {wanted}; there are {there}")
+            found = left
+        return Sweep(found, self.name)
+
+    def _swept(self) -> list[str]:
+        return list(dict.fromkeys(path for point in self.points for path in point.parameters))
 
     def _path(self, word: str) -> str:
-        if "." in word:
+        """The key that a word stands for."""
+        swept = self._swept()
+        if word in swept:
             return word
-        known = list(dict.fromkeys(path for point in self.points for path in point.parameters))
-        found = [path for path in known if path.rpartition(".")[2] == word]
-        if len(found) != 1:
-            how = "fits several of" if found else "is none of"
-            raise ShakenError(f"'{word}' {how} {', '.join(known) or 'no keys'}")
-        return found[0]
+        found = [path for path in swept if path.rpartition(".")[2] == word]
+        if len(found) == 1:
+            return found[0]
+        if found:
+            raise ShakenError(f"'{word}' fits several of {', '.join(found)}")
+        if "." not in word or all(point.key(word) is None for point in self.points):
+            raise UnknownName(f"'{word}' is no key of these points", word, swept, "swept are")
+        return word
 
     def column(self, name: str) -> list[Any]:
-        """A number (Estimate) or a key of the scene at each point; an Estimate without a value where it is missing."""
-        if "." in name:
-            return [point.key(name) for point in self.points]
-        return [point[name] if name in point.names() else Estimate(reason="not measured") for point in self.points]
+        """A number (Estimate) or a key of the scene at each point; an Estimate without a value where it is missing.
+        Raises UnknownName for what no point has."""
+        measured = list(dict.fromkeys(known for point in self.points for known in point.names()))
+        if name in measured:
+            return [point[name] if name in point.names() else Estimate(reason="not measured") for point in self.points]
+        try:
+            path = self._path(name)
+        except UnknownName:
+            if "." not in name and not measured:
+                return [Estimate(reason="no run is done") for _ in self.points]
+            raise UnknownName(f"'{name}' was measured at no point and is no key of theirs", name,
+                              [*measured, *self._swept()]) from None
+        return [point.key(path) for point in self.points]
 
     def to_frame(self) -> Any:
         """A pandas DataFrame: a row for each point; the swept keys, then for each number NAME, NAME:error, NAME:steady.
@@ -112,11 +149,13 @@ class Sweep:
 
     def records(self) -> list[dict[str, Any]]:
         """The same as a list of dicts, for which pandas is not needed."""
-        names = list(dict.fromkeys(name for point in self.points for name in point.names()))
+        measured = list(dict.fromkeys(name for point in self.points for name in point.names()))
+        several = len({point.version for point in self.points if point.runs}) > 1
         records = []
         for point in self.points:
-            record: dict[str, Any] = {**point.parameters, "n_done": len(point.runs), "n_replicas": point.n_replicas}
-            for name in names:
+            record: dict[str, Any] = {**point.parameters, **({"version": point.version} if several else {}),
+                                      "n_done": len(point.runs), "n_replicas": point.n_replicas}
+            for name in measured:
                 if name not in point.names():
                     continue
                 estimate = point[name]
@@ -126,21 +165,53 @@ class Sweep:
         return records
 
     def pivot(self, rows: str, columns: str, name: str = "S") -> Any:
-        """A DataFrame of a number, with the values of one swept key down and of another across."""
-        frame = _pandas().DataFrame([{rows: point.key(self._path(rows)), columns: point.key(self._path(columns)),
-                                      name: point[name].value} for point in self.points if name in point.names()])
-        return frame.pivot_table(index=rows, columns=columns, values=name)
+        """A DataFrame of a number, with the values of one key down and of another across. Raises ShakenError where a
+        cell would have several points, of a third key or of several versions: nothing is averaged over them; `where`
+        chooses."""
+        down, across = self._path(rows), self._path(columns)
+        cells: dict[str, Point] = {}
+        for point, value in zip(self.points, self.column(name)):
+            if not value.is_known:
+                continue
+            other = cells.setdefault(json.dumps([point.key(down), point.key(across)]), point)
+            if other is not point:
+                raise ShakenError(f"{rows} = {point.key(down)}, {columns} = {point.key(across)} has several points, "
+                                  f"which differ in {self._differing(other, point)}: choose one, as in "
+                                  f"sweep.where(...).pivot(...)")
+        frame = _pandas().DataFrame([{rows: point.key(down), columns: point.key(across), name: point[name].value}
+                                     for point in cells.values()], columns=[rows, columns, name])
+        return frame.pivot(index=rows, columns=columns, values=name)
+
+    def _differing(self, a: Point, b: Point) -> str:
+        """The keys in which two points differ, with all values that there are."""
+        found = [(path, [str(point.key(path)) for point in self.points]) for path in self.parameters
+                 if not _equal(a.key(path), b.key(path))]
+        if a.version != b.version:
+            found.append(("version", [point.version for point in self.points]))
+        return " and ".join(f"{path} ({', '.join(dict.fromkeys(values))})" for path, values in found) or "nothing"
 
     def compared(self, other: "Sweep", name: str = "S") -> list[tuple[dict[str, Any], Estimate, Estimate, float]]:
-        """The points that both sweeps have: (parameters, this, other, difference in standard errors)."""
-        theirs = {json.dumps(point.parameters, sort_keys=True): point for point in other}
+        """The points that both sweeps have: (parameters, this, other, difference in standard errors). Raises
+        ShakenError where one of them has a point of several versions; `where(version=...)` chooses."""
+        for sweep in (self, other):
+            sweep.column(name)
+        ours, theirs = self._by_parameters(), other._by_parameters()
         found = []
-        for point in self.points:
-            twin = theirs.get(json.dumps(point.parameters, sort_keys=True))
+        for key, point in ours.items():
+            twin = theirs.get(key)
             if twin is None or name not in point.names() or name not in twin.names():
                 continue
             a, b = point[name], twin[name]
             found.append((point.parameters, a, b, (b.value - a.value) / (a.error**2 + b.error**2) ** 0.5))
+        return found
+
+    def _by_parameters(self) -> dict[str, Point]:
+        found: dict[str, Point] = {}
+        for point in self.points:
+            other = found.setdefault(json.dumps(point.parameters, sort_keys=True), point)
+            if other is not point:
+                raise ShakenError(f"{point.label} was computed by several versions, which differ in "
+                                  f"{self._differing(other, point)}: choose one, as in sweep.where(version=...)")
         return found
 
     def __repr__(self) -> str:
@@ -156,6 +227,7 @@ def _pandas() -> Any:
 
 
 def _equal(a: Any, b: Any) -> bool:
+    a, b = number_of(a), number_of(b)
     if isinstance(a, (int, float)) and isinstance(b, (int, float)):
         return abs(a - b) <= 1e-9 * max(abs(a), abs(b), 1e-300)
     return bool(a == b)

@@ -103,6 +103,10 @@ class Programs:
                 time.sleep(0.05)
         raise AssertionError("the daemon did not answer within a minute")
 
+    def kill(self):
+        self._daemon.kill()
+        self._daemon.wait(60)
+
     def stop(self):
         if self._daemon:
             self._daemon.terminate()

@@ -1,11 +1,16 @@
 # SPDX-License-Identifier: MIT
+import copy
 import json
+import pickle
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import shaken
 from conftest import made_up_run
+from shaken import quantities
 from shaken.run import error_name
 from shaken.units import split_species, unit_of
 
@@ -48,6 +53,36 @@ def test_arrays_know_axis_error_and_unit(run_at):
     assert g.shape == (3, 3) and g[1, 2] == 5 and list(g.axis[1]) == [-2, 0, 2]
     with pytest.raises(KeyError, match="was not measured"):
         run["/msd/along_mm2"]
+
+
+def test_parts_and_copies_of_arrays_know_what_they_are(run_at):
+    msd = run_at("a", arrays=CURVES)["/msd/total_mm2"]
+    for made, x, error in ((msd[1:], [2, 4], [1, 2]), (msd[::-1], [4, 2, 1], [2, 1, 1]), (msd[msd > 4], [2, 4], [1, 2]),
+                           (msd.copy(), [1, 2, 4], [1, 1, 2]), (copy.deepcopy(msd), [1, 2, 4], [1, 1, 2]),
+                           (pickle.loads(pickle.dumps(msd)), [1, 2, 4], [1, 1, 2])):
+        assert (made.name, made.unit) == ("/msd/total_mm2", "mm2") and list(made.error) == error
+        assert list(made.axis) == x and made.axis.unit == "s"
+    assert msd.reshape(3, 1).unit == "mm2" and msd.reshape(3, 1).axis is None
+    for made in (msd * 2, msd / msd.axis, np.sqrt(msd), msd.cumsum(), np.diff(msd)):
+        assert (made.name, made.unit, made.axis, made.error) == ("", None, None, None)
+    for reduced in (msd.mean(), msd.sum(), np.max(msd), np.median(msd), msd[0]):
+        assert type(reduced) is np.float64
+    msd.sort()
+    assert msd.axis is None, "in another order"
+    assert shaken.Array([1, 2]).unit is None and shaken.Array([1, 2], "/g2/g2").unit == "1"
+
+
+def test_units_are_those_of_the_programs():
+    source = (Path(__file__).resolve().parents[2] / "base/keys/units.cpp").read_text()
+    rows = re.findall(r'\{"([^"]+)", Dimension::k(\w+), (\d+), (-?\d+), (?:true|false)\}', source)
+    of_programs = {name.encode().decode("unicode_escape"): (of.lower(), int(factor) * 10.0 ** int(power))
+                   for name, of, factor, power in rows}
+    assert len(rows) > 20 and quantities.UNITS == of_programs
+    assert quantities.seconds("1.5 min") == 90 and quantities.number_of("20ms") == pytest.approx(0.02)
+    assert quantities.number_of("high") == "high" and quantities.number_of("3 apples") == "3 apples"
+    for text in ("x", "3 mm", "", "1.2.3 s"):
+        with pytest.raises(shaken.ShakenError, match="is no time"):
+            quantities.seconds(text)
 
 
 @pytest.mark.parametrize("name, parts", [("/rods_2/msd/lag_s", ("rods_2", "/msd/lag_s")),
@@ -111,6 +146,9 @@ def test_frames_come_lazily_and_at_multiples(run_at, tmp_path):
     assert frames[3].order == pytest.approx(abs(np.exp(2j * theta[3]).mean()), abs=1e-6)
     assert [frame.time for frame in run.frames(every="1 s")] == [0, 1, 2, 3, 4]
     assert [frame.time for frame in run.frames(every=0.75)] == [0, 1, 1.5, 2.5, 3, 4]
+    for every in (0, -1, float("nan")):
+        with pytest.raises(shaken.ShakenError, match="must be above 0"):
+            next(run.frames(every=every))
     box, points, orientations = frames[0].to_freud()
     assert points.dtype == np.float32 and points[:, 2].max() == 0 and abs(points[:, :2]).max() <= 10
     turned = 2 * np.arctan2(orientations[:, 3], orientations[:, 0])

@@ -155,8 +155,8 @@ class DaemonOfAFailure:
     def jobs(self, sweep):
         states = ["failed", "held", "cancelled", "held", "held", "failed"]
         before = [None, self.points[0].id, None, self.points[2].id, self.points[3].id, None]
-        return [{"id": point.id, "state": state, "ended": state != "held", "label": "", "starts_from": start, "wall_s": 0,
-                 "reason": "lost"}
+        return [{"id": point.id, "state": state, "ended": state != "held", "label": "", "starts_from": start,
+                 "wall_s": 0, "reason": "lost"}
                 for point, state, start in zip(self.points, states, before)]
 
 

@@ -9,7 +9,7 @@ from typing import Any, Iterator, Mapping, Sequence
 
 import numpy as np
 
-from ..run import error_name
+from ..run import error_name, version_text
 from . import maps, names
 from .series import VERSION, Arrangement, label_of, mean_curve
 from .sheet import Sheet
@@ -152,14 +152,6 @@ def read_run(directory: str | Path, parameters: Mapping[str, Any], state: str = 
     steady = summary.get("steady")
     return PlottedRun(parameters, arrays, steady if isinstance(steady, bool) else None,
                       version_text(summary.get("versions")), str(summary.get("run_id") or ""))
-
-
-def version_text(versions: Any) -> str:
-    """"shaken 0.1.0, physics 3" of the member `versions` of a summary; empty where it is not known."""
-    if not isinstance(versions, dict):
-        return ""
-    words = [f"{what} {versions[what]}" for what in ("shaken", "physics") if versions.get(what) is not None]
-    return ", ".join(words)
 
 
 def name_points(runs: Sequence[PlottedRun]) -> None:

@@ -14,7 +14,7 @@ from ..archive import archived_runs
 from ..daemon import Daemon
 from ..errors import ShakenError
 from ..plots.style import inches
-from ..times import seconds
+from ..quantities import seconds
 from . import running
 from .figures import FIGURES, Figure, chosen, draw
 from .evidence import Evidence

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: MIT
+"""Quantities as scenes and command lines have them: "0.1 s", "20 ms", "2.5mm"."""
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from .errors import ShakenError
+
+#: Unit -> (what it measures, how many of the default unit, which comes first, it is): those of base/keys/units.cpp.
+UNITS: dict[str, tuple[str, float]] = {
+    "mm": ("length", 1.0), "m": ("length", 1e3), "cm": ("length", 10.0), "um": ("length", 1e-3),
+    "\u00b5m": ("length", 1e-3), "\u03bcm": ("length", 1e-3),
+    "s": ("time", 1.0), "h": ("time", 3600.0), "min": ("time", 60.0), "ms": ("time", 1e-3), "us": ("time", 1e-6),
+    "\u00b5s": ("time", 1e-6), "\u03bcs": ("time", 1e-6), "ns": ("time", 1e-9),
+    "Hz": ("frequency", 1.0), "kHz": ("frequency", 1e3),
+    "mm/s^2": ("acceleration", 1.0), "m/s^2": ("acceleration", 1e3), "cm/s^2": ("acceleration", 10.0),
+    "mg/mm^3": ("density", 1.0), "g/cm^3": ("density", 1.0), "kg/m^3": ("density", 1e-3)}
+#: Times of people and of their computers, too.
+_SECONDS = {**{unit: factor for unit, (of, factor) in UNITS.items() if of == "time"}, "d": 86400.0}
+_QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S*)\s*")
+
+
+def unit_in(value: Any) -> str:
+    """The unit in a text of a quantity; "" where there is none."""
+    match = _QUANTITY.fullmatch(value) if isinstance(value, str) else None
+    return match[2] if match and match[2] in UNITS else ""
+
+
+def number_of(value: Any) -> Any:
+    """A number, or a text of one with or without a unit, as a number in the default unit; all else as it is."""
+    if not isinstance(value, str):
+        return value
+    match = _QUANTITY.fullmatch(value)
+    if not match or (match[2] and match[2] not in UNITS):
+        return value
+    return float(match[1]) * (UNITS[match[2]][1] if match[2] else 1.0)
+
+
+def seconds(time: float | str) -> float:
+    """A time [s] given as a number of seconds, or as a text with its unit (us, ms, s, min, h, d)."""
+    if not isinstance(time, str):
+        return float(time)
+    match = _QUANTITY.fullmatch(time)
+    if not match or (match[2] and match[2] not in _SECONDS):
+        raise ShakenError(f"'{time}' is no time: write a number and a unit, as in \"0.1 s\" (us, ms, s, min, h, d)")
+    return float(match[1]) * _SECONDS[match[2] or "s"]
