@@ -21,11 +21,13 @@ class Frame:
     tick:       time over the time step
     positions:  (n, 3) centres of mass [mm]; x and y are wrapped into the box, z is the height above the lowest position
                 of the base
-    directors:  (n, 3) unit vectors along the rods, from tail to head
+    directors:  (n, 3) unit vectors along the rods, from tail to head; those of spheres mean nothing
     velocities: (n, 3) [mm/s]
     images:     (n, 3) crossings of the border of the box: positions + box * images is a path without jumps
     species:    (n,) 0 for `rods`, 1 and 2 for `rods_2` and `rods_3` as far as the scene has them
     box:        (3,) sides of the box along x and y [mm], and the gap between the plates
+    spheres:    the species that are spheres, which have no axis
+    periodic:   whether the box is, along x and y: not where side walls stand
     """
 
     time: float
@@ -36,6 +38,8 @@ class Frame:
     images: np.ndarray
     species: np.ndarray
     box: np.ndarray
+    spheres: tuple[int, ...] = ()
+    periodic: tuple[bool, bool] = (True, True)
 
     @property
     def theta(self) -> np.ndarray:
@@ -43,19 +47,26 @@ class Frame:
         return np.arctan2(self.directors[:, 1], self.directors[:, 0])
 
     @property
+    def _mean_axis(self) -> complex:
+        """<exp 2i theta> of the first species; NaN of spheres."""
+        return complex("nan") if 0 in self.spheres else np.exp(2j * self.theta[self.species == 0]).mean()
+
+    @property
     def order(self) -> float:
-        """S = |<exp 2i theta>| of the first species, in the plane."""
-        return float(abs(np.exp(2j * self.theta[self.species == 0]).mean()))
+        """S = |<exp 2i theta>| of the first species, in the plane; NaN of spheres."""
+        return float(abs(self._mean_axis))
 
     @property
     def director_angle(self) -> float:
-        """The angle of the nematic director [rad], in (-pi/2, pi/2]: the mean axis of the first species."""
-        return float(np.angle(np.exp(2j * self.theta[self.species == 0]).mean()) / 2)
+        """The angle of the nematic director [rad], in (-pi/2, pi/2]: the mean axis of the first species; NaN of
+        spheres."""
+        return float(np.angle(self._mean_axis) / 2)
 
     def to_freud(self) -> tuple[Any, np.ndarray, np.ndarray]:
         """What freud takes: (box, points, orientations).
 
-        box:          freud.box.Box of the plane, Lx x Ly, periodic; a tuple (Lx, Ly) where freud is not installed
+        box:          freud.box.Box of the plane, Lx x Ly, periodic where no side walls stand; a tuple (Lx, Ly) where
+                      freud is not installed
         points:       (n, 3) float32, counted from the middle of the box, with z = 0, as freud has them in the plane
         orientations: (n, 4) float32 unit quaternions (w, x, y, z) that turn the x axis into the rod's direction in the
                       plane, as freud's two-dimensional computations have them
@@ -69,6 +80,7 @@ class Frame:
         try:
             import freud
             box = freud.box.Box.from_box([float(self.box[0]), float(self.box[1])])
+            box.periodic = [*self.periodic, False]
         except ImportError:
             box = (float(self.box[0]), float(self.box[1]))
         return box, points, orientations
@@ -97,18 +109,28 @@ class Trajectory:
             raise ShakenError(f"{self.path}: {error}") from None
         n = self._rods["position/value"].shape[1]
         self.species = np.asarray(self._rods["species"][()]) if "species" in self._rods else np.zeros(n, np.uint8)
+        beads, of_shape = self._beads(), self._parameters.get("species_of_shape", range(3))
+        self._spheres = tuple(sorted({int(of) for of, (offset, _) in zip(of_shape, beads) if len(offset) == 1}))
+        arena = self._parameters["walls"].attrs["arena"] if "walls" in self._parameters else None
+        arena = arena.decode() if isinstance(arena, bytes) else arena
+        self._periodic = (arena in (None, "channel"), arena is None)  # a channel's walls are along x
+
+    @property
+    def _parameters(self) -> Any:
+        return self._file["parameters"]
+
+    def _beads(self) -> list[tuple[np.ndarray, np.ndarray]]:
+        """Offsets and radii of the beads of each species [mm]; of each shape where rods of one differ in size."""
+        name, groups = "shape" if "shape" in self._rods else "species", [self._parameters]
+        while f"{name}_{len(groups) + 1}" in self._parameters:
+            groups.append(self._parameters[f"{name}_{len(groups) + 1}"])
+        return [(group["bead_offset_mm"][()], group["bead_radius_mm"][()]) for group in groups]
 
     @property
     def lengths(self) -> np.ndarray:
         """(n,) of the rods, tip to tip [mm]."""
-        # rods of one species that differ in size have shapes (docs/files.md)
-        name = "shape" if "shape" in self._rods else "species"
-        groups, parameters = [self._file["parameters"]], self._file["parameters"]
-        while f"{name}_{len(groups) + 1}" in parameters:
-            groups.append(parameters[f"{name}_{len(groups) + 1}"])
-        beads = [(group["bead_offset_mm"][()], group["bead_radius_mm"][()]) for group in groups]
-        lengths = np.array([(offset + radius).max() - (offset - radius).min() for offset, radius in beads])
-        return lengths[self._rods["shape"][()] if name == "shape" else self.species]
+        lengths = np.array([(offset + radius).max() - (offset - radius).min() for offset, radius in self._beads()])
+        return lengths[self._rods["shape"][()] if "shape" in self._rods else self.species]
 
     def __len__(self) -> int:
         return len(self.times)
@@ -121,7 +143,8 @@ class Trajectory:
         rods = self._rods
         return Frame(float(self.times[k]), int(rods["position/step"][k]), rods["position/value"][k].astype(float),
                      directors_of(rods["orientation/value"][k]), rods["velocity/value"][k].astype(float),
-                     rods["image/value"][k], self.species, rods["box/edges/value"][k].diagonal().copy())
+                     rods["image/value"][k], self.species, rods["box/edges/value"][k].diagonal().copy(),
+                     self._spheres, self._periodic)
 
     def frames(self, every: float | str | None = None) -> Iterator[Frame]:
         """The frames one by one. With `every` [s], those nearest to its multiples, each once."""
@@ -146,7 +169,8 @@ class Trajectory:
         MDAnalysis.units.conversion_factor["speed"]["mm/s"] = 1e5  # mm/s per Angstrom/ps
         H5MDReader._unit_translation["length"]["mm"] = "mm"
         H5MDReader._unit_translation["velocity"]["mm s-1"] = "mm/s"
-        reader = H5MDReader(str(self.path))
+        step = {"dt": float(np.diff(self.times[:2])[0]) * 1e12} if len(self) > 1 else {}  # [ps]
+        reader = H5MDReader(str(self.path), **step)
         universe = MDAnalysis.Universe.empty(reader.n_atoms, trajectory=True, velocities=True)
         universe.trajectory = reader
         return universe

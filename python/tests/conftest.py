@@ -68,6 +68,8 @@ def _write_frames(path, n_frames, aspect, n_rods=50, side=20.0):
         rods["orientation/value"] = quaternion.astype("f4")
         rods["velocity/value"] = rng.normal(0, 20, (n_frames, n_rods, 3)).astype("f4")
         rods["image/value"] = np.zeros((n_frames, n_rods, 3), dtype="i4")
+        file["parameters/bead_offset_mm"] = np.linspace(-2, 2, 5)
+        file["parameters/bead_radius_mm"] = np.full(5, 0.25)
         rods["box/edges/value"] = np.tile(np.diag([side, side * aspect, 1.2]), (n_frames, 1, 1))
     np.save(path.with_suffix(".npy"), theta)
 

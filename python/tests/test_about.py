@@ -2,6 +2,8 @@
 """Averages in the frame of a tagged rod."""
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from shaken import Frame, ShakenError, field_about
@@ -73,3 +75,19 @@ def test_what_cannot_be_seen_is_refused() -> None:
         field_about([one, one])
     with pytest.raises(ShakenError, match="half the box"):
         field_about([one, one], tagged=0, reach=16)
+
+
+def test_nothing_is_seen_through_walls_or_by_spheres() -> None:
+    path, theta, species = np.array([[1.0, 20.0], [29.0, 20.0]]), np.zeros(2), np.array([1, 0])
+    pair = [frame(time, path, theta, species) for time in (0.0, 0.1)]
+    assert field_about(pair, reach=4).density.sum() > 0
+    walled = [replace(one, periodic=(False, False)) for one in pair]
+    assert field_about(walled, reach=4).density.sum() == 0, "the other stands at the far wall"
+    assert field_about(walled, reach=29).density.sum() > 0
+    with pytest.raises(ShakenError, match="species 1 are spheres"):
+        field_about([replace(one, spheres=(1,)) for one in pair], reach=4)
+    around = field_about([replace(one, spheres=(0,)) for one in pair], reach=4)
+    assert around.density.sum() > 0 and np.all(np.isnan(around.order))
+    for wrong in ({"tagged": 2}, {"around": 2}):
+        with pytest.raises(ShakenError, match="no rod is of species 2; there are {0, 1}"):
+            field_about(pair, reach=4, **wrong)

@@ -26,6 +26,13 @@ def test_replicas_without_own_errors_have_one_by_student():
     assert replica_mean([Estimate(1.0)]).error != replica_mean([Estimate(1.0)]).error  # NaN: one run has none
 
 
+def test_the_drift_of_a_mean_is_that_of_independent_runs():
+    found = replica_mean([Estimate(1.0, 0.1, True, drift=0.4, drift_error=0.3),
+                          Estimate(1.0, 0.1, True, drift=-0.2, drift_error=0.4)])
+    assert found.drift == pytest.approx(0.1) and found.drift_error == pytest.approx(0.25)
+    assert math.isnan(replica_mean([Estimate(1.0, drift=0.4, drift_error=0.3), Estimate(1.0)]).drift)
+
+
 def test_replicas_are_as_steady_as_the_least():
     steady, unknown, relaxing = (Estimate(1.0, 0.1, word) for word in (True, None, False))
     assert replica_mean([steady, steady]).steady is True

@@ -93,7 +93,8 @@ void write_particles(hid_t file, const TrajectoryHeader& header) {
   const hdf5::Id box = hdf5::create_group(trajectory, "box");
   const int dimension = 3;
   hdf5::write_attribute(box, "dimension", H5T_NATIVE_INT, {}, &dimension);
-  hdf5::write_attribute(box, "boundary", {"periodic", "periodic", "none"});
+  const auto word = [](double period) { return period > 0 ? "periodic" : "none"; };
+  hdf5::write_attribute(box, "boundary", {word(header.cell.period().x()), word(header.cell.period().y()), "none"});
 
   const auto n_rods = static_cast<hsize_t>(header.n_rods);
   const auto write_of_rods = [&](const char* name, const std::vector<std::uint8_t>& values) {
