@@ -86,7 +86,8 @@ if(NOT SHAKEN_ONLY_SIM)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-shaken)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3, python3-numpy, python3-scipy, python3-matplotlib, python3-h5py")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+      "python3, python3-numpy, python3-scipy, python3-matplotlib, python3-h5py, libxxhash0")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-pandas")
   set(CPACK_COMPONENT_PYTHON_DESCRIPTION
     "Results of Shaken in Python: runs with their errors, sweeps, recorded frames, live\nstate of running jobs, plots, and the figures of the paper.")

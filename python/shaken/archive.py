@@ -10,16 +10,18 @@ from __future__ import annotations
 
 import json
 import lzma
+import math
 import os
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Iterable, Iterator
+from typing import Any, Callable, Iterable, Iterator
 
 import numpy as np
 
 from .errors import ShakenError
 from .frames import Frame
 from .run import Arrays, DirectoryRun, Run
+from .whole import write_whole
 
 SUFFIX = ".run.xz"
 #: No file is larger: what figures need least is left out until it fits.
@@ -38,7 +40,7 @@ _TRACE_POINTS = 750  # points of the way of a rod
 
 @dataclass(frozen=True)
 class Snapshot:
-    """The rods of an instant in the plane, as an archive keeps them.
+    """The rods of the first species at an instant, in the plane, as an archive keeps them.
 
     time:      [s]
     positions: (n, 2) centres [mm], to a 65,536th of the box
@@ -61,6 +63,16 @@ class ArchivedRun(Run):
 
     def __init__(self, header: dict[str, Any], data: bytes, where: str) -> None:
         places = {entry["name"]: entry for entry in header["arrays"]}
+        for entry in header["arrays"]:
+            _check_place(entry, 4, data)
+            if entry["name"] in ("/pairs/g", "/pairs/g2") and math.isqrt(entry["n"]) ** 2 != entry["n"]:
+                raise ValueError(f"a map of {entry['n']} places")
+        for entry in header["snapshots"]:
+            _check_place(entry, 4 + (2 if entry["bytes"] == 2 else 1), data)
+            float(entry["time"]) + float(entry["side"]) + float(entry.get("side_y", 0))
+        if not all(isinstance(word, str) for word in header["sweeps"]):
+            raise ValueError("sweeps without names")
+        float(header["summary"]["sim_seconds"])
 
         def read(name: str) -> tuple[np.ndarray, str]:
             entry = places[name]
@@ -84,6 +96,13 @@ class ArchivedRun(Run):
             theta = (angle + 0.5) * (np.pi / (65536 if entry["bytes"] == 2 else 256)) - np.pi / 2
             found.append(Snapshot(entry["time"], place, theta, box))
         return found
+
+
+def _check_place(entry: dict[str, Any], width: int, data: bytes) -> None:
+    """Raises ValueError where the file does not have so many numbers of so many bytes."""
+    n, at = entry["n"], entry["at"]
+    if not (type(n) is int and type(at) is int and 0 <= n and 0 <= at and at + n * width <= len(data)):
+        raise ValueError(f"{n} numbers at {at}, where there are {len(data)} bytes")
 
 
 def folded(map_: np.ndarray) -> np.ndarray:
@@ -248,9 +267,22 @@ def read_archived(path: str | Path) -> ArchivedRun:
         header = json.loads(text)
         if header.get("format") != _FORMAT:
             raise ValueError(f"it is of another format: {header.get('format')}")
-    except (OSError, lzma.LZMAError, ValueError, AttributeError) as error:
-        raise ShakenError(f"{path} is no file of an archive: {error}") from None
-    return ArchivedRun(header, numbers, str(path))
+        run = ArchivedRun(header, numbers, str(path))
+        if path.name.endswith(SUFFIX) and path.name != run.id + SUFFIX:
+            raise ValueError(f"it is of run {run.id}, and has another name")
+    except (OSError, lzma.LZMAError, ValueError, AttributeError, LookupError, TypeError, OverflowError, RecursionError,
+            ShakenError) as error:
+        raise ShakenError(f"{path} is damaged, or no file of an archive: {error}. Put a copy of it back, or remove it: "
+                          "`shaken figures` then does its run again") from None
+    return run
+
+
+def _is_longer(run: Run, target: Path) -> bool:
+    """Whether the archive lacks the run, or has less of it; a damaged file is none."""
+    try:
+        return bool(run.summary["sim_seconds"] > read_archived(target).summary["sim_seconds"])
+    except ShakenError:
+        return True
 
 
 def add_run(directory: str | Path, folder: str | Path, parameters: dict[str, Any] | None = None,
@@ -259,41 +291,39 @@ def add_run(directory: str | Path, folder: str | Path, parameters: dict[str, Any
     longer. Raises ShakenError for a run that is not done."""
     run = DirectoryRun(directory, parameters)
     path = Path(folder) / (run.id + SUFFIX)
-    if path.exists() and read_archived(path).summary["sim_seconds"] >= run.summary["sim_seconds"]:
+    if not _is_longer(run, path):
         return None
     packed = archive_file(run, sweeps)
     path.parent.mkdir(parents=True, exist_ok=True)
-    beside = path.with_suffix(".tmp")
-    beside.write_bytes(packed)
-    os.replace(beside, path)
+    write_whole(path, packed, sync=True)
     return path
 
 
 def merge(source: str | Path, into: str | Path) -> list[Path]:
     """Copies the files of one archive into another; of a run that both have the longer one stays. Returns what was
-    written."""
+    written. Raises ShakenError, after the others, with all files that are damaged, which are not copied."""
     written = []
-    for path in sorted(Path(source).glob("*" + SUFFIX)):
-        target = Path(into) / path.name
-        if target.exists() and (read_archived(target).summary["sim_seconds"] >=
-                                read_archived(path).summary["sim_seconds"]):
-            continue
-        read_archived(path)  # nothing damaged is copied
-        target.parent.mkdir(parents=True, exist_ok=True)
-        target.with_suffix(".tmp").write_bytes(path.read_bytes())
-        os.replace(target.with_suffix(".tmp"), target)
-        written.append(target)
+    for run in archived_runs(source):
+        target = Path(into) / Path(run.where).name
+        if _is_longer(run, target):
+            target.parent.mkdir(parents=True, exist_ok=True)
+            write_whole(target, Path(run.where).read_bytes(), sync=True)
+            written.append(target)
     return written
 
 
-def archived_runs(folder: str | Path) -> Iterator[ArchivedRun]:
+def archived_runs(folder: str | Path, set_aside: Callable[[str], None] | None = None) -> Iterator[ArchivedRun]:
     """The runs of an archive, in the order of their ids. Raises ShakenError, after the others, with all files that
-    are damaged."""
+    are damaged; or gives them other names, and says so by `set_aside`."""
     problems = []
     for path in sorted(Path(folder).glob("*" + SUFFIX)):
         try:
             yield read_archived(path)
         except ShakenError as error:
-            problems.append(str(error))
+            if set_aside is None:
+                problems.append(str(error))
+            else:
+                os.replace(path, path.with_name(path.name + ".damaged"))
+                set_aside(f"{error}. It is now {path.name}.damaged")
     if problems:
         raise ShakenError("\n".join(problems))

@@ -113,37 +113,51 @@ def _decode_observables(data: bytes) -> LiveObservables:
     rods, base, lid, rate, eta = message.numbers("qqqdd")
     message.end()
     return LiveObservables(job, time, total, n_rods, order, mean, director, xy, z, n_z, energy, overlap, rods, base,
-                           lid,
-                           rate, eta)
+                           lid, rate, eta)
+
+
+#: What is kept of frames that are not whole [bytes]: anybody may send some, and never the rest.
+_MOST_UNFINISHED = 1 << 26
 
 
 class _FrameParts:
-    """Frames of more than 7,000 rods come in several messages."""
+    """Frames of more than 7,000 rods come in several messages. `job`: the first digits of those that are wanted."""
 
-    def __init__(self) -> None:
-        self._parts: dict[str, tuple[int, dict[int, np.ndarray]]] = {}
+    def __init__(self, job: str = "") -> None:
+        self._job = job
+        self._parts: dict[str, tuple[int, dict[int, np.ndarray]]] = {}  # that with the newest message last
 
     def add(self, data: bytes) -> LiveFrame | None:
         message = _Payload(data, _FRAME)
         _, sequence = message.numbers("qq")
         job = message.text()
         time, tick, side, side_y, order, director, n_rods, chunk, n_chunks, _, n = message.numbers("dqddddiiiii")
-        if not (0 <= n <= n_rods <= 10_000_000 and 0 <= chunk < n_chunks <= 2_000):
+        if not (0 <= n <= n_rods <= 10_000_000 and 0 <= chunk < n_chunks <= 2_000 and len(job) <= 64):
             raise ValueError("sizes that no frame has")
         rods = message.array(4 * n, ">i2").reshape(4, n)
         message.end()
-        known, parts = self._parts.get(job, (-1, {}))
+        if not job.startswith(self._job):
+            return None
+        known, parts = self._parts.pop(job, (-1, {}))
         if known != sequence:
             parts = {}
         parts[chunk] = rods
-        self._parts[job] = (sequence, parts)
+        if sum(part.shape[1] for part in parts.values()) > n_rods:
+            raise ValueError("more rods than the frame has")
         if len(parts) < n_chunks:
+            self._parts[job] = (sequence, parts)
+            while len(self._parts) > 1 and self.unfinished > _MOST_UNFINISHED:
+                del self._parts[next(iter(self._parts))]
             return None
-        del self._parts[job]
         x, y, heading, n_z = np.concatenate([parts[k] for k in range(n_chunks)], axis=1).astype(float)
         return LiveFrame(job, time, tick, side, side_y, order, director,
                          np.stack([(x / 65536 + 0.5) * side, (y / 65536 + 0.5) * side_y], axis=1),
                          heading * (2 * np.pi / 65536), n_z / 32767)
+
+    @property
+    def unfinished(self) -> int:
+        """[bytes]"""
+        return sum(part.nbytes + 1000 for _, parts in self._parts.values() for part in parts.values())
 
 
 def live(job: str = "", relay: str = "127.0.0.1:7700", *, observables: bool = False,
@@ -171,7 +185,7 @@ def live(job: str = "", relay: str = "127.0.0.1:7700", *, observables: bool = Fa
         if struct.unpack(">II", _exactly(connection, 8)) != (_SERVER, _VERSION):
             raise ShakenError(f"what answers at {relay} is no relay")
         connection.settimeout(timeout)
-        frames = _FrameParts()
+        frames = _FrameParts(job)
         decode: dict[str, Callable[[bytes], Any]] = {"SHAKEN_FRAME": frames.add,
                                                      "SHAKEN_OBSERVABLES": _decode_observables}
         while True:

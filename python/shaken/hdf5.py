@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""h5py, which reads the files of runs."""
+"""h5py, which reads the files of runs; and whether they are what the runs have written (docs/files.md)."""
 from __future__ import annotations
 
+import ctypes
+import functools
+import json
 from pathlib import Path
 from typing import Any
 
@@ -19,9 +22,64 @@ def h5py_module() -> Any:
 
 
 def open_file(path: str | Path) -> Any:
-    """An HDF5 file, to be read; a ShakenError where it cannot be."""
+    """An HDF5 file, to be read; a ShakenError where it cannot be, or where it is damaged."""
     h5py = h5py_module()
     try:
+        _check_content(Path(path))
         return h5py.File(path, "r")
     except OSError as error:
         raise ShakenError(f"{path}: {error}") from None
+
+
+@functools.lru_cache(maxsize=1)
+def _xxhash() -> Any:
+    try:
+        library = ctypes.CDLL("libxxhash.so.0")
+    except OSError:
+        raise ShakenError("libxxhash is not installed, which tells damaged files of runs: `apt install libxxhash0`"
+                          ) from None
+    library.XXH3_createState.restype = ctypes.c_void_p
+    library.XXH3_64bits_reset.argtypes = library.XXH3_freeState.argtypes = [ctypes.c_void_p]
+    library.XXH3_64bits_update.argtypes = [ctypes.c_void_p, ctypes.c_char_p, ctypes.c_size_t]
+    library.XXH3_64bits_digest.argtypes, library.XXH3_64bits_digest.restype = [ctypes.c_void_p], ctypes.c_uint64
+    return library
+
+
+@functools.lru_cache(maxsize=10_000)
+def _xxh3(path: Path, *identity: int) -> str:
+    """Of the file that this is, which is read once for each `identity`."""
+    library = _xxhash()
+    state = library.XXH3_createState()
+    try:
+        library.XXH3_64bits_reset(state)
+        with path.open("rb") as file:
+            while piece := file.read(1 << 20):
+                library.XXH3_64bits_update(state, piece, len(piece))
+        return f"{library.XXH3_64bits_digest(state):016x}"
+    finally:
+        library.XXH3_freeState(state)
+
+
+def _json_beside(path: Path, name: str) -> dict[str, Any]:
+    try:
+        found = json.loads(path.with_name(name).read_text())
+    except (OSError, ValueError, RecursionError):
+        return {}
+    return found if isinstance(found, dict) else {}
+
+
+def _check_content(path: Path) -> None:
+    """As check_content of run/files/content_hash.h: refuses a file that is not what the summary.json beside it says."""
+    for _ in range(2):  # both may be replaced between the look at the one and at the other
+        files = _json_beside(path, "summary.json").get("files")
+        promised = files.get(path.name) if isinstance(files, dict) else None
+        if not isinstance(promised, dict) or not path.exists():
+            return
+        now = path.stat()
+        if now.st_size == promised.get("bytes") and promised.get("xxh3") == _xxh3(
+                path, now.st_dev, now.st_ino, now.st_size, now.st_mtime_ns):
+            return
+    if _json_beside(path, "progress.json").get("state") != "running":  # which replaces its files one by one
+        raise ShakenError(f"{path} is damaged: it is not the file that the run has written, as its hash in "
+                          "summary.json tells. Put a copy of it back; or remove summary.json beside it and submit the "
+                          "scene again, which makes the run's files anew")

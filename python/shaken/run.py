@@ -231,9 +231,14 @@ class Run:
     def __init__(self, scene: dict[str, Any], summary: dict[str, Any], arrays: Arrays,
                  parameters: Mapping[str, Any] | None = None, where: str = "") -> None:
         self.scene, self.summary, self.arrays = scene, summary, arrays
-        self.parameters = dict(parameters or {})
         self.where = where
-        self.numbers = numbers_of(summary)
+        try:
+            if not isinstance(scene, dict) or not isinstance(summary, dict):
+                raise TypeError("the scene or the summary is no object")
+            self.parameters = dict(parameters or {})
+            self.numbers = numbers_of(summary)
+        except (TypeError, ValueError, AttributeError, OverflowError) as error:
+            raise ShakenError(f"{where} holds what no run has written: {error}") from None
 
     @property
     def id(self) -> str:
@@ -308,7 +313,7 @@ class DirectoryRun(Run):
                 if (self.directory / "imported.json").exists() else
                 f"{_present_state(self.directory)} (see `shaken status`)" if missing == "summary.json" else
                 "it is no directory of a run")) from None
-        except (OSError, ValueError) as error:
+        except (OSError, ValueError, RecursionError) as error:
             raise ShakenError(f"{self.directory}: {error}") from None
         super().__init__(scene, summary, Arrays(self._names(), self._read), parameters, str(self.directory))
 

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
+import json
 import lzma
+import os
 
 import numpy as np
 import pytest
@@ -111,10 +113,80 @@ def test_damaged_files_are_refused(tmp_path, damage):
         shaken.open(path)
 
 
+def hostile(change):
+    """A file of an archive whose header is changed."""
+    def made(data):
+        text, _, numbers = lzma.decompress(data).partition(b"\n")
+        header = json.loads(text)
+        changed = change(header)
+        return lzma.compress((changed if isinstance(changed, str) else json.dumps(header)).encode() + b"\n" + numbers)
+    return made
+
+
+def changed(name, value):
+    return hostile(lambda header: header.__setitem__(name, value))
+
+
+def first(name, key, value):
+    return hostile(lambda header: header[name][0].__setitem__(key, value))
+
+
+@pytest.mark.parametrize("damage", [
+    hostile(lambda header: header.pop("arrays") and None), hostile(lambda header: header.pop("scene") and None),
+    changed("arrays", None), changed("arrays", {"a": 1}), changed("arrays", [1]), changed("snapshots", None),
+    changed("summary", [1]), changed("summary", {}), changed("scene", 7), changed("parameters", 7),
+    changed("sweeps", None), changed("sweeps", [1]), hostile(lambda header: "[" * 100_000),
+    hostile(lambda header: header["summary"].update(order=[1])), hostile(lambda header: header["summary"].update(
+        measured={"a": 7})), hostile(lambda header: header["summary"].update(sim_seconds="long")),
+    hostile(lambda header: header["summary"].update(run_id="f" * 16)),
+    hostile(lambda header: header["summary"]["order"].update(mean=10**400)),
+    first("arrays", "n", -1), first("arrays", "n", 10**9), first("arrays", "n", 2.5), first("arrays", "at", -4),
+    first("arrays", "name", ["a"]), first("snapshots", "n", -1), first("snapshots", "side", None),
+    first("snapshots", "n", 10**6), hostile(lambda header: next(entry for entry in header["arrays"] if entry["name"] ==
+                                                                "/pairs/g").update(n=7))])
+def test_hostile_files_are_refused_in_words(tmp_path, damage):
+    path = archive.add_run(made_up_run(tmp_path / "run", arrays=curves(np.random.default_rng(2)), frames=2),
+                           tmp_path / "archive")
+    path.write_bytes(damage(path.read_bytes()))
+    with pytest.raises(shaken.ShakenError, match="is damaged, or no file of an archive: .* remove it"):
+        shaken.open(path)
+
+
+def test_damaged_files_are_neither_merged_nor_in_the_way(tmp_path):
+    path = archive.add_run(made_up_run(tmp_path / "run"), tmp_path / "one")
+    archive.add_run(made_up_run(tmp_path / "b", run_id="b" * 16), tmp_path / "one")
+    whole = path.read_bytes()
+    path.write_bytes(whole[:-20])
+    with pytest.raises(shaken.ShakenError, match=path.name):
+        archive.merge(tmp_path / "one", tmp_path / "two")
+    assert [kept.name[0] for kept in (tmp_path / "two").iterdir()] == ["b"]
+    assert archive.add_run(tmp_path / "run", tmp_path / "one") == path and path.read_bytes() == whole
+    path.write_bytes(whole[:-20])
+    said = []
+    assert [run.id[0] for run in shaken.archived_runs(tmp_path / "one", said.append)] == ["b"]
+    assert f"It is now {path.name}.damaged" in said[0] and not path.exists()
+    assert path.with_name(path.name + ".damaged").read_bytes() == whole[:-20]
+
+
+def test_files_of_an_archive_are_on_the_disk_before_they_have_their_names(tmp_path, monkeypatch):
+    calls = []
+    for name in ("fsync", "replace"):
+        real = getattr(os, name)
+        monkeypatch.setattr(os, name, lambda *of, name=name, real=real: (calls.append((name, of)), real(*of)))
+    (tmp_path / "archive").mkdir()
+    path = archive.add_run(made_up_run(tmp_path / "run"), tmp_path / "archive")
+    assert [name for name, _ in calls] == ["fsync", "replace", "fsync"]
+    beside = calls[1][1][0]
+    assert beside.parent == path.parent and beside.name not in (path.name, path.with_suffix(".tmp").name)
+    archive.add_run(made_up_run(tmp_path / "run", seconds=20), tmp_path / "archive")
+    assert calls[4][1][0] != beside, "two writers have a file each"
+    assert list(path.parent.iterdir()) == [path]
+
+
 def test_of_an_archive_all_damaged_files_are_named(tmp_path):
     archive.add_run(made_up_run(tmp_path / "run"), tmp_path / "archive")
     for name in ("1", "2"):
         (tmp_path / "archive" / (name + archive.SUFFIX)).write_text("junk")
     found = []
-    with pytest.raises(shaken.ShakenError, match="1.run.xz is no file.*\n.*2.run.xz is no file"):
+    with pytest.raises(shaken.ShakenError, match="1.run.xz is damaged.*\n.*2.run.xz is damaged"):
         found.extend(archive.archived_runs(tmp_path / "archive"))

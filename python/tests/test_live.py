@@ -74,6 +74,28 @@ def test_types_are_those_of_the_definitions(tmp_path):
             parts.add(broken)
 
 
+def frame_message(job, sequence=1, chunk=0, n_chunks=2, n_rods=1000, n=500):
+    head = struct.pack(">QqqI", bus._FRAME, 0, sequence, len(job) + 1) + job.encode() + b"\0"
+    return head + struct.pack(">dqddddiiiii", 0, 0, 9, 9, 0, 0, n_rods, chunk, n_chunks, 0, n) + bytes(8 * n)
+
+
+def test_frames_that_never_become_whole_are_not_kept_for_ever():
+    wanted = bus._FrameParts("a")
+    assert wanted.add(frame_message("b")) is None and wanted.unfinished == 0, "of a job that nobody asked for"
+    everything = bus._FrameParts()
+    for k in range(700):
+        everything.add(frame_message(f"{k:016x}", n_rods=100_000, n=50_000))
+        everything.add(frame_message("aa", sequence=k))
+    assert everything.unfinished <= bus._MOST_UNFINISHED
+    assert everything.add(frame_message("aa", sequence=699, chunk=1)) is not None, "the newest goes on"
+    for wrong in (frame_message("a" * 100), frame_message("aa", n=1001)):
+        with pytest.raises(ValueError):
+            everything.add(wrong)
+    everything.add(frame_message("aa", n_chunks=3))
+    with pytest.raises(ValueError, match="more rods than the frame"):
+        everything.add(frame_message("aa", chunk=1, n_chunks=3, n=501))
+
+
 def test_a_relay_that_is_not_there_is_named():
     with pytest.raises(shaken.ShakenError, match="start the daemon with"):
         next(shaken.live(relay=f"127.0.0.1:{free_port()}"))

@@ -5,12 +5,14 @@ import pickle
 import re
 from pathlib import Path
 
+import h5py
 import numpy as np
 import pytest
 
 import shaken
 from conftest import made_up_run
-from shaken import quantities
+from shaken import archive, hdf5, quantities
+from shaken.plots import runs
 from shaken.run import error_name
 from shaken.units import split_species, unit_of
 
@@ -155,6 +157,25 @@ def test_frames_come_lazily_and_at_multiples(run_at, tmp_path):
     assert np.allclose(np.exp(2j * turned), np.exp(2j * theta[0]), atol=1e-5)
 
 
+def test_spheres_have_no_order_and_walls_no_images(programs):
+    scene = {"rods": {"beads": 1, "mid_diameter": "0.8 mm", "area_fraction": 0.3}, "box": {"side": "14 mm"},
+             "accuracy": "draft", "time": {"steady": 0, "measure": "10 ms"}, "trajectory": {"every": "10 ms"}}
+    walls = {"channel": {"arena": "channel", "size": "12 mm"}, "disc": {"arena": "disc", "size": "12 mm"}}
+    for arena, periodic in (("none", (True, True)), ("channel", (True, False)), ("disc", (False, False))):
+        made = {**scene, **({"walls": walls[arena], "box": {"side": "14 mm"} if arena == "channel" else {}}
+                            if arena in walls else {})}
+        (programs.root / "scene.json").write_text(json.dumps(made))
+        programs.shaken("run", programs.root / "scene.json", "--out", programs.root / arena)
+        trajectory = shaken.open(programs.root / arena).trajectory
+        frame = trajectory[0]
+        assert np.isnan(frame.order) and np.isnan(frame.director_angle) and frame.spheres == (0,)
+        assert frame.periodic == periodic and np.allclose(trajectory.lengths, 0.8)
+        with h5py.File(trajectory.path, "r") as file:
+            words = [word if isinstance(word, str) else word.decode()
+                     for word in file["particles/trajectory/box"].attrs["boundary"]]
+        assert words == ["periodic" if each else "none" for each in (*periodic, False)]
+
+
 def test_mdanalysis_reads_the_frames_of_a_real_run(programs):
     pytest.importorskip("MDAnalysis")
     scene = {"box": {"side": "14 mm"}, "accuracy": "draft", "time": {"steady": 0, "measure": "0.2 s"},
@@ -164,6 +185,7 @@ def test_mdanalysis_reads_the_frames_of_a_real_run(programs):
     run = shaken.open(programs.root / "run")
     universe = run.trajectory.to_mdanalysis()
     assert len(universe.trajectory) == len(run.trajectory) >= 4
+    assert universe.trajectory.dt * 1e-12 == pytest.approx(run.trajectory.times[1] - run.trajectory.times[0])
     for theirs, ours in zip(universe.trajectory, run.frames()):
         assert np.allclose(universe.atoms.positions * 1e-7, ours.positions, rtol=1e-5, atol=1e-5)
         assert np.allclose(universe.atoms.velocities * 1e5, ours.velocities, rtol=1e-4, atol=1e-3)
@@ -207,6 +229,61 @@ def test_what_is_no_run_is_said_to_be_none(tmp_path, run_at):
     (run_at("b").directory / "trajectory.part").write_bytes(b"")
     with pytest.raises(shaken.ShakenError, match="trajectory.part until it ends"):
         next(run_at("b").frames())
+
+
+def with_hashes(directory):
+    """Puts into summary.json what the worker says of its files."""
+    summary = json.loads((directory / "summary.json").read_text())
+    summary["files"] = {}
+    for path in directory.glob("*.h5"):
+        summary["files"][path.name] = {"bytes": path.stat().st_size, "xxh3": hdf5._xxh3(path, 0)}
+    (directory / "summary.json").write_text(json.dumps(summary))
+
+
+def flip(path, at):
+    data = bytearray(path.read_bytes())
+    data[at] ^= 1
+    path.write_bytes(data)
+
+
+def test_damaged_files_are_refused_before_they_are_read(tmp_path):
+    folder = made_up_run(tmp_path / "a", arrays=CURVES, frames=2)
+    with_hashes(folder)
+    run = shaken.open(folder)
+    assert run["/msd/total_mm2"].sum() == 28 and len(run.trajectory) == 2
+    for name, read in (("observables.h5", lambda: shaken.open(folder)), ("trajectory.h5", lambda: run_of().trajectory)):
+        run_of = lambda: shaken.open(folder)  # noqa: E731
+        flip(folder / name, -1)
+        with pytest.raises(shaken.ShakenError, match=f"{name} is damaged.*Put a copy of it back"):
+            read()
+        with pytest.raises(shaken.ShakenError, match="is damaged"):
+            archive.add_run(folder, tmp_path / "archive")
+        (folder / "progress.json").write_text('{"state": "running"}')
+        assert read(), "a worker that makes it longer writes the summary last"
+        (folder / "progress.json").unlink()
+        flip(folder / name, -1)
+        assert read()
+    with pytest.raises(runs.Unreadable, match="observables.h5 is damaged"):
+        flip(folder / "observables.h5", -1)
+        runs.read_run(folder, {})
+    for broken in ("[1]", "[" * 100_000, '{"order": [1]}', '{"measured": {"a": 7}}'):
+        (folder / "summary.json").write_text(broken)
+        with pytest.raises(shaken.ShakenError):
+            shaken.open(folder)
+
+
+def test_the_hash_is_that_of_the_worker(programs):
+    scene = {"box": {"side": "14 mm"}, "accuracy": "draft", "time": {"steady": 0, "measure": "20 ms"},
+             "measure": {"order": {}}, "trajectory": {"every": "10 ms"}}
+    (programs.root / "scene.json").write_text(json.dumps(scene))
+    programs.shaken("run", programs.root / "scene.json", "--out", programs.root / "run")
+    assert shaken.open(programs.root / "run").trajectory, "what it has written is whole"
+    with h5py.File(programs.root / "run/observables.h5", "a") as file:
+        file["order/order"][0] = 0.5
+    with pytest.raises(shaken.ShakenError, match="observables.h5 is damaged"):
+        shaken.open(programs.root / "run")
+    drawn = programs.shaken("plot", programs.root / "run", "-o", programs.root / "plots", check=False)
+    assert drawn.returncode == 1 and "observables.h5 is damaged" in drawn.stdout + drawn.stderr
 
 
 def test_a_prefix_of_an_id_is_enough(tmp_path):

@@ -9,6 +9,8 @@ from typing import Any, Iterator, Mapping, Sequence
 
 import numpy as np
 
+from ..errors import ShakenError
+from ..hdf5 import open_file
 from ..run import error_name, version_text
 from . import maps, names
 from .series import VERSION, Arrangement, label_of, mean_curve
@@ -138,17 +140,18 @@ def read_run(directory: str | Path, parameters: Mapping[str, Any], state: str = 
         summary = {}  # it has not ended
     if not isinstance(summary, dict):
         summary = {}
-    import h5py
     wanted = {name for one in OF_EVERY_SPECIES for name in (one.x, *one.y, error_name(one.y[0]), one.rows) if name}
     wanted |= {species + name for species in ("", "/rods_2", "/rods_3") for name in maps.ARRAYS + maps.DENSITY}
     arrays = {}
     try:
-        with h5py.File(path, "r") as file:
+        with open_file(path) as file:
             for name in wanted:
                 if name in file:
                     arrays[name] = np.asarray(file[name][()], dtype=float).ravel()
     except OSError:
         raise Unreadable(f"{path} is no file of HDF5, or is damaged") from None
+    except ShakenError as problem:
+        raise Unreadable(str(problem)) from None
     steady = summary.get("steady")
     return PlottedRun(parameters, arrays, steady if isinstance(steady, bool) else None,
                       version_text(summary.get("versions")), str(summary.get("run_id") or ""))

@@ -5,11 +5,11 @@ from __future__ import annotations
 import csv
 import io
 import math
-import os
 from pathlib import Path
 from typing import Any, Iterable, Mapping, Sequence
 
 from ..errors import ShakenError
+from ..whole import write_whole
 from . import names
 
 #: Keyword -> a text of one line: {"Software": "shaken plot 0.1.0", "Runs": "1f0c59d16ab8b7d7"}. Keywords are those of
@@ -79,22 +79,12 @@ def save(figure: Any, path: str | Path, origin: Origin | None = None, data: str 
         raise ShakenError(f"{path}: a figure is a .png, .pdf or .svg")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        _write(path, _picture(figure, path.suffix[1:], dict(origin or {})))
+        write_whole(path, _picture(figure, path.suffix[1:], dict(origin or {})))
         if data is not None:
-            _write(path.with_suffix(".csv"), data.encode())
+            write_whole(path.with_suffix(".csv"), data.encode())
     except OSError as error:
         raise ShakenError(f"{path} cannot be written: {error.strerror or error}") from None
     return path
-
-
-def _write(path: Path, content: bytes) -> None:
-    """Whole or not at all: a reader never finds half a picture."""
-    beside = path.with_name(f".{path.name}.{os.getpid()}.tmp")
-    try:
-        beside.write_bytes(content)
-        os.replace(beside, path)
-    finally:
-        beside.unlink(missing_ok=True)
 
 
 def _picture(figure: Any, form: str, origin: dict[str, str]) -> bytes:

@@ -181,7 +181,7 @@ def _run(options: argparse.Namespace) -> int:
             return OK
         if options.collect:
             running.collect(Daemon(options.root), archive)
-        plan = running.Plan(program, all_sweeps.items(), archive)
+        plan = running.Plan(program, all_sweeps.items(), archive, None if options.dry_run else _say)
         if options.dry_run:
             print(json.dumps(_plan_json(plan), indent=2) if options.json else plan.table())
             return OK
@@ -200,19 +200,20 @@ def _run(options: argparse.Namespace) -> int:
     return FAILED if failed else OK
 
 
+def _say(line: str) -> None:
+    print(line, file=sys.stderr, flush=True)
+
+
 def _run_plan(plan: running.Plan, program: str, out: Path, options: argparse.Namespace) -> list[str]:
     """Runs what is missing, and says what is still open. Returns what has failed."""
-    def say(line: str) -> None:
-        print(line, file=sys.stderr, flush=True)
-
     budget = math.inf if options.budget is None else seconds(options.budget)
-    with running.daemon_at(options.root, program, say) as daemon:
-        failed = running.run_plan(plan, daemon, budget, say=say, films=out / "movies")
+    with running.daemon_at(options.root, program, _say) as daemon:
+        failed = running.run_plan(plan, daemon, budget, say=_say, films=out / "movies")
     for line in failed:
-        say(line)
+        _say(line)
     still = running.Plan(program, plan.sweeps.items(), plan.archive)
     if still.missing:
-        say(f"still open:\n{still.table()}")
+        _say(f"still open:\n{still.table()}")
     return failed
 
 

@@ -64,12 +64,14 @@ def speed(runs: Iterable[Run], packing: float) -> float:
 
 
 class Plan:
-    """What is to be run: the sets' points that the archive does not have, in order of worth."""
+    """What is to be run: the sets' points that the archive does not have, in order of worth. Damaged files of the
+    archive are errors, or are set aside (archived_runs)."""
 
-    def __init__(self, shaken: str, sweeps: Iterable[tuple[str, dict[str, Any]]], archive: Path) -> None:
+    def __init__(self, shaken: str, sweeps: Iterable[tuple[str, dict[str, Any]]], archive: Path,
+                 set_aside: Callable[[str], None] | None = None) -> None:
         self.archive = archive
         self.sweeps = dict(sweeps)
-        have = {run.id: run for run in archived_runs(archive)}
+        have = {run.id: run for run in archived_runs(archive, set_aside)}
         self.missing: list[Missing] = []
         self.order: dict[str, int] = {}  # id -> place of the run in its sweep
         self.n_points = 0
