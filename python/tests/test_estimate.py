@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: MIT
+import json
 import math
+from pathlib import Path
 
+import numpy as np
 import pytest
 from scipy import stats
 
 from shaken.estimate import Estimate, decimals, derived, exactly, replica_mean, student_factor
+from shaken.plots.series import mean_curve
 
 
 @pytest.mark.parametrize("n", [2, 3, 4, 6, 10, 30])
@@ -13,17 +17,21 @@ def test_student_factor_is_the_quantile_of_t(n):
     assert student_factor(n) == pytest.approx(quantile, rel=0.015 if n == 2 else 0.0015)
 
 
-def test_errors_of_replicas_are_the_larger_of_own_and_scatter():
-    agreeing = replica_mean([Estimate(1.0, 0.3, True), Estimate(1.0, 0.4, True)])
-    assert agreeing.value == 1.0 and agreeing.error == pytest.approx(0.25)
-    apart = replica_mean([Estimate(1.0, 0.1, True), Estimate(3.0, 0.1, True)])
-    assert apart.error == pytest.approx(1.0)
+VECTORS = json.loads((Path(__file__).resolve().parents[2] / "tests/vectors/replica_mean.json").read_text())
 
 
-def test_replicas_without_own_errors_have_one_by_student():
-    found = replica_mean([Estimate(1.0, steady=None), Estimate(2.0, steady=None), Estimate(3.0, steady=None)])
-    assert found.error == pytest.approx(student_factor(3) / math.sqrt(3))
-    assert replica_mean([Estimate(1.0)]).error != replica_mean([Estimate(1.0)]).error  # NaN: one run has none
+@pytest.mark.parametrize("case", VECTORS, ids=lambda case: case["why"])
+def test_means_of_numbers_and_of_curves_are_those_of_the_programs(case):
+    """The C++ client and the page are held against the same."""
+    errors = [math.nan if error is None else error for error in case["errors"]]
+    error = math.nan if case["error"] is None else case["error"]
+    found = replica_mean(Estimate(value, error) for value, error in zip(case["values"], errors))
+    assert found.value == pytest.approx(case["mean"], abs=1e-14)
+    assert found.error == pytest.approx(error, abs=1e-14, nan_ok=True)
+    mean, of_curve = mean_curve([np.array([value, math.nan]) for value in case["values"]],
+                                [np.array([error, math.nan]) for error in errors])
+    assert mean[0] == pytest.approx(case["mean"], abs=1e-14) and math.isnan(mean[1])
+    assert of_curve[0] == pytest.approx(error, abs=1e-14, nan_ok=True)
 
 
 def test_the_drift_of_a_mean_is_that_of_independent_runs():

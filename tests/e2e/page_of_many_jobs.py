@@ -29,6 +29,7 @@ from selenium.webdriver.support.ui import Select
 from page import browser, check, eventually
 
 N_JOBS = 1000
+VECTORS = pathlib.Path(__file__).resolve().parents[1] / "vectors"
 CHART = "/usr/share/javascript/chart.js/chart.min.js"
 TYPES = {".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml", ".html": "text/html"}
 
@@ -290,6 +291,20 @@ def use(page, address, daemon):
     check(any("24 independent samples" in line for line in words) and any("20 to 30 s simulated" in line for line in words),
           f"with their samples and lengths: {words}")
     check(any(line.startswith("order.mean = ~0.4") and "±" in line for line in words), f"and a mark and an error: {words}")
+
+    wrong = page.execute_async_script("""
+        const [cases, done] = arguments, isEqual = (a, b) => b === null ? Number.isNaN(a) : Math.abs(a - b) <= 1e-14;
+        import("/page/results.js").then(({replicaMean}) => done(cases.filter(({values, errors, mean, error}) => {
+          const found = replicaMean(values, errors.map((each) => each ?? NaN));
+          return !isEqual(found.mean, mean) || !isEqual(found.error, error);
+        }).map(({why}) => why)));""", json.loads((VECTORS / "replica_mean.json").read_text()))
+    check(not wrong, f"means and errors are those of `shaken results`: {wrong}")
+    point = page.execute_async_script("""
+        const done = arguments[0], row = (job, physics, mean) => ({job, state: "done", parameters: {x: 1},
+          summary: {versions: {shaken: "0.1.0", physics}, steady: true}, values: {"order.mean": mean}});
+        import("/page/results.js").then(({pointsOf}) => done(pointsOf(
+          [row("a", 3, 0.1), row("b", 4, 0.5), row("c", 4, 0.7), row("c", 4, 0.7)], {x: "x", value: "order.mean"})[0]));""")
+    check(abs(point["mean"] - 0.6) < 1e-12 and point["n"] == 2 and point["nOthers"] == 1, f"no mean over versions: {point}")
 
     click = "Chart.getChart('map').options.onClick({native: {}}, [{index: 0}]); return location.hash"
     seen = set()

@@ -40,14 +40,18 @@ export function valueText(mark, value, error) {
   return `${mark}${value.toFixed(digits)} ± ${error.toFixed(digits)}`;
 }
 
-/** Mean of replicas and its error: their scatter, never below the errors within them, as `shaken results --aggregate` has it. */
+/** Mean of replicas and its error: the rule of client/replicas.h, and as there NaN is not known (tests/vectors/). */
 export function replicaMean(values, errors) {
-  const n = values.length, mean = values.reduce((sum, one) => sum + one, 0) / n;
-  const within = Math.sqrt(errors.reduce((sum, one) => sum + one * one, 0)) / n;
-  if (n === 1) return {mean, error: within};
-  const scatter = Math.sqrt(values.reduce((sum, one) => sum + (one - mean) ** 2, 0) / (n - 1) / n);
-  return {mean, error: errors.every(Number.isFinite) ? Math.max(within, scatter) : NaN};
+  const n = values.length, mean = values.reduce((sum, one) => sum + one, 0) / n, known = errors.filter(Number.isFinite);
+  const within = Math.sqrt(known.reduce((sum, one) => sum + one * one, 0)) / n;
+  if (n === 1) return {mean, error: known.length ? within : NaN};
+  const scatter = Math.sqrt(values.reduce((sum, one) => sum + (one - mean) ** 2, 0) / (n - 1) / n), x = 1 / (n - 1);
+  const student = known.length === n ? 1 : 1 + x * (0.5 + x * (0.25 + x * 0.0625));
+  return {mean, error: Math.max(within, student * scatter)};
 }
+
+/** What computed a row; what different versions computed is never averaged. */
+const versionOf = (row) => JSON.stringify([row.summary?.versions?.shaken ?? "", row.summary?.versions?.physics ?? 0]);
 
 /** Whether `key` is the same in all jobs of a stage, as what the stages of a protocol set is: no axis beside theirs. */
 function isSetByStages(key, jobs) {
@@ -72,9 +76,10 @@ export function sweptParameters(jobs) {
 }
 
 /**
- * The points of a phase diagram: rows at the same place are replicas, and a run that is listed twice counts once.
+ * The points of a phase diagram: rows at the same place are replicas, and a run that is listed twice counts once. Where
+ * several versions computed them those of the newest count; `nOthers` are left out.
  * `fixed` holds the value of each further parameter: other rows are left out.
- * Returns [{across, up, jobs, states, mean, error, n, nEffective, seconds: [shortest, longest], mark, marks}].
+ * Returns [{across, up, jobs, states, mean, error, n, nOthers, nEffective, seconds: [shortest, longest], mark, marks}].
  */
 export function pointsOf(rows, {x, y, value, fixed = {}}) {
   const places = new Map();
@@ -82,24 +87,25 @@ export function pointsOf(rows, {x, y, value, fixed = {}}) {
     if (!Number.isFinite(row.parameters[x])) continue;
     if (Object.entries(fixed).some(([key, at]) => row.parameters[key] !== at)) continue;
     const across = row.parameters[x], up = y ? row.parameters[y] : undefined, key = JSON.stringify([across, up]);
-    const place = places.get(key) ??
-      {across, up, jobs: [], states: new Set(), marks: new Set(), values: [], errors: [], nEffective: 0, seconds: []};
+    const place = places.get(key) ?? {across, up, jobs: [], states: new Set(), found: []};
     places.set(key, place);
     if (place.jobs.includes(row.job)) continue;
     place.jobs.push(row.job);
     place.states.add(row.state);
-    if (!Number.isFinite(row.values[value])) continue;
-    place.values.push(row.values[value]);
-    place.errors.push(errorOf(row, value));
-    place.nEffective += beside(row, value, "n_effective");
-    if (Number.isFinite(row.values.sim_seconds)) place.seconds.push(row.values.sim_seconds);
-    const mark = markOf(row, value);
-    if (mark) place.marks.add(mark);
+    if (Number.isFinite(row.values[value])) place.found.push(row);
   }
-  return [...places.values()].map(({values, errors, ...place}) => ({
-    ...place, n: values.length, ...(values.length ? replicaMean(values, errors) : {mean: NaN, error: NaN}),
-    mark: ["~", "?"].find((each) => place.marks.has(each)) ?? "",
-  }));
+  return [...places.values()].map(({found, ...place}) => {
+    const newest = found.map(versionOf).sort().at(-1), rows = found.filter((row) => versionOf(row) === newest);
+    const marks = new Set(rows.map((row) => markOf(row, value)).filter(Boolean));
+    return {
+      ...place, n: rows.length, nOthers: found.length - rows.length, marks,
+      ...(rows.length ? replicaMean(rows.map((row) => row.values[value]), rows.map((row) => errorOf(row, value))) :
+        {mean: NaN, error: NaN}),
+      nEffective: rows.map((row) => beside(row, value, "n_effective")).filter(Number.isFinite).reduce((sum, n) => sum + n, 0),
+      seconds: rows.map((row) => row.values.sim_seconds).filter(Number.isFinite),
+      mark: ["~", "?"].find((each) => marks.has(each)) ?? "",
+    };
+  });
 }
 
 /** What a point's tooltip says, a line each. */
@@ -108,6 +114,7 @@ export function pointLines(point, {x, y, value}) {
   return [`${x} = ${point.across}`, ...(y ? [`${y} = ${point.up}`] : []),
           `${value} = ${valueText(point.mark, point.mean, point.error) || "unknown"}` +
             (point.n > 1 ? ` (mean of ${point.n} runs)` : ""),
+          ...(point.nOthers ? [`${point.nOthers} of other versions left out`] : []),
           ...[...point.marks].map((mark) => `${mark} ${kSteadiness[mark]}`),
           ...(point.nEffective > 0 ? [`${number(point.nEffective, 3)} independent samples`] : []),
           ...(point.seconds.length ? [`${shortest === longest ? "" : `${number(shortest)} to `}${number(longest)} s simulated` +

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <random>
 #include <vector>
 
@@ -19,28 +21,21 @@ TEST(StudentFactor, TabulatedValues) {
   EXPECT_NEAR(student_factor(11), 1.053, 0.001);
 }
 
-TEST(ReplicaMean, RunsThatHappenToAgreeAreNoBetterThanTheirOwnErrors) {
-  const std::vector<double> values{0.9739, 0.9740}, sems{0.0018, 0.0039};
-  const Estimate result = replica_mean(values, sems);
-  EXPECT_DOUBLE_EQ(result.value, 0.97395);
-  EXPECT_DOUBLE_EQ(result.sem, std::hypot(0.0018, 0.0039) / 2);
-}
-
-TEST(ReplicaMean, RunsThatDisagreeSayMoreThanTheirOwnErrors) {
-  const std::vector<double> values{0.5, 0.7}, sems{0.001, 0.001};
-  EXPECT_NEAR(replica_mean(values, sems).sem, 0.1, 1e-12);
-}
-
-TEST(ReplicaMean, WithoutOwnErrorsFewRunsAreWidened) {
-  const std::vector<double> values{0.5, 0.7}, unknown{kUnknown, kUnknown}, one_known{kUnknown, 0.9};
-  EXPECT_NEAR(replica_mean(values, unknown).sem, 0.1 * student_factor(2), 1e-12);
-  EXPECT_DOUBLE_EQ(replica_mean(values, one_known).sem, 0.45) << "never below what is known";
-}
-
-TEST(ReplicaMean, OneRunHasItsOwnErrorOrNone) {
-  const std::vector<double> value{0.5}, known{0.1}, unknown{kUnknown};
-  EXPECT_DOUBLE_EQ(replica_mean(value, known).sem, 0.1);
-  EXPECT_TRUE(std::isnan(replica_mean(value, unknown).sem));
+/// What Python, the curves of plots and the page are held against, too.
+TEST(ReplicaMean, IsThatOfAllThatTakeIt) {
+  std::ifstream file(SHAKEN_SOURCE_DIR "/tests/vectors/replica_mean.json");
+  for (const nlohmann::json& one : nlohmann::json::parse(file)) {
+    const auto number = [](const nlohmann::json& value) { return value.is_null() ? kUnknown : value.get<double>(); };
+    std::vector<double> sems;
+    for (const nlohmann::json& sem : one.at("errors")) sems.push_back(number(sem));
+    const Estimate result = replica_mean(one.at("values").get<std::vector<double>>(), sems);
+    EXPECT_NEAR(result.value, one.at("mean").get<double>(), 1e-14) << one.at("why");
+    if (const double error = number(one.at("error")); std::isnan(error)) {
+      EXPECT_TRUE(std::isnan(result.sem)) << one.at("why");
+    } else {
+      EXPECT_NEAR(result.sem, error, 1e-14) << one.at("why");
+    }
+  }
 }
 
 /// Deviations of many means from the truth in units of their errors: mean square, and the part beyond one.
