@@ -14,16 +14,26 @@
 
 namespace shaken {
 
-std::string python_interpreter() {
-  if (const char* chosen = std::getenv("SHAKEN_PYTHON"); chosen != nullptr && *chosen != '\0') return chosen;
+std::string chosen_python() {
+  const char* chosen = std::getenv("SHAKEN_PYTHON");
+  return chosen != nullptr ? chosen : "";
+}
+
+std::vector<std::string> python_command(const std::string& module) {
   constexpr const char* kDebian = "/usr/bin/python3";
   std::error_code unknown;
-  return std::filesystem::exists(kDebian, unknown) ? kDebian : "python3";
+  std::vector<std::string> command{chosen_python()};
+  if (command[0].empty()) {
+    // with its own packages alone: those of a user, or of a module of a cluster, may not go with them
+    command = {std::filesystem::exists(kDebian, unknown) ? kDebian : "python3", "-s", "-E"};
+  }
+  // By its path, which also says in words what is not installed.
+  command.insert(command.end(), {"-W", "ignore", shipped_python() / "shaken" / module / "__main__.py"});
+  return command;
 }
 
 std::vector<std::string> plots_by_python(const std::vector<std::string>& arguments, std::string_view input) {
-  // By its path, which also says in words what is not installed.
-  std::vector<std::string> command{python_interpreter(), "-W", "ignore", shipped_python() / "shaken/plots/__main__.py"};
+  std::vector<std::string> command = python_command("plots");
   command.insert(command.end(), arguments.begin(), arguments.end());
   const Captured drawn = run_with_input(command, input);
   std::vector<std::string> lines;

@@ -76,7 +76,8 @@ CheckResult check_plots() {
     return {Level::kOk, "plots", plots_by_python({"check"}).front(), ""};
   } catch (const Failure& failure) {
     return {Level::kWarn, "plots", first_line(failure.what()),
-            "sudo apt install python3-matplotlib python3-numpy python3-h5py"};
+            chosen_python().empty() ? "sudo apt install --reinstall python3-matplotlib python3-numpy python3-h5py"
+                                    : "unset SHAKEN_PYTHON, or install matplotlib, numpy and h5py for it"};
   }
 }
 

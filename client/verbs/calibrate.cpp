@@ -73,9 +73,8 @@ class Calibrate : public Verb {
     for (std::size_t number = 0; number < kMostSpecies; ++number) {
       if (plan->system.has_species(number)) species.push_back(species_json(*plan, number));
     }
-    std::vector<std::string> command{python_interpreter(), "-W", "ignore",
-                                     (shipped_python() / "shaken/calibration/__main__.py").string(),
-                                     "--species=" + species.dump()};
+    std::vector<std::string> command = python_command("calibration");
+    command.push_back("--species=" + species.dump());
     for (const std::string& wanted : wanted_) command.push_back("--rotational-diffusion=" + wanted);
     for (const std::string& name : of_) command.push_back("--of=" + name);
     if (area_fraction_) command.push_back(fmt::format("--area-fraction={}", *area_fraction_));

@@ -83,8 +83,7 @@ class Figures : public Verb {
   }
 
   ExitCode run(const Context& context) override {
-    std::vector<std::string> command{python_interpreter(), "-W", "ignore",
-                                     (shipped_python() / "shaken/study/__main__.py").string()};
+    std::vector<std::string> command = python_command("study");
     const std::pair<const char*, const std::string&> options[] = {
         {"--scale", scale_},       {"--budget", budget_},       {"--archive", archive_},
         {"--out", out_},           {"--format", format_},       {"--width", width_},

@@ -57,15 +57,15 @@ class Plot : public Verb {
         throw Failure(ExitCode::kBadInput, "--x, --y and --where are for sweeps, not for a run directory");
       }
       if (out_.empty()) out_ = (fs::path(id_) / "plots").string();
-      wanted["runs"].push_back({{"directory", id_}, {"parameters", Json::object()}});
+      wanted["runs"].push_back({{"directory", url_encoded(id_)}, {"parameters", Json::object()}});
     } else {
       add_sweep(context, wanted);
     }
     if (file) {
-      wanted["name"] = file->stem().string();
+      wanted["name"] = url_encoded(file->stem().string());
       out_ = file->has_parent_path() ? file->parent_path().string() : ".";
     }
-    wanted["folder"] = out_;
+    wanted["folder"] = url_encoded(out_);  // whose bytes may be no UTF-8, which JSON does not take
     wanted["format"] = format_;
     for (const std::string& line :
          plots_by_python({"runs"}, wanted.dump(-1, ' ', false, Json::error_handler_t::replace))) {
@@ -146,8 +146,9 @@ class Plot : public Verb {
           !met.insert(text_of(job, "id")).second) {
         continue;
       }
-      wanted["runs"].push_back(
-          {{"directory", job.at("directory")}, {"parameters", job.at("parameters")}, {"state", text_of(job, "state")}});
+      wanted["runs"].push_back({{"directory", url_encoded(job.at("directory").get<std::string>())},
+                                {"parameters", job.at("parameters")},
+                                {"state", text_of(job, "state")}});
     }
   }
 

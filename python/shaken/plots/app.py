@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import argparse
+import io
 import json
 import math
 import os
 import sys
+import urllib.parse
 from pathlib import Path
 from typing import Any, Mapping, Sequence
 
@@ -24,6 +26,10 @@ def _number(value: Any) -> float:
     return math.nan if value is None else float(value)
 
 
+def _path(text: str) -> str:
+    return os.fsdecode(urllib.parse.unquote_to_bytes(text))
+
+
 def draw_runs(wanted: Mapping[str, Any]) -> None:
     """Draws the runs and the numbers that a description names, and prints the pictures' paths.
 
@@ -32,6 +38,7 @@ def draw_runs(wanted: Mapping[str, Any]) -> None:
     x, y:    of that figure; x empty: the longest parameter
     rows:    [{id, version}]: what the points are made of
     folder, name, format, width: of the command line; name: of the one figure, where it has one
+    Paths (directory, folder, name) are percent-encoded: their bytes may be no UTF-8.
     software, sweep: what asks, and the sweep's name
     """
     from . import runs, sweeps
@@ -52,7 +59,7 @@ def draw_runs(wanted: Mapping[str, Any]) -> None:
     drawn, left_out = [], {}
     for of in wanted.get("runs") or []:
         try:
-            drawn.append(runs.read_run(of["directory"], of["parameters"], of.get("state", "")))
+            drawn.append(runs.read_run(_path(of["directory"]), of["parameters"], of.get("state", "")))
         except runs.Unreadable as reason:
             left_out[str(reason)] = left_out.get(str(reason), 0) + 1
     for reason, n in left_out.items():
@@ -64,10 +71,10 @@ def draw_runs(wanted: Mapping[str, Any]) -> None:
               "Computed by": origin_list(sorted(versions - {""})), "Sweep": wanted.get("sweep") or "",
               "Runs": origin_list(sorted(ids - {""}))}
     origin = {keyword: text for keyword, text in origin.items() if text}
-    folder, suffix = Path(wanted["folder"]), "." + (wanted.get("format") or "png")
+    folder, suffix = Path(_path(wanted["folder"])), "." + (wanted.get("format") or "png")
     n = 0
     for name, sheet in [*figures, *(runs.run_figures(drawn, width) if drawn else [])]:
-        print(sheet.save(folder / ((wanted.get("name") or name) + suffix), origin), flush=True)
+        print(sheet.save(folder / ((_path(wanted.get("name") or "") or name) + suffix), origin), flush=True)
         n += 1
     if n == 0:
         raise Nothing("there is nothing to plot yet")
@@ -85,10 +92,13 @@ def main(arguments: Sequence[str]) -> int:
     verdict = commands.add_parser("verdict", help="what the rows of `shaken-bench accuracy` come to, in words")
     verdict.add_argument("report", help="NAME.json, as it has written; - is stdin")
     options = parser.parse_args(arguments)
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        sys.stdout.reconfigure(errors="surrogateescape")  # names of files, whatever their bytes
     try:
         if options.command == "runs":
             draw_runs(json.load(sys.stdin))
         elif options.command == "check":
+            import h5py  # noqa: F401, which must go with the same numpy
             import matplotlib
             print(f"matplotlib {matplotlib.__version__} of {sys.executable}")
         elif options.command == "verdict":

@@ -13,7 +13,9 @@
 namespace shaken {
 namespace {
 
+using ::testing::_;
 using ::testing::ElementsAre;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 
 /// A program in the place of Python, for as long as this lives.
@@ -63,11 +65,12 @@ TEST(PlotsByPython, OfATracebackTheLastLineIsTold) {
   EXPECT_THAT(failure_of("kill -9 $$\n").what(), HasSubstr("ended with exit code 137"));
 }
 
-TEST(PythonInterpreter, IsTheOneThatIsChosen) {
+TEST(PythonCommand, HasTheInterpreterThatIsChosenAsItIs) {
   setenv("SHAKEN_PYTHON", "/opt/python", 1);
-  EXPECT_EQ(python_interpreter(), "/opt/python");
+  EXPECT_THAT(python_command("plots"),
+              ElementsAre("/opt/python", "-W", "ignore", EndsWith("shaken/plots/__main__.py")));
   setenv("SHAKEN_PYTHON", "", 1);
-  EXPECT_THAT(python_interpreter(), HasSubstr("python3"));
+  EXPECT_THAT(python_command("plots"), ElementsAre(HasSubstr("python3"), "-s", "-E", "-W", "ignore", _));
   unsetenv("SHAKEN_PYTHON");
 }
 

@@ -141,6 +141,34 @@ TEST(Plot, DrawsASweepFromTheDaemon) {
   EXPECT_EQ(one({"--y", "order.maen"}).code, ExitCode::kBadInput);
 }
 
+TEST(Plot, TakesFoldersWhoseNamesAreNoUtf8) {
+  if (!have_matplotlib()) GTEST_SKIP() << "no matplotlib";
+  const ScratchFolder folder;
+  const auto run = folder.path() / "o\xff 100%", out = folder.path() / "p\xfd";
+  std::filesystem::create_directory(run);
+  std::ofstream(run / "scene.json") << "{}";
+  ASSERT_TRUE(run::write_observables(run / "observables.h5", observables(0.4)));
+  const Outcome outcome = run_client({"plot", run.string(), "-o", out.string()});
+  EXPECT_EQ(outcome.code, ExitCode::kOk) << outcome.err;
+  EXPECT_TRUE(is_png(out / "order_time.png"));
+}
+
+TEST(Plot, PackagesOfTheUserAreNotInTheWay) {
+  if (!have_matplotlib()) GTEST_SKIP() << "no matplotlib";
+  const ScratchFolder folder;
+  const auto site = folder.path() / "lib/python3.11/site-packages/numpy";
+  std::filesystem::create_directories(site);
+  std::ofstream(site / "__init__.py") << "raise ImportError('another numpy')\n";
+  setenv("PYTHONUSERBASE", folder.path().c_str(), 1);
+  setenv("PYTHONPATH", site.parent_path().c_str(), 1);
+  EXPECT_NO_THROW(plots_by_python({"check"}));
+  setenv("PYTHONHOME", "/no/such/home", 1);
+  EXPECT_NO_THROW(plots_by_python({"check"}));
+  setenv("SHAKEN_PYTHON", "/usr/bin/python3", 1);
+  EXPECT_THROW(plots_by_python({"check"}), Failure) << "who chooses an interpreter has its packages, too";
+  for (const char* name : {"PYTHONUSERBASE", "PYTHONPATH", "PYTHONHOME", "SHAKEN_PYTHON"}) unsetenv(name);
+}
+
 TEST(Plot, NothingMeasuredIsAFailure) {
   if (!have_matplotlib()) GTEST_SKIP() << "no matplotlib";
   const ScratchFolder folder;
