@@ -3,8 +3,10 @@
 import json
 import os
 import re
+import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -13,6 +15,7 @@ import pytest
 
 from conftest import PROGRAMS, made_up_run
 from shaken.archive import Snapshot, add_run
+from shaken.daemon import Daemon
 from shaken.errors import ShakenError
 from shaken.estimate import Estimate
 from shaken.study import running, sets, time_step
@@ -184,6 +187,71 @@ def test_a_finished_run_is_archived_once_however_long_the_others_take(monkeypatc
     daemon = SimpleNamespace(jobs=jobs, submit=lambda sweep, **terms: "s1", ask=lambda method, path: {})
     assert running.run_plan(plan, daemon, say=lambda line: None, every=0.0) == []
     assert read == [("a", 5), ("a", 9), ("b", 7)]
+
+
+def test_damaged_files_of_a_run_are_reported_and_the_others_go_on(monkeypatch):
+    plan = SimpleNamespace(sweeps={"one": {}}, missing=[SimpleNamespace(set="one", id=id_, cost=60.0) for id_ in "ab"],
+                           archive=Path("archive"), cost=lambda name=None: 120.0,
+                           sweep_of_missing=lambda name: {"name": name})
+    jobs = [{"id": id_, "state": "done", "ended": True, "finished_utime": 5, "label": "", "starts_from": None,
+             "wall_s": 0, "reason": ""} for id_ in "ab"]
+
+    def archive_job(job, name, archive):
+        if job["id"] == "a":
+            raise ShakenError("observables.h5 is damaged")
+
+    monkeypatch.setattr(running, "archive_job", archive_job)
+    daemon = SimpleNamespace(jobs=lambda sweep: jobs, submit=lambda sweep, **terms: "s1", ask=lambda method, path: {})
+    assert running.run_plan(plan, daemon, say=lambda line: None, every=0.0) == ["a one : observables.h5 is damaged"]
+
+
+def wait_until(fits, seconds=30):
+    end = time.monotonic() + seconds
+    while not fits():
+        assert time.monotonic() < end, "in vain"
+        time.sleep(0.05)
+
+
+@pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGHUP, signal.SIGKILL])
+def test_nothing_is_left_behind_by_a_process_that_is_killed(tmp_path, how):
+    script = tmp_path / "script.py"
+    script.write_text("""
+import subprocess, sys, time
+from shaken.children import ends_with_us, scratch_folder
+with scratch_folder("shaken-test-") as folder:
+    (folder / "file").write_text("text")
+    child = subprocess.Popen(["sleep", "600"], preexec_fn=ends_with_us)
+    print(folder, child.pid, flush=True)
+    time.sleep(600)
+""")
+    killed = subprocess.Popen([sys.executable, script], stdout=subprocess.PIPE, text=True,
+                              env={**os.environ, "PYTHONPATH": str(SOURCE / "python")})
+    folder, child = killed.stdout.readline().split()
+    assert (Path(folder) / "file").exists() and Path(f"/proc/{child}").exists()
+    killed.send_signal(how)
+    killed.wait(30)
+    killed.stdout.close()
+    wait_until(lambda: not Path(folder).exists())
+    wait_until(lambda: not Path(f"/proc/{child}/exe").exists())
+
+
+def test_a_daemon_of_our_own_ends_with_us_however_we_do(programs):
+    script = programs.root / "script.py"
+    script.write_text(f"""
+import time
+from pathlib import Path
+from shaken.study import running
+with running.daemon_at(Path("{programs.root}"), "{PROGRAMS / 'shaken'}") as daemon:
+    time.sleep(600)
+""")
+    killed = subprocess.Popen([sys.executable, "-u", script], stdout=subprocess.PIPE, text=True,
+                              env={**os.environ, "PYTHONPATH": str(SOURCE / "python")})
+    assert "one has been started" in killed.stdout.readline()
+    pid = Daemon(programs.root).status()["pid"]
+    killed.kill()
+    killed.wait(30)
+    killed.stdout.close()
+    wait_until(lambda: not Path(f"/proc/{pid}/exe").exists())
 
 
 def test_an_error_beside_a_daemon_is_reported_as_it_is(programs, tmp_path):

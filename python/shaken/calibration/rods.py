@@ -6,7 +6,6 @@ import copy
 import json
 import math
 import subprocess
-import tempfile
 import time
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
@@ -15,6 +14,7 @@ from typing import Any, Callable, Mapping
 
 import numpy as np
 
+from ..children import ends_with_us, scratch_folder
 from ..errors import ShakenError
 from ..run import open_run
 from .diffusion import BEYOND, Diffusion, diffusion, exponent
@@ -188,9 +188,9 @@ class Measuring:
         takes = f", about {seconds / self._speed:.0f} s" if math.isfinite(self._speed) else ""
         self.say(f"{self.species.name}: noise {noise:.4g} rad/mm, {RUNS} runs of {1.25 * length:.3g} s{takes} ...")
         began = time.monotonic()
-        with tempfile.TemporaryDirectory(prefix="shaken-calibrate-") as folder:
+        with scratch_folder("shaken-calibrate-") as folder:
             with ThreadPoolExecutor(self.threads) as pool:
-                runs = list(pool.map(lambda run: self._run(Path(folder), noise, length, run), range(RUNS)))
+                runs = list(pool.map(lambda run: self._run(folder, noise, length, run), range(RUNS)))
         self._speed = seconds / max(time.monotonic() - began, 1e-3)
         n = min(len(lag) for lag, *_ in runs)
         return (runs[0][0][:n], np.array([msad[:n] for _, msad, *_ in runs]), sum(run[2] for run in runs),
@@ -201,7 +201,7 @@ class Measuring:
         file, out = folder / f"{run}.json", folder / str(run)
         file.write_text(json.dumps(scene))
         done = subprocess.run([self.program, "run", str(file), "--out", str(out)], capture_output=True, text=True,
-                              check=False, stdin=subprocess.DEVNULL)
+                              check=False, stdin=subprocess.DEVNULL, preexec_fn=ends_with_us)
         if done.returncode != 0:
             raise ShakenError(f"{self.species.name}, noise {noise:.3g} rad/mm: " +
                               (done.stderr.strip() or done.stdout.strip()))

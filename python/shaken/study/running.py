@@ -17,12 +17,15 @@ from typing import Any, Callable, Iterable, Iterator
 import numpy as np
 
 from ..archive import add_run, archived_runs
+from ..children import ends_with_us
 from ..daemon import Daemon
 from ..errors import ShakenError
 from ..run import Run
 
 #: Wall time of one attempt, and of all attempts, of a run [s].
 _SOFT_LIMIT, _TIME_LIMIT = 3 * 3600, 7 * 24 * 3600
+#: Wall time for which a daemon may be away [s].
+_MAY_BE_AWAY = 60.0
 #: rod seconds per CPU second at these packings at 16 us, where nothing has been run yet.
 _SPEED = ((0.45, 0.65, 0.75, 0.85), (860.0, 560.0, 420.0, 350.0))
 
@@ -135,13 +138,14 @@ def run_plan(plan: Plan, daemon: Daemon, budget: float = math.inf, *, say: Calla
 
     The next set is queued when nothing of those before waits any more, so that the order of worth holds. Films are
     copied into `films` as S1.mp4, S2.mp4, ... in the order of their sweep. Returns what went wrong, a line for each job
-    that has failed.
+    that has failed, or whose files are damaged.
     """
     spent = _Spent()
     waiting = [name for name in plan.sweeps if plan.cost(name) > 0]
     at_work: dict[str, str] = {}  # id of the sweep -> its name
     costs = {point.id: point.cost for point in plan.missing}
     archived: set[tuple[str, int]] = set()  # ids and ends of runs that need not be read again
+    damaged: list[str] = []
     while True:
         jobs = {job["id"]: (job, name) for sweep, name in at_work.items() for job in daemon.jobs(sweep)}
         done = [id_ for id_, (job, _) in jobs.items() if job["state"] == "done" and id_ in costs]
@@ -150,7 +154,12 @@ def run_plan(plan: Plan, daemon: Daemon, budget: float = math.inf, *, say: Calla
             if job["state"] != "done" or (job["id"], job["finished_utime"]) in archived:
                 continue
             archived.add((job["id"], job["finished_utime"]))
-            if path := archive_job(job, name, plan.archive):
+            try:
+                path = archive_job(job, name, plan.archive)
+            except ShakenError as error:
+                damaged.append(f"{job['id'][:8]} {name} {job['label']}: {error}")
+                continue
+            if path:
                 say(f"{path.name[:8]}  {name}  {job['label']}  ({len(done)} of {len(costs)} runs, about "
                     f"{left / 3600:.2f} CPU-h left)")
                 if films is not None:
@@ -159,7 +168,7 @@ def run_plan(plan: Plan, daemon: Daemon, budget: float = math.inf, *, say: Calla
         if spent.seconds() >= budget:
             for sweep in at_work:
                 daemon.ask("POST", f"/v1/sweeps/{sweep}/hold")
-            return []
+            return damaged
         if waiting and not any(job["state"] == "queued" and not _waits_for_start(job, jobs)
                                for job, _ in jobs.values()):
             name = waiting.pop(0)
@@ -171,8 +180,8 @@ def run_plan(plan: Plan, daemon: Daemon, budget: float = math.inf, *, say: Calla
                 f"{plan.cost(name) / 3600:.2f} CPU-h")
             continue
         if not waiting and all(job["ended"] or job["state"] == "held" for job, _ in jobs.values()):
-            return [f"{job['id'][:8]} {name} {job['label']}: {job['state']}: {job['reason']}"
-                    for job, name in jobs.values() if job["state"] != "done"]
+            return damaged + [f"{job['id'][:8]} {name} {job['label']}: {job['state']}: {job['reason']}"
+                              for job, name in jobs.values() if job["state"] != "done"]
         time.sleep(every)
 
 
@@ -232,15 +241,18 @@ def _is_served(daemon: Daemon) -> bool:
 
 @contextlib.contextmanager
 def daemon_at(root: Path | None, shaken: str, say: Callable[[str], None] = print) -> Iterator[Daemon]:
-    """The daemon of a root; where none serves it, one of our own, which goes with us."""
+    """The daemon of a root, for which requests wait while it is restarted; where none serves it, one of our own, which
+    goes with us."""
     daemon = Daemon(root)
+    patient = Daemon(root, patience=_MAY_BE_AWAY)
     if _is_served(daemon):
-        yield daemon
+        yield patient
         return
     program_ = Path(shaken).with_name("shakend")
     daemon.root.mkdir(parents=True, exist_ok=True)
     ours = subprocess.Popen([str(program_), "--root", str(daemon.root), "--quiet", "--no-lcm"], start_new_session=True,
-                            stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+                            stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                            preexec_fn=ends_with_us)
     try:
         end = time.monotonic() + 60
         while not _is_served(daemon):
@@ -249,7 +261,7 @@ def daemon_at(root: Path | None, shaken: str, say: Callable[[str], None] = print
                 raise ShakenError(f"no daemon could be started: {words}")
             time.sleep(0.1)
         say(f"no daemon served {daemon.root}: one has been started, which ends with this command")
-        yield daemon
+        yield patient
     finally:
         ours.terminate()
         ours.wait(60)
