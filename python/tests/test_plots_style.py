@@ -16,6 +16,7 @@ from figures_whole import assert_whole  # noqa: E402
 
 from shaken.errors import ShakenError  # noqa: E402
 from shaken.plots import names, save, style  # noqa: E402
+from shaken.plots import panel as panel_module  # noqa: E402
 
 NAN = float("nan")
 ORIGIN = {"Software": "shaken plot 0.1.0", "Sweep": "ℓ and φ", "Runs": "1f0c59d16ab8b7d7"}
@@ -219,14 +220,86 @@ def test_titles_break_between_quantities() -> None:
         assert not line.rstrip(",").endswith("="), lines
 
 
-@pytest.mark.parametrize("maps, keeps_all", [(("viridis",), False), (("viridis", "viridis"), False),
-                                             (("viridis", "RdBu"), True)])
-def test_pictures_keep_all_colours_only_where_two_colour_bars_need_them(maps: tuple[str, ...], keeps_all: bool) -> None:
-    from matplotlib.figure import Figure
-    figure = Figure(figsize=(4, 2), dpi=100)
-    for place, name in enumerate(maps):
-        axes = figure.add_subplot(1, len(maps), place + 1)
-        figure.colorbar(axes.pcolormesh(np.random.default_rng(1).normal(size=(40, 40)), cmap=name))
+@pytest.mark.parametrize("shades, keeps_all", [("", False), ("map", True), ("scale", True), ("picture", True)])
+def test_pictures_keep_all_colours_where_colours_are_numbers(shades: str, keeps_all: bool) -> None:
+    sheet = style.sheet("89mm")
+    panel = sheet[0].titles("x", "y").curve([0, 1], [1, 2])
+    values = np.random.default_rng(1).normal(size=(40, 40))
+    if shades == "map":
+        panel.map(np.arange(40), np.arange(40), values, "z")
+    elif shades == "scale":
+        sheet.colourbar(style.ColourScale([0.1, 0.5, 0.9], "z"))
+    elif shades == "picture":
+        panel.picture(np.clip(np.stack([values] * 3, axis=-1), 0, 1))
     from PIL import Image
-    picture = Image.open(io.BytesIO(save._picture(figure, "png", {})))
+    picture = Image.open(io.BytesIO(save._picture(sheet.finish().figure, "png", {})))
     assert (picture.mode != "P") == keeps_all
+
+
+def test_of_many_colours_those_of_the_bars_are_kept() -> None:
+    """Noise in all colours leaves the bar its own."""
+    sheet = style.sheet("89mm")
+    panel = sheet[0].titles("x", "y")
+    panel.picture(np.random.default_rng(1).uniform(size=(900, 900, 3)), (0, 1, 0, 1))
+    sheet.colourbar(style.ColourScale([0.1, 0.5, 0.9], "z"))
+    from PIL import Image
+    figure = sheet.finish().figure
+    few = save._picture(figure, "png", {})
+    picture, whole = Image.open(io.BytesIO(few)), np.asarray(figure.canvas.buffer_rgba())[..., :3].astype(int)
+    assert picture.mode == "P" and len(few) < 1.5 * save._MANY_BYTES
+    bar = next(axes for axes in figure.axes if hasattr(axes, "_colorbar")).get_window_extent()
+    middle, low, high = int((bar.x0 + bar.x1) / 2), int(len(whole) - bar.y1) + 4, int(len(whole) - bar.y0) - 4
+    off = np.abs(np.asarray(picture.convert("RGB")).astype(int) - whole)
+    assert off[low:high, middle].max() <= 12 and off.max() > 30
+
+
+def drawn_markers(panel: panel_module.Panel) -> list[str]:
+    return [line.get_marker() for line in panel.axes.lines if line.get_marker() not in ("None", None)]
+
+
+@pytest.mark.parametrize("look", ["points", "line"])
+def test_what_has_no_error_is_crossed_and_what_has_a_small_one_is_not(look: str) -> None:
+    """An error that is shorter than the mark is known all the same."""
+    known = style.sheet("89mm")
+    known[0].curve([0, 1, 2], [1, 2, 3], error=[1e-9, 1e-9, 0.5], look=look)
+    assert "x" not in drawn_markers(known[0]) and panel_module.NO_ERROR not in known[0].explained
+    unknown = style.sheet("89mm")
+    unknown[0].curve([0, 1, 2], [1, 2, 3], error=[np.nan, 0.1, np.nan], look=look)
+    crosses = [line for line in unknown[0].axes.lines if line.get_marker() == "x"]
+    assert len(crosses) == 1 and crosses[0].get_xdata().tolist() == [0, 2]
+    legend = unknown.finish().figure.legends[0]
+    assert "crossed: no error known" in [text.get_text() for text in legend.get_texts()]
+    none = style.sheet("89mm")
+    none[0].curve([0, 1, 2], [1, 2, 3], look=look)
+    assert not none[0].explained, "where there are none to be known nothing is said"
+
+
+def test_keys_show_the_marks_that_are_drawn() -> None:
+    sheet = style.sheet("89mm")
+    panel = sheet[0].curve([0, 1], [1, 2], steady=[False, None], label="relaxing", look="points")
+    panel.curve([0, 1], [2, 3], steady=True, label="steady", look="points")
+    panel.curve([0, 1], [np.nan, np.nan], label="nothing", look="points")
+    panel.dots(["a"], [np.nan], label="no dots")
+    assert [label for _, label in panel.entries] == ["relaxing", "steady"]
+    hollow, filled = (handle.get_markerfacecolor() for handle, _ in panel.entries)
+    assert hollow == "white" and filled != "white"
+
+
+def test_lines_do_not_pass_over_what_has_no_logarithm() -> None:
+    sheet = style.sheet("89mm")
+    panel = sheet[0].titles("x", "y").scale("log", "log")
+    for look in ("points", "line"):
+        panel.curve([0, 1, 2, 3], [1, 2, -1, 4], look=look)
+    sheet.finish()
+    joined = [line for line in panel.axes.lines if line.get_linestyle() != "None"]
+    assert len(joined) == 2
+    for line in joined:
+        assert np.isnan(line.get_xdata()[0]) and np.isnan(line.get_ydata()[2]) and line.get_ydata()[3] == 4
+
+
+def test_a_panel_without_data_says_why() -> None:
+    sheet = style.sheet("89mm", columns=2)
+    sheet[0].curve([0, 1], [1, 2])
+    sheet[1].titles(title="larger").absent = "no runs yet"
+    sheet.finish()
+    assert [text.get_text() for text in sheet[1].axes.texts] == ["no runs yet"]

@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 
 HOLLOW = "hollow: still relaxing, or not known to be steady"
 DASHED = "dashed: still relaxing, or not known to be steady"
-NO_ERROR = "without bar or band: no error known"
-BARS, BANDS, BOTH = "bars: ± one standard error", "bands: ± one standard error", "bars and bands: ± one standard error"
+NO_ERROR = "crossed: no error known"
+BARS, BANDS = "bars: ± one standard error, if longer than the mark", "bands: ± one standard error"
 
 #: Curves of more points are drawn as lines with bands; of fewer as points with bars.
 MOST_MARKS = 40
@@ -42,6 +42,8 @@ class Panel:
         self.explained: set[Any] = set()
         self.entries: list[tuple[Any, str]] = []     # of the key: (handle, label)
         self.is_used = self.has_picture = False
+        self.absent = "no data"                       # what a panel without any says
+        self._lines: list[Any] = []                   # of curves
         self._outlines: list[tuple[np.ndarray, np.ndarray, bool]] = []   # what a key should not cover: x, y, joined
         self._reach: list[tuple[np.ndarray, np.ndarray, np.ndarray, bool]] = []  # x, low, high, has marks
         self.labels: list[tuple[str, np.ndarray, np.ndarray]] = []       # of references: text, x, y
@@ -113,9 +115,10 @@ class Panel:
         as_points = look == "points" or (look == "" and np.count_nonzero(finite) <= MOST_MARKS)
         if np.any(finite):
             (self._points if as_points else self._line)(x, y, errors, sure, colour, mark, joined)
-        if label:
+        if label and np.any(finite):
             self.entries.append((_handle(colour, mark if as_points else "", as_points and not joined,
-                                         _FINE_DASHES if not as_points and not np.all(sure[finite]) else "-"), label))
+                                         _FINE_DASHES if not as_points and not np.all(sure[finite]) else "-",
+                                         hollow=as_points and not np.any(sure[finite])), label))
         return self
 
     def _colour(self, label: str, colour: Any) -> tuple[Any, str]:
@@ -142,10 +145,8 @@ class Panel:
                 self.explained.add("bars")
                 for k in np.flatnonzero(barred):
                     self._outlines.append((x[[k, k]], np.array([low[k], high[k]]), True))
-            if np.any(np.isfinite(y) & ~np.isfinite(errors)):
-                self.explained.add(NO_ERROR)
         if joined:
-            axes.plot(x, y, "-", color=colour, linewidth=0.8, zorder=2.4)
+            self._lines += axes.plot(x, y, "-", color=colour, linewidth=0.8, zorder=2.4)
         for kind, face in ((sure, colour), (~sure, "white")):
             shown = kind & np.isfinite(x) & np.isfinite(y)
             if np.any(shown):
@@ -153,21 +154,33 @@ class Panel:
                           markeredgecolor=colour, zorder=2.6)
                 if face == "white":
                     self.explained.add(HOLLOW)
+        if errors is not None:
+            self._cross_out(x, y, np.flatnonzero(np.isfinite(x) & np.isfinite(y) & ~np.isfinite(errors)), colour)
         self._reach.append((x, low, high, True))
         self._outlines.append((x, y, joined))
+
+    def _cross_out(self, x: np.ndarray, y: np.ndarray, which: np.ndarray, colour: Any) -> None:
+        """Crosses over points whose error is not known."""
+        if which.size:
+            self.axes.plot(x[which], y[which], linestyle="none", marker="x", markersize=5.5, markeredgewidth=0.7,
+                           color=colour, zorder=2.7)
+            self.explained.add(NO_ERROR)
 
     def _line(self, x: np.ndarray, y: np.ndarray, errors: np.ndarray | None, sure: np.ndarray, colour: Any,
               mark: str, joined: bool) -> None:
         low = high = y
         if errors is not None and np.any(np.isfinite(errors) & np.isfinite(y)):
             low, high = y - errors, y + errors
-            self.explained |= {NO_ERROR} if np.any(np.isfinite(y) & ~np.isfinite(errors)) else set()
             self.axes.fill_between(x, low, high, color=colour, alpha=0.25, linewidth=0, zorder=2.0)
             self.explained.add("bands")
             self._outlines += [(x, low, True), (x, high, True)]
+        if errors is not None:  # a few crosses say it of a line
+            unknown = np.flatnonzero(np.isfinite(x) & np.isfinite(y) & ~np.isfinite(errors))
+            self._cross_out(x, y, unknown[np.unique(np.linspace(0, unknown.size, 6)[:-1].astype(int))]
+                            if unknown.size else unknown, colour)
         unsure = not np.all(sure[np.isfinite(y)])
-        self.axes.plot(x, y, linestyle=_FINE_DASHES if unsure else "-", color=colour, zorder=2.4,
-                       linewidth=0.9 if y.size < 400 else 0.7)
+        self._lines += self.axes.plot(x, y, linestyle=_FINE_DASHES if unsure else "-", color=colour, zorder=2.4,
+                                      linewidth=0.9 if y.size < 400 else 0.7)
         if unsure:
             self.explained.add(DASHED)
         self._reach += [(x, low, high, False), (x, y, y, False)]
@@ -235,6 +248,8 @@ class Panel:
                           zorder=2.2)
             self.explained.add("bars")
         axes.plot(values[shown], places[shown], linestyle="none", marker=MARKERS[colour], color=paint, zorder=2.6)
+        if error is not None:
+            self._cross_out(values, places, np.flatnonzero(shown & ~np.isfinite(np.asarray(error, dtype=float))), paint)
         for k in np.flatnonzero(shown):
             self.drawn.append(Drawn(self.letter, f"{label}: {categories[k]}" if label else categories[k],
                                     values[k:k + 1], places[k:k + 1], None if error is None else errors[k:k + 1]))
@@ -248,7 +263,7 @@ class Panel:
         self._reach.append((np.concatenate([values, values - errors, values + errors]), places, places, True))
         self._outlines.append((values, places, False))
         self._number_room |= digits > 0
-        if label:
+        if label and np.any(shown):
             self.entries.append((_handle(paint, MARKERS[colour], True, "-"), label))
         return self
 
@@ -369,13 +384,17 @@ class Panel:
             self.axes.set_xticks([])
             self.axes.set_yticks([])
             # a reference alone is drawn in the middle: the words stand clear of it
-            self.axes.text(0.5, 0.25, "no data", color=GREY, ha="center", va="center", transform=self.axes.transAxes,
+            self.axes.text(0.5, 0.25, self.absent, color=GREY, ha="center", va="center", transform=self.axes.transAxes,
                            bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.5})
             return
         for name in ("x", "y"):
             if self._reach:
                 self._set_limits(name)
             ticks.set_ticks(self.axes, name)
+            if getattr(self.axes, f"get_{name}scale")() == "log":
+                for line in self._lines:  # which must not pass over what has no logarithm
+                    values = np.asarray(getattr(line, f"get_{name}data")(), dtype=float)
+                    getattr(line, f"set_{name}data")(np.where(values > 0, values, np.nan))
         for work in self._afterwards:
             work(self)
 
@@ -464,7 +483,7 @@ def _borders(places: np.ndarray) -> np.ndarray:
     return np.concatenate([[2 * places[0] - between[0]], between, [2 * places[-1] - between[-1]]])
 
 
-def _handle(colour: Any, marker: str, lineless: bool, line: Any) -> Any:
+def _handle(colour: Any, marker: str, lineless: bool, line: Any, hollow: bool = False) -> Any:
     from matplotlib.lines import Line2D
     return Line2D([], [], color=colour, marker=marker or "none", linestyle="none" if lineless else line,
-                  linewidth=0.9)
+                  linewidth=0.9, markerfacecolor="white" if hollow else colour)

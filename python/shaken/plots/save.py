@@ -17,6 +17,7 @@ from . import names
 Origin = Mapping[str, str]
 
 SUFFIXES = (".png", ".pdf", ".svg")
+_MANY_BYTES = 500_000  # of a PNG
 
 
 class Drawn:
@@ -96,8 +97,7 @@ def _picture(figure: Any, form: str, origin: dict[str, str]) -> bytes:
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         canvas = FigureCanvasAgg(figure)
         canvas.draw()
-        keeps_all = len(_colour_bars(figure)) > 1  # or both would lose some
-        return _png(canvas.buffer_rgba(), figure.dpi, {"Software": software, **origin}, keeps_all)
+        return _png(figure, canvas.buffer_rgba(), {"Software": software, **origin})
     elif form == "pdf":
         from matplotlib.backends.backend_pdf import FigureCanvasPdf
         FigureCanvasPdf(figure).print_pdf(out, metadata={"Creator": software, "Producer": software, "Subject": lines,
@@ -108,22 +108,33 @@ def _picture(figure: Any, form: str, origin: dict[str, str]) -> bytes:
     return out.getvalue()
 
 
-def _colour_bars(figure: Any) -> set[str]:
-    """Names of the colour maps that have bars."""
-    mapped = [drawn for axes in figure.axes for drawn in (*axes.collections, *axes.images)]
-    return {drawn.get_cmap().name for drawn in mapped if drawn.colorbar is not None}
-
-
-def _png(pixels: Any, dpi: float, texts: dict[str, str], keeps_all: bool) -> bytes:
-    """A PNG of at most 256 colours, unless it keeps all: a third of the bytes, and no eye sees it in a plot."""
+def _png(figure: Any, pixels: Any, texts: dict[str, str]) -> bytes:
+    """A PNG of at most 256 colours, a third of the bytes, where no eye sees it. Where colours stand for numbers, or
+    there is a picture, it has all, unless these are very many bytes; those of colour bars count most then."""
     from PIL import Image, PngImagePlugin
     shape = pixels.shape
     picture = Image.frombuffer("RGBA", (shape[1], shape[0]), pixels, "raw", "RGBA", 0, 1).convert("RGB")
     info = PngImagePlugin.PngInfo()
     for keyword, text in texts.items():
         info.add_text(keyword, text)
-    out = io.BytesIO()
-    if not keeps_all:
-        picture = picture.quantize(256, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
-    picture.save(out, "PNG", pnginfo=info, dpi=(dpi, dpi), optimize=True)
-    return out.getvalue()
+
+    def encoded(image: Any) -> bytes:
+        out = io.BytesIO()
+        image.save(out, "PNG", pnginfo=info, dpi=(figure.dpi, figure.dpi), optimize=True)
+        return out.getvalue()
+
+    few = {"method": Image.Quantize.MEDIANCUT, "dither": Image.Dither.NONE}
+    bars = [axes.get_window_extent() for axes in figure.axes if hasattr(axes, "_colorbar")]
+    if not bars and not any(axes.images for axes in figure.axes):
+        return encoded(picture.quantize(256, **few))
+    whole = encoded(picture)
+    if len(whole) <= _MANY_BYTES or not bars:
+        return whole
+    sample = Image.new("RGB", (picture.width, 2 * picture.height))
+    sample.paste(picture)
+    height = picture.height // len(bars)
+    for k, bar in enumerate(bars):
+        shown = picture.crop((int(bar.x0), int(shape[0] - bar.y1), int(bar.x1) + 1, int(shape[0] - bar.y0) + 1))
+        sample.paste(shown.resize((picture.width, height), Image.Resampling.NEAREST),
+                     (0, picture.height + k * height))
+    return encoded(picture.quantize(palette=sample.quantize(256, kmeans=2, **few), dither=Image.Dither.NONE))

@@ -202,7 +202,8 @@ class Sheet:
         """Of two panels with the same key the later one needs none."""
         met: list[list[tuple[Any, ...]]] = []
         for one in self.panels:
-            looks = [(str(handle.get_color()), handle.get_marker(), label) for handle, label in one.entries]
+            looks = [(str(handle.get_color()), handle.get_marker(), str(handle.get_markerfacecolor()), label)
+                     for handle, label in one.entries]
             one.keyless = not looks or any(all(look in other for look in looks) for other in met)
             met.append(looks)
 
@@ -310,19 +311,17 @@ def _explanations(said: set[Any]) -> list[tuple[Any, str]]:
     found: list[tuple[Any, str]] = []
     bar = Line2D([], [], color=DARK_GREY, marker="|", linestyle="none", markersize=6, markeredgewidth=0.8)
     band = Patch(color=DARK_GREY, alpha=0.25, linewidth=0)
-    if "bars" in said and "bands" in said:
-        found.append((bar, panels_of.BOTH))
-    elif "bars" in said:
-        found.append((bar, panels_of.BARS))
-    elif "bands" in said:
-        found.append((band, panels_of.BANDS))
+    found += [(shape, words) for what, shape, words in (("bars", bar, panels_of.BARS), ("bands", band, panels_of.BANDS))
+              if what in said]
     if panels_of.HOLLOW in said:
         found.append((Line2D([], [], color=DARK_GREY, marker="o", markerfacecolor="white", linestyle="none"),
                       panels_of.HOLLOW))
     if panels_of.DASHED in said:
         found.append((Line2D([], [], color=DARK_GREY, linestyle=panels_of._FINE_DASHES), panels_of.DASHED))
     if panels_of.NO_ERROR in said:
-        found.append((Line2D([], [], color=DARK_GREY, marker="o", linestyle="none"), panels_of.NO_ERROR))
+        mark, cross = (Line2D([], [], color=DARK_GREY, marker=marker, linestyle="none", markersize=size,
+                              markeredgewidth=0.7) for marker, size in (("o", 3.6), ("x", 5.5)))
+        found.append(((mark, cross), panels_of.NO_ERROR))
     shapes = {"grey": Patch(color="#ececec", linewidth=0), "band": band, "bar": bar,
               "line": Line2D([], [], color=DARK_GREY, linewidth=0.8)}
     for kind, words in sorted(one for one in said if isinstance(one, tuple)):

@@ -108,7 +108,7 @@ def diffusion(material: Material) -> Sheet:
     for k, (runs, direction, title, short_limit, statements) in enumerate(rows):
         panel = sheet[2 * k].titles(names.axis_title("/msd/lag_s"), names.axis_title(f"/msd/{direction}_mm2"), title)
         panel.scale("log", "log")
-        draw_curves(panel, runs, f"/msd/{direction}_mm2", scale, keep=lambda t, msd: msd > 0)
+        draw_curves(panel, runs, f"/msd/{direction}_mm2", scale)
         panel = sheet[2 * k + 1].titles(names.axis_title(PACKING), "D (mm²/s)", title)
         draw_points(panel, runs.points(PACKING, short_limit), "t → 0", 0)
         draw_points(panel, points_of(runs, PACKING, lambda here, way=direction: long_time_diffusion(here, way)),
@@ -187,7 +187,7 @@ def rotation(material: Material) -> Sheet:
                                                                                "rotation-saturates")):
         panel.titles(names.axis_title("/rotation/lag_s"), names.axis_title("/rotation/msad_rad2"), title)
         panel.scale("log", "log")
-        draw_curves(panel, runs, "/rotation/msad_rad2", scale, keep=lambda t, msad: msad > 0)
+        draw_curves(panel, runs, "/rotation/msad_rad2", scale)
         if statement:
             material.stamp(panel, statement)
     if scale:

@@ -24,7 +24,7 @@ def g2(material: Material) -> Sheet:
     scale = packing_scale(*(runs for runs, _ in sets))
     for panel, (runs, title) in zip(sheet, sets):
         panel.titles(names.axis_title("/g2/r_mm"), names.axis_title("/g2/g2"), title).scale("log", "log")
-        draw_curves(panel, runs, "/g2/g2", scale, keep=lambda r, g: (g > 3e-3) & (r > 0.5))
+        draw_curves(panel, runs, "/g2/g2", scale, keep=lambda r, g: r > 0.5)
         panel.range(y=(3e-3, 1.1), exactly=True)
     if scale:
         sheet.colourbar(scale)
@@ -172,7 +172,7 @@ def layers(material: Material) -> Sheet:
     material.stamp(sheet[7], "wavelength-end")
     panel = sheet[8].titles("wave number $q_⊥$ (1/mm)", "spectrum of sin 2(θ − θ$_N$)", "across the director")
     panel.scale(y="log")
-    draw_curves(panel, long_, "/layers/spectrum_across", scale, keep=lambda q, s: (q < 2) & (s > 0), errors=False)
+    draw_curves(panel, long_, "/layers/spectrum_across", scale, keep=lambda q, s: q < 2, errors=False)
     return sheet
 
 
@@ -215,11 +215,13 @@ def larger_box(material: Material) -> Sheet:
     large = material.evidence["larger-box"].at(4.0, 0.85, end=0.4)
     both = Runs([*small, *large])
     sheet = material.sheet(4, columns=2, height=58)
-    for panel, runs in ((sheet[0], small), (sheet[1], large)):
+    for panel, runs, title in ((sheet[0], small, "the desk's box"), (sheet[1], large, "twice as wide")):
         snapshot = first_snapshot(runs)
         if snapshot:
             draw_rods(panel, snapshot, runs[0].scene, f"L = {snapshot.box[0]:.1f} mm")
-    angle_bar(sheet, [panel for panel in sheet.panels[:2] if panel.is_used] or sheet.panels[:1])
+        else:
+            panel.titles(title=title).absent = "no runs yet"
+    angle_bar(sheet, sheet.panels[:2])
     _angles(sheet[2], both, SIDE, "P(θ)")
     _cuts_across(sheet[3], both, None, SIDE)
     material.stamp(sheet[3], "larger-box")

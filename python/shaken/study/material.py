@@ -56,7 +56,8 @@ def draw_curves(panel: Panel, runs: Runs, array: str, scale: style.ColourScale |
                 y: Callable[[np.ndarray, np.ndarray], np.ndarray] = lambda x, y: y,
                 keep: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None, labels: bool = False,
                 errors: bool = True, look: str = "line") -> None:
-    """An array against its axis, the mean over replicas, a curve for each value of a key."""
+    """An array against its axis, the mean over replicas, a curve for each value of a key. What `keep` leaves out within
+    it is a gap."""
     for k, value in enumerate(runs.values(path)):
         here = runs.where(path, value)
         found = here.curve(array)
@@ -65,7 +66,10 @@ def draw_curves(panel: Panel, runs: Runs, array: str, scale: style.ColourScale |
         xs, ys, es = found
         factor = np.where(np.abs(ys) > 0, np.abs(y(xs, ys) / np.where(ys == 0, 1, ys)), 1.0)
         shown = keep(xs, ys) if keep else np.ones(len(xs), dtype=bool)
-        panel.curve(x(xs)[shown], y(xs, ys)[shown], (es * factor)[shown] if errors else None,
+        if not shown.any():
+            continue
+        part = slice(np.argmax(shown), len(shown) - np.argmax(shown[::-1]))
+        panel.curve(x(xs)[part], np.where(shown, y(xs, ys), np.nan)[part], (es * factor)[part] if errors else None,
                     here.number("S").steady if "S" in here[0] else True,
                     label=names.value_label(path, value) if labels else "",
                     colour=scale(value) if scale else k, look=look)
