@@ -251,6 +251,7 @@ def test_of_many_colours_those_of_the_bars_are_kept() -> None:
     middle, low, high = int((bar.x0 + bar.x1) / 2), int(len(whole) - bar.y1) + 4, int(len(whole) - bar.y0) - 4
     off = np.abs(np.asarray(picture.convert("RGB")).astype(int) - whole)
     assert off[low:high, middle].max() <= 12 and off.max() > 30
+    assert off[0, 0].max() == 0, "paper is white"
 
 
 def drawn_markers(panel: panel_module.Panel) -> list[str]:

@@ -8,6 +8,8 @@ import math
 from pathlib import Path
 from typing import Any, Iterable, Mapping, Sequence
 
+import numpy as np
+
 from ..errors import ShakenError
 from ..whole import write_whole
 from . import names
@@ -137,4 +139,13 @@ def _png(figure: Any, pixels: Any, texts: dict[str, str]) -> bytes:
         shown = picture.crop((int(bar.x0), int(shape[0] - bar.y1), int(bar.x1) + 1, int(shape[0] - bar.y0) + 1))
         sample.paste(shown.resize((picture.width, height), Image.Resampling.NEAREST),
                      (0, picture.height + k * height))
-    return encoded(picture.quantize(palette=sample.quantize(256, kmeans=2, **few), dither=Image.Dither.NONE))
+    chosen = sample.quantize(256, kmeans=2, **few)
+    colours = np.array(chosen.getpalette()).reshape(-1, 3)
+    for exact in (0, 255):  # paper is white
+        colours[np.argmin(np.abs(colours - exact).sum(axis=1))] = exact
+    # by hand: Pillow's way to a given palette takes colours that are only nearly the nearest
+    there, where = np.unique(np.asarray(picture) @ np.array([1 << 16, 1 << 8, 1]), return_inverse=True)
+    apart = np.stack([there >> 16, there >> 8 & 255, there & 255], axis=1)[:, None] - colours
+    indexed = Image.fromarray((apart**2).sum(axis=2).argmin(axis=1)[where].astype("u1").reshape(shape[:2]), "P")
+    indexed.putpalette(colours.ravel().tolist())
+    return encoded(indexed)
