@@ -11,14 +11,15 @@ NAN = float("nan")
 
 @dataclass(frozen=True)
 class Estimate:
-    """A number and what is known of it.
+    """A number and what is known of it. It is computed with as if it were independent of others, to first order in the
+    errors; `<`, `float`, `round` and formats (f"{S:.3f}") are of its value.
 
     value:       NaN where it could not be measured
     error:       its standard error; NaN where it is not known
     steady:      whether it is the mean of a steady state; None where that cannot be told, or where it is no average
     n_eff:       the number of independent samples behind the error; NaN where it is not known
     drift:       its mean over the later half of the time less that over the earlier half, with `drift_error`
-    unit:        "mm2 s-1"; "1" for a plain number
+    unit:        "mm2 s-1"; "1" for a plain number; None where it is not known
     reason:      why there is no value, where there is none
     dof:         degrees of freedom of its error: one less than the replicas whose scatter it is; infinite of an error
                  that comes from many samples
@@ -30,7 +31,7 @@ class Estimate:
     n_eff: float = NAN
     drift: float = NAN
     drift_error: float = NAN
-    unit: str = "1"
+    unit: str | None = "1"
     reason: str = ""
     dof: float = math.inf
 
@@ -53,20 +54,71 @@ class Estimate:
     def __float__(self) -> float:
         return self.value
 
-    def __truediv__(self, divisor: float) -> "Estimate":
-        return self * (1 / divisor)
+    def __round__(self, digits: int | None = None) -> float:
+        return round(self.value, digits)
 
-    def __mul__(self, factor: float) -> "Estimate":
+    def __format__(self, form: str) -> str:
+        return format(self.value, form) if form else str(self)
+
+    def __lt__(self, other: "Estimate | float") -> bool:
+        return self.value < float(other)
+
+    def __le__(self, other: "Estimate | float") -> bool:
+        return self.value <= float(other)
+
+    def __gt__(self, other: "Estimate | float") -> bool:
+        return self.value > float(other)
+
+    def __ge__(self, other: "Estimate | float") -> bool:
+        return self.value >= float(other)
+
+    def __neg__(self) -> "Estimate":
+        return self * -1
+
+    def __pos__(self) -> "Estimate":
+        return self
+
+    def __abs__(self) -> "Estimate":
+        return -self if self.value < 0 else self
+
+    def __add__(self, other: "Estimate | float") -> "Estimate":
+        if not isinstance(other, Estimate):
+            return replace(self, value=self.value + other)
+        unit = self.unit if self.unit == other.unit else None
+        return derived(self.value + other.value, [(1, self), (1, other)], unit)
+
+    __radd__ = __add__
+
+    def __sub__(self, other: "Estimate | float") -> "Estimate":
+        return self + -other
+
+    def __rsub__(self, other: float) -> "Estimate":
+        return -self + other
+
+    def __mul__(self, factor: "Estimate | float") -> "Estimate":
+        if isinstance(factor, Estimate):
+            unit = self.unit if factor.unit == "1" else factor.unit if self.unit == "1" else None
+            return derived(self.value * factor.value, [(factor.value, self), (self.value, factor)], unit)
         return replace(self, value=self.value * factor, error=self.error * abs(factor), drift=self.drift * factor,
                        drift_error=self.drift_error * abs(factor))
 
     __rmul__ = __mul__
 
+    def __truediv__(self, divisor: "Estimate | float") -> "Estimate":
+        if not isinstance(divisor, Estimate):
+            return self * (1 / divisor)
+        ratio = self.value / divisor.value
+        unit = self.unit if divisor.unit == "1" else "1" if self.unit == divisor.unit is not None else None
+        return derived(ratio, [(1 / divisor.value, self), (-ratio / divisor.value, divisor)], unit)
+
+    def __rtruediv__(self, dividend: float) -> "Estimate":
+        return Estimate(dividend, 0.0, True, drift=0.0, drift_error=0.0) / self
+
     def __str__(self) -> str:
         if not self.is_known:
             return f"not known ({self.reason})" if self.reason else "not known"
-        mark = {True: "", False: "~", None: ""}[self.steady]
-        unit = "" if self.unit == "1" else f" {self.unit}"
+        mark = {True: "", False: "~", None: "?"}[self.steady]
+        unit = "" if self.unit in ("1", None) else f" {self.unit}"
         if not math.isfinite(self.error):
             return f"{mark}{self.value:.4g} ± ?{unit}"
         digits = decimals(self.error)
@@ -146,7 +198,7 @@ def replica_mean(estimates: Iterable[Estimate]) -> Estimate:
     return Estimate(value, error, steady, n_eff, drift, drift_error, known[0].unit, dof=dof)
 
 
-def derived(value: float, terms: Iterable[tuple[float, Estimate]], unit: str = "1") -> Estimate:
+def derived(value: float, terms: Iterable[tuple[float, Estimate]], unit: str | None = "1") -> Estimate:
     """A number made of independent others, to first order: `terms` are (its derivative by one of them, that one).
 
     It is as steady as all of them, with their errors and drifts.

@@ -13,7 +13,7 @@ from .hdf5 import open_file
 from .quantities import seconds
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Frame:
     """The rods of one instant.
 
@@ -61,6 +61,9 @@ class Frame:
         """The angle of the nematic director [rad], in (-pi/2, pi/2]: the mean axis of the first species; NaN of
         spheres."""
         return float(np.angle(self._mean_axis) / 2)
+
+    def __repr__(self) -> str:
+        return f"<frame at {self.time:g} s: {len(self.positions)} rods, S = {self.order:.3g}>"
 
     def to_freud(self) -> tuple[Any, np.ndarray, np.ndarray]:
         """What freud takes: (box, points, orientations).
@@ -134,6 +137,10 @@ class Trajectory:
 
     def __len__(self) -> int:
         return len(self.times)
+
+    def __repr__(self) -> str:
+        until = f", {self.times[0]:g} to {self.times[-1]:g} s" if len(self) else ""
+        return f"<trajectory: {len(self)} frames of {len(self.species)} rods{until}>"
 
     def __getitem__(self, k: int) -> Frame:
         """Frame k, counted from the end where it is below 0; a slice is none: `frames()` gives many."""

@@ -165,6 +165,9 @@ class Arrays(Mapping[str, Array]):
     def __len__(self) -> int:
         return len(self._names)
 
+    def __repr__(self) -> str:
+        return f"<{len(self)} arrays: {', '.join(self._names)}>"
+
 
 class Numbers(Mapping[str, Estimate]):
     """The numbers of a run by their names, as in summary.json: "S" (the mean order), "diffusion_mm2_s", ..."""
@@ -195,7 +198,8 @@ def numbers_of(summary: Mapping[str, Any]) -> Numbers:
         numbers["S"] = _estimate({**order, "value": order.get("mean")}, "1")
         numbers["S_std"] = Estimate(_float(order.get("std")), steady=order.get("steady"))
     for name, measured in (summary.get("measured") or {}).items():
-        numbers[name] = _estimate(measured, unit_of(name))
+        own = measured.get("steady")  # as in tables, one that does not know is as steady as its run
+        numbers[name] = _estimate({**measured, "steady": summary.get("steady") if own is None else own}, unit_of(name))
     return Numbers(numbers)
 
 

@@ -84,7 +84,7 @@ def test_turning_that_is_not_diffusive_has_no_d_r():
 # --- the search
 
 def level(noise, d_r, error=0.0):
-    return Level(noise, Diffusion(Estimate(value=d_r, error=error), 1.0, 4.0, 0.1), 8.0, 100.0, 0)
+    return Level(noise, Diffusion(Estimate(value=d_r, error=error, steady=True), 1.0, 4.0, 0.1), 8.0, 100.0, 0)
 
 
 class Law:

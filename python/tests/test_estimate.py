@@ -59,6 +59,22 @@ def test_derived_adds_errors_in_quadrature():
     assert exactly(3.0).error == 0 and exactly(3.0).steady is True
 
 
+def test_an_estimate_is_computed_with_as_a_number():
+    a, b = Estimate(2.0, 0.3, True, unit="mm"), Estimate(4.0, 0.4, None, unit="mm")
+    for found, value, error, unit in (
+            (a + b, 6, 0.5, "mm"), (a - b, -2, 0.5, "mm"), (a + 1, 3, 0.3, "mm"), (1 - a, -1, 0.3, "mm"),
+            (1 + a, 3, 0.3, "mm"), (a - 1, 1, 0.3, "mm"), (-a, -2, 0.3, "mm"), (abs(-a), 2, 0.3, "mm"),
+            (a * 3, 6, 0.9, "mm"), (3 * a, 6, 0.9, "mm"), (a / 2, 1, 0.15, "mm"),
+            (a * b, 8, math.hypot(1.2, 0.8), None), (a / b, 0.5, math.hypot(0.075, 0.05), "1"),
+            (1 / b, 0.25, 0.025, None),
+            (a * Estimate(3.0, 0.0), 6, 0.9, "mm"), (a + Estimate(1.0, 0.4, unit="s"), 3, 0.5, None)):
+        assert found.value == pytest.approx(value) and found.error == pytest.approx(error) and found.unit == unit
+    assert (a + b).steady is None and (a + 1).steady is True
+    assert a < b and b > 3 and a >= 2 and a <= 2 and sorted([b, a]) == [a, b]
+    assert (f"{a:.3f}", round(a, 1), float(a), f"{a}") == ("2.000", 2.0, 2.0, str(a))
+    assert [str(Estimate(2.0, 0.3, word)) for word in (True, False, None)] == ["2.0 ± 0.3", "~2.0 ± 0.3", "?2.0 ± 0.3"]
+
+
 def test_degrees_of_freedom_are_those_of_the_error_that_counts():
     """Welch's: of two errors of three replicas each that are alike four; of one beside a smaller one its own."""
     few = replica_mean([Estimate(value) for value in (1.0, 2.0, 3.0)])

@@ -40,7 +40,11 @@ def test_errors_of_arrays_have_names_of_their_own(name, error):
 def test_numbers_carry_error_unit_and_steadiness(run_at):
     run = run_at("a", order=0.8, sem=0.01, steady=False)
     assert (run["S"].value, run["S"].error, run["S"].steady, run["S"].n_eff) == (0.8, 0.01, False, 40.0)
-    assert run["diffusion_mm2_s"].unit == "mm2 s-1" and run["diffusion_mm2_s"].steady is None
+    assert run["diffusion_mm2_s"].unit == "mm2 s-1"
+    assert run["diffusion_mm2_s"].steady is False, "it does not know, and its run is not"
+    assert run_at("b", steady=None)["diffusion_mm2_s"].steady is None
+    own = {"value": 1.0, "steady": True}
+    assert run_at("c", steady=False, measured={"layer_order": own})["layer_order"].steady is True
     assert "S" in run and "theta_m_deg" not in run
     with pytest.raises(KeyError, match="diffusion_mm2_s"):
         run["difusion"]
@@ -49,6 +53,7 @@ def test_numbers_carry_error_unit_and_steadiness(run_at):
 def test_arrays_know_axis_error_and_unit(run_at):
     run = run_at("a", arrays=CURVES)
     msd = run["/msd/total_mm2"]
+    assert repr(run.arrays).startswith("<9 arrays: /g2/g2, ")
     assert msd.unit == "mm2" and list(msd.axis) == [1, 2, 4] and msd.axis.unit == "s" and list(msd.error) == [1, 1, 2]
     assert list(run["g2/g2"].error) == [0.1, 0.2]
     g = run["/pairs/g"]
@@ -151,6 +156,8 @@ def test_frames_come_lazily_and_at_multiples(run_at, tmp_path):
     for every in (0, -1, float("nan")):
         with pytest.raises(shaken.ShakenError, match="must be above 0"):
             next(run.frames(every=every))
+    assert repr(run.trajectory) == "<trajectory: 9 frames of 50 rods, 0 to 4 s>"
+    assert repr(frames[1]).startswith("<frame at 0.5 s: 50 rods, S = 0.") and len(repr(frames[1])) < 50
     box, points, orientations = frames[0].to_freud()
     assert points.dtype == np.float32 and points[:, 2].max() == 0 and abs(points[:, :2]).max() <= 10
     turned = 2 * np.arctan2(orientations[:, 3], orientations[:, 0])
