@@ -313,8 +313,10 @@ def merge(source: str | Path, into: str | Path) -> list[Path]:
 
 
 def archived_runs(folder: str | Path, set_aside: Callable[[str], None] | None = None) -> Iterator[ArchivedRun]:
-    """The runs of an archive, in the order of their ids. Raises ShakenError, after the others, with all files that
-    are damaged; or gives them other names, and says so by `set_aside`."""
+    """The runs of an archive, in the order of their ids. Raises ShakenError where there is no such folder, and, after
+    the others, with all files that are damaged; or gives these other names, and says so by `set_aside`."""
+    if not Path(folder).is_dir():
+        raise ShakenError(f"{folder} is no folder, and so no archive")
     problems = []
     for path in sorted(Path(folder).glob("*" + SUFFIX)):
         try:

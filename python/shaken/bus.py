@@ -5,6 +5,7 @@ The relay speaks LCM's protocol tcpq (docs/protocol.md), and this module enough 
 """
 from __future__ import annotations
 
+import re
 import socket
 import struct
 from dataclasses import dataclass
@@ -172,6 +173,8 @@ def live(job: str = "", relay: str = "127.0.0.1:7700", *, observables: bool = Fa
     No run waits for whoever listens: what is not read in time is dropped by the relay. Raises ShakenError where no
     relay answers. Messages that are not of their type are left out.
     """
+    if not re.fullmatch("[0-9a-f]{0,16}", job):
+        raise ShakenError(f"'{job}' is no beginning of a job's id; an address goes into relay=")
     host, _, port = relay.rpartition(":")
     try:
         connection = socket.create_connection((host, int(port)), timeout=5)

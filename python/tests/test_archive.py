@@ -187,6 +187,8 @@ def test_of_an_archive_all_damaged_files_are_named(tmp_path):
     archive.add_run(made_up_run(tmp_path / "run"), tmp_path / "archive")
     for name in ("1", "2"):
         (tmp_path / "archive" / (name + archive.SUFFIX)).write_text("junk")
+    with pytest.raises(shaken.ShakenError, match="nowhere is no folder"):
+        next(archive.archived_runs(tmp_path / "nowhere"))
     found = []
     with pytest.raises(shaken.ShakenError, match="1.run.xz is damaged.*\n.*2.run.xz is damaged"):
         found.extend(archive.archived_runs(tmp_path / "archive"))

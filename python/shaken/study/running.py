@@ -74,7 +74,7 @@ class Plan:
                  set_aside: Callable[[str], None] | None = None) -> None:
         self.archive = archive
         self.sweeps = dict(sweeps)
-        have = {run.id: run for run in archived_runs(archive, set_aside)}
+        have = {run.id: run for run in (archived_runs(archive, set_aside) if archive.is_dir() else ())}
         self.missing: list[Missing] = []
         self.order: dict[str, int] = {}  # id -> place of the run in its sweep
         self.n_points = 0
