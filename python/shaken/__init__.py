@@ -11,7 +11,7 @@ from .about import FieldAbout, field_about
 from .archive import ArchivedRun, Snapshot, archived_runs
 from .bus import LiveFrame, LiveObservables, live
 from .daemon import Daemon
-from .errors import ShakenError
+from .errors import NoDaemon, ShakenError, UnknownName
 from .estimate import Estimate, replica_mean
 from .frames import Frame, Trajectory
 from .run import Array, DirectoryRun, Run
@@ -20,5 +20,5 @@ from .sweep import Point, Sweep, results
 
 __version__ = "0.1.0"
 __all__ = ["ArchivedRun", "Array", "Daemon", "DirectoryRun", "Estimate", "FieldAbout", "Frame", "LiveFrame",
-           "LiveObservables", "Point", "Run", "ShakenError", "Snapshot", "Sweep", "Trajectory", "archived_runs",
-           "field_about", "live", "open", "replica_mean", "results"]
+           "LiveObservables", "NoDaemon", "Point", "Run", "ShakenError", "Snapshot", "Sweep", "Trajectory",
+           "UnknownName", "archived_runs", "field_about", "live", "open", "replica_mean", "results"]
