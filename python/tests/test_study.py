@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from conftest import PROGRAMS, made_up_run
-from shaken.archive import Snapshot, add_run
+from shaken.archive import Snapshot, add_run, archived_runs
 from shaken.daemon import Daemon
 from shaken.errors import ShakenError
 from shaken.estimate import Estimate
@@ -262,6 +262,16 @@ def test_an_error_beside_a_daemon_is_reported_as_it_is(programs, tmp_path):
                 with running.daemon_at(tmp_path, str(PROGRAMS / "shaken"), said.append):
                     raise ShakenError("no such point")
     assert len(said) == 2 and all("one has been started" in line for line in said)
+
+
+def test_what_different_physics_computed_is_never_averaged(tmp_path):
+    for name, physics, packing, order in (("a", 3, 0.5, 0.2), ("b", 4, 0.5, 0.6), ("c", 4, 0.5, 0.8),
+                                          ("d", 3, 0.6, 0.9)):
+        add_run(made_up_run(tmp_path / name, run_id=name * 16, order=order, version=("0.1.0", physics)),
+                tmp_path / "archive", {"rods.area_fraction": packing}, ["long-rods-desk"])
+    evidence = Evidence(archived_runs(tmp_path / "archive"))
+    assert [run.id[0] for run in evidence["long-rods"]] == ["b", "c", "d"]
+    assert evidence["long-rods"].at(packing=0.5).number("S").value == pytest.approx(0.7)
 
 
 def test_numbers_of_rods_grow_with_the_boxes():

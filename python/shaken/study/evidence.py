@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import json
 import math
 from collections import Counter
 from contextvars import ContextVar
@@ -196,8 +197,26 @@ def points_of(runs: Runs, path: str, of: Callable[[Runs], Estimate]) -> list[tup
     return [(value, estimate) for value, estimate in found if estimate.is_known]
 
 
+def of_newest_physics(runs: Iterable[Run]) -> list[Run]:
+    """Of the runs of each point those of the newest physics: what different ones computed is never averaged."""
+    members = list(runs)
+    newest: dict[str, int] = {}
+
+    def point(run: Run) -> str:
+        return json.dumps(run.parameters, sort_keys=True)
+
+    for run in members:
+        newest[point(run)] = max(newest.get(point(run), 0), _physics(run))
+    return [run for run in members if _physics(run) == newest[point(run)]]
+
+
+def _physics(run: Run) -> int:
+    return int((run.summary.get("versions") or {}).get("physics") or 0)
+
+
 class Evidence:
-    """Runs by set. Where a set has a few runs of a finer time step than the others these are its `controls`.
+    """Runs by set, of each point those of the newest physics. Where a set has a few runs of a finer time step than the
+    others these are its `controls`.
 
     `runs` are ArchivedRuns, which know their sweeps; the scale is what stands behind the last dash of a sweep's name.
     """
@@ -210,6 +229,7 @@ class Evidence:
             for sweep in getattr(run, "sweeps", []):
                 everything.setdefault(sweep.rpartition("-")[0] or sweep, []).append(run)
         for name, members in everything.items():
+            members = of_newest_physics(members)
             steps = Counter(key_of(run, "time.step") for run in members)
             usual = steps.most_common(1)[0][0]
             self._sets[name] = Runs(run for run in members if key_of(run, "time.step") >= usual * 0.999)
