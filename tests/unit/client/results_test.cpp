@@ -178,6 +178,8 @@ TEST(Aggregated, OneReplicaThatRelaxesMakesThePointRelax) {
   ASSERT_EQ(mixed.size(), 1u);
   EXPECT_EQ(steadiness(mixed[0], "order.mean"), Steadiness::kRelaxing);
   EXPECT_NE(steadiness(mixed[0], "measured.theta_m_deg.value"), Steadiness::kRelaxing);
+  const auto turned = aggregated({row_with_verdict(1, false, true), row_with_verdict(2, true, true)});
+  EXPECT_EQ(steadiness(turned[0], "order.mean"), Steadiness::kRelaxing) << "whichever of them it is";
   const auto settled = aggregated({row_with_verdict(1, true), row_with_verdict(2, true)});
   EXPECT_EQ(settled[0].fields.at("order.steady"), true);
   EXPECT_TRUE(settled[0].fields.at("measured.theta_m_deg.steady").is_null()) << "nobody knows";
