@@ -207,10 +207,25 @@ bool means_no_room(std::string_view message) {
          message.find(std::strerror(EDQUOT)) != std::string_view::npos;
 }
 
+FileAsOpened::FileAsOpened(std::filesystem::path path) : path_(std::move(path)) { ::stat(path_.c_str(), &about_); }
+
+bool FileAsOpened::is_gone() const {
+  struct stat now {};
+  if (::stat(path_.c_str(), &now) != 0) return errno == ENOENT || errno == ENOTDIR;
+  return now.st_dev != about_.st_dev || now.st_ino != about_.st_ino;
+}
+
+Result<bool> file_exists(const std::filesystem::path& file) {
+  std::error_code error;
+  const bool is_there = std::filesystem::exists(file, error);
+  if (error) return Error{file.string() + ": " + error.message(), error.value()};
+  return is_there;
+}
+
 Result<void> make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) return Error{folder.string() + ": " + error.message()};
+  if (error) return Error{folder.string() + ": " + error.message(), error.value()};
   return {};
 }
 

@@ -2,6 +2,8 @@
 // Whole files: written so that no crash leaves half of one, read, and the folders they lie in.
 #pragma once
 
+#include <sys/stat.h>
+
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -67,6 +69,22 @@ Result<std::string> read_standard_input(std::size_t most = kMostOfInput);
 
 /// Whether the system refused something for want of room on the disk: then its words for that are in the message.
 bool means_no_room(std::string_view message);
+
+/// The file at a path as it is now: whether that is another one later, or none.
+class FileAsOpened {
+ public:
+  explicit FileAsOpened(std::filesystem::path path);
+  const std::filesystem::path& path() const { return path_; }
+  /// Whether it was removed, replaced, or moved with its folder. Where the system does not say, it was not.
+  bool is_gone() const;
+
+ private:
+  std::filesystem::path path_;
+  struct stat about_ {};
+};
+
+/// Whether a file is there; the error where the system does not say, as a network's disk may for a moment.
+Result<bool> file_exists(const std::filesystem::path& file);
 
 /// Makes `folder` and those that lead to it, where they are missing.
 Result<void> make_folder(const std::filesystem::path& folder);

@@ -13,9 +13,15 @@ namespace shaken {
 class ScratchFolder {
  public:
   ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "shaken.XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::system_error(errno, std::generic_category(), name);
-    path_ = name;
+    const char* chosen = std::getenv("TMPDIR");
+    const bool is_chosen = chosen != nullptr && *chosen != '\0';
+    std::string name = (std::filesystem::path(is_chosen ? chosen : "/tmp") / "shaken.XXXXXX").string();
+    if (mkdtemp(name.data()) != nullptr) {
+      path_ = name;
+      return;
+    }
+    const std::string what = "no folder can be made in " + std::filesystem::path(name).parent_path().string();
+    throw std::system_error(errno, std::generic_category(), what + (is_chosen ? ", which TMPDIR names" : ""));
   }
   ScratchFolder(const ScratchFolder&) = delete;
   ScratchFolder& operator=(const ScratchFolder&) = delete;

@@ -130,6 +130,8 @@ http::Reply Api::handle(const http::Request& request) const {
   } catch (const Refusal& refusal) {
     if (!refusal.problems.empty()) return {refusal.status, to_text(problems_answer(refusal.problems).json), ""};
     return refuse(refusal.status, refusal.what());
+  } catch (const Conflict& conflict) {
+    return refuse(409, conflict.what());
   } catch (const StorageError& problem) {
     spdlog::error("{} {}: {}", request.method, printable(request.path), problem.what());
     return refuse(507, std::string("the queue cannot be read or written: ") + problem.what());
@@ -191,7 +193,10 @@ Api::Answer Api::submit(const Call& call) const {
     if (!reason.empty()) problems.push_back({request.file, 0, 0, "/start", std::move(reason)});
   }
   if (!problems.empty()) return problems_answer(problems);
-  if (request.dry_run) return checked(*submission);
+  if (request.dry_run) {
+    queue_.check(submission->jobs, submission->terms);
+    return checked(*submission);
+  }
   return submitted(submission->name, submission->priority, std::move(submission->jobs), submission->terms);
 }
 
@@ -226,13 +231,7 @@ Api::Answer Api::add_replicas(const Call& call) const {
 }
 
 Api::Answer Api::submitted(const std::string& name, int priority, std::vector<NewJob> jobs, const Terms& terms) const {
-  const Submitted submitted = [&] {
-    try {
-      return queue_.submit(name, priority, jobs, terms);
-    } catch (const Circular& problem) {
-      throw Refusal(409, problem.what());
-    }
-  }();
+  const Submitted submitted = queue_.submit(name, priority, jobs, terms);
   spdlog::info("sweep {} '{}': {} jobs, {} new, {} found done, {} queued again", sweep_word(submitted.sweep), name,
                submitted.counts.total(), submitted.n_new, submitted.n_found, submitted.n_requeued);
   jobs = {};  // their scenes and the answer need not be in memory together

@@ -104,6 +104,7 @@ Result<std::vector<NewJob>> with_replicas(const Queue& queue, std::int64_t sweep
         if (plan->start) {
           const auto stage = ids.find({start, replica});
           job.starts_from = plan->start->run = stage == ids.end() ? start : stage->second;
+          job.starts_at = plan->start->time;
         }
         job.id = scene::run_id(*plan);
         job.scene = scene::to_json(*plan).dump(2) + "\n";

@@ -32,6 +32,14 @@ auto seconds(const std::string& key, auto access, const std::string& doc) {
   return derived(keys::quantity(key, access, keys::Dimension::kTime, 0.001, 1e9, doc), "none");
 }
 
+std::vector<std::string> words_of_ends() {
+  std::vector<std::string> words;
+  for (const JobState state : kJobStates) {
+    if (has_ended(state)) words.emplace_back(to_word(state));
+  }
+  return words;
+}
+
 auto required(auto row) {
   row.required = true;
   row.fallback_note = "must be given";
@@ -74,7 +82,7 @@ std::vector<keys::Key<CleanBody>> rows_of_cleaning() {
   return {
       {{.path = "states",
         .form = Form::kTexts,
-        .names = {"done", "failed", "timed out", "cancelled"},
+        .names = words_of_ends(),
         .fallback_note = "failed, timed out, cancelled",
         .doc = "States of the jobs."},
        {},
@@ -163,7 +171,7 @@ keys::Loaded<Submission> expand(const SubmitRequest& request, const std::filesys
   submission.terms.executor = sweep->executor;
   submission.terms.settings = scene::to_text(sweep->slurm);
   submission.jobs.reserve(sweep->points.size());
-  std::unordered_map<std::string, double> ends;  // of these runs, by id
+  std::unordered_map<std::string, double> ends, ended;  // of these runs, by id; and of those that went on to another
   for (scene::SweepPoint& each : sweep->points) {
     const scene::SweepPoint point = std::move(each);  // of 100,000, what is not needed any more counts
     NewJob job;
@@ -172,13 +180,19 @@ keys::Loaded<Submission> expand(const SubmitRequest& request, const std::filesys
     job.label = point.label;
     job.parameters = point.parameters.dump();
     job.replica = point.replica;
-    job.has_results = run::is_done(run::RunDirectory{runs / job.id}, point.plan);
+    const run::RunDirectory directory{runs / job.id};
+    job.has_results = run::is_done(directory, point.plan);
     ends.emplace(job.id, point.plan.total_time());
+    if (job.has_results == true && !point.plan.until) {
+      const std::optional<Tick> end = run::done_tick(directory, job.id);
+      if (end && *end != scene::total_ticks(point.plan)) ended.emplace(job.id, *end * point.plan.system.dt);
+    }
     extent.fewest_rods = std::min(extent.fewest_rods, point.plan.system.n_all_rods());
     extent.most_rods = std::max(extent.most_rods, point.plan.system.n_all_rods());
     extent.simulated += point.plan.total_time();
     if (const auto& start = point.plan.start) {
       job.starts_from = start->run;
+      job.starts_at = start->time;
       const auto end = ends.find(start->run);
       if (end != ends.end() && end->second != start->time) {
         return std::vector{keys::Problem{
@@ -186,6 +200,13 @@ keys::Loaded<Submission> expand(const SubmitRequest& request, const std::filesys
             fmt::format("run {} is to end at {:.10g} s, and another is to start from it at {:.10g} s: stages that say "
                         "the same from the start on must last equally long",
                         start->run, end->second, start->time)}};
+      }
+      if (const auto other = ended.find(start->run); other != ended.end()) {
+        return std::vector{keys::Problem{
+            request.file, 0, 0, "/sweep",
+            fmt::format("run {} went on to {:.10g} s, where its last state is kept, and another is to start from it at "
+                        "{:.10g} s: start from there, or clean that run first",
+                        start->run, other->second, start->time)}};
       }
       if (end == ends.end() && !std::count(submission.starts.begin(), submission.starts.end(), *start)) {
         submission.starts.push_back(*start);

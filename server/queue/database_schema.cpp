@@ -108,6 +108,18 @@ void jobs_have_work(Database& database) {
   database.execute(update_of_work("1").c_str());
 }
 
+/// Whether a job waits for the run that it starts from follows from that run: `waits` is 1 or 0 again. What the daemon
+/// looks for ten times a second has an index.
+void queries_of_each_round_have_indices(Database& database) {
+  database.execute(R"sql(
+UPDATE jobs SET waits = waits & 1;
+DROP INDEX jobs_that_wait;
+CREATE INDEX jobs_that_wait ON jobs(sweep) WHERE waits;
+CREATE INDEX jobs_that_pause ON jobs(not_before_utime) WHERE not_before_utime > 0;
+CREATE INDEX jobs_that_need_room ON jobs(needed_bytes) WHERE needed_bytes > 0;
+)sql");
+}
+
 std::string damage(Database& database) {
   Query query = database.query("PRAGMA quick_check(1)");
   query.next();
@@ -117,7 +129,8 @@ std::string damage(Database& database) {
 }  // namespace
 
 std::span<const Migration> migrations() {
-  static constexpr std::array<Migration, 2> kMigrations{jobs_start_from_jobs, jobs_have_work};
+  static constexpr std::array<Migration, 3> kMigrations{jobs_start_from_jobs, jobs_have_work,
+                                                        queries_of_each_round_have_indices};
   return kMigrations;
 }
 

@@ -39,9 +39,8 @@ std::string sweep_word(std::int64_t id) { return std::string("s").append(std::to
 std::optional<std::int64_t> sweep_number(std::string_view word) {
   if (word.size() < 2 || word.front() != 's') return std::nullopt;
   std::int64_t id = 0;
-  const auto [end, error] = std::from_chars(word.data() + 1, word.data() + word.size(), id);
-  if (error != std::errc() || end != word.data() + word.size() || id < 1) return std::nullopt;
-  return id;
+  std::from_chars(word.data() + 1, word.data() + word.size(), id);
+  return id > 0 && sweep_word(id) == word ? std::optional(id) : std::nullopt;  // "s022" may be a name
 }
 
 std::string to_word(const Target& target) {

@@ -72,7 +72,7 @@ struct Job {
   std::int64_t not_before = 0;   ///< a queued job that has crashed, or is refused where it is to run, waits until then
   std::int64_t asked_by = 0;     ///< the sweep that asked for it last, whose terms it obeys
   bool waits = false;            ///< until what that sweep comes after is done
-  bool waits_for_start = false;  ///< until the run that it starts from is done
+  bool waits_for_start = false;  ///< for the run from whose end it begins, which is not done; follows from that run
   std::chrono::milliseconds soft_limit{0};  ///< see Terms
   std::chrono::milliseconds time_limit{0};
   /// Wall time of its attempts since it was submitted or retried last; of the present one, all but the last seconds.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "base/clock.h"
@@ -30,11 +31,22 @@ std::string as_long_as_both(const std::string& present, const std::string& wante
   return scene::to_json(scene::as_long_as_both(*now, *then)).dump(2) + "\n";
 }
 
+/// Where the run of a canonical scene ends [ticks]; none where that is known only once it is done, or cannot be read.
+std::optional<Tick> end_of(const std::string& text) {
+  const auto plan = scene::load_scene(text, "the scene of a job");
+  return plan && !plan->until ? std::optional(scene::total_ticks(*plan)) : std::nullopt;
+}
+
 /// The journal's words for what users ask for.
 std::string cause_of(JobEvent request, JobState state) {
   if (request == kCancel) return std::string(kCancelledOnRequest);
   if (request == kHold) return std::string(kHeldOnRequest);
   return state == JobState::kHeld ? "released on request" : "retried on request";
+}
+
+/// Whether a job that is submitted again was done, and its results are not there any more.
+bool has_lost_results(const NewJob& job, const Job& known) {
+  return known.state == JobState::kDone && !job.has_results.value_or(true);
 }
 
 std::string submitted_text(std::int64_t sweep, const Terms& terms) {
@@ -47,16 +59,24 @@ std::string submitted_text(std::int64_t sweep, const Terms& terms) {
 
 }  // namespace
 
-Queue::Queue(const std::filesystem::path& file) : store_(file), last_change_(store_.last_change()) {}
+Queue::Queue(const std::filesystem::path& file) : store_(file), file_(file), last_change_(store_.last_change()) {}
 
 /// What `work` does is one transaction. Wakes those who wait for a change.
 template <class Work>
 auto Queue::write(const Work& work) {
   const std::lock_guard lock(mutex_);
+  if (!closed_.empty()) throw StorageError(closed_);
   Transaction transaction(store_.database());
   const auto commit = [&] {
+    if (file_.is_gone()) throw StorageError(file_.path().string() + " was removed or replaced");
+    const auto changed = store_.sweeps_changed_since(last_change_);
+    const std::int64_t last_change = store_.last_change();
     transaction.commit();
-    last_change_ = store_.last_change();
+    last_change_ = last_change;
+    for (const std::int64_t sweep : changed) sums_.erase(sweep);
+    ready_.clear();
+    counts_.reset();
+    work_ahead_is_old_ = true;
     changed_.notify_all();
   };
   if constexpr (std::is_void_v<decltype(work())>) {
@@ -82,6 +102,7 @@ std::optional<JobPhase> Queue::apply(const std::string& id, JobEvent event, cons
   if (*to == JobPhase::kHeldOnRequest) why = kHeldOnRequest;
   if (*to == JobPhase::kTimedOut) why = time_limit_text(job->time_limit);
   store_.set_phase(*job, *to, why, cause);
+  if (event == kClean) store_.set(id, "attempt", 0);  // it has no state of its own any more
 
   const JobState state = stored(*to).state;
   if (has_ended(state) && state != JobState::kCancelled) {
@@ -92,8 +113,9 @@ std::optional<JobPhase> Queue::apply(const std::string& id, JobEvent event, cons
   }
   if (has_ended(state) || has_ended(job->state) || *to == JobPhase::kHeldForOthers ||
       job->phase == JobPhase::kHeldForOthers) {
-    update_starts_from(id);
+    for (const std::string& next : store_.ids_starting_from(id)) hold_or_release(next);
   }
+  if (*to == JobPhase::kQueued) hold_or_release(id);
   return to;
 }
 
@@ -121,7 +143,7 @@ Submitted Queue::submit(const std::string& name, int priority, std::span<const N
   return write([&] {
     const auto same = store_.same_sweep(name, jobs);
     Submitted result{.sweep = same ? *same : store_.add_sweep(name), .created = !same};
-    refuse_circle(jobs, terms);
+    refuse_conflicts(jobs, terms);
     const std::string cause = submitted_text(result.sweep, terms);
     for (std::size_t position = 0; position < jobs.size(); ++position) {
       const NewJob& job = jobs[position];
@@ -134,9 +156,7 @@ Submitted Queue::submit(const std::string& name, int priority, std::span<const N
     }
     store_.set_terms(result.sweep, terms);
     if (!terms.after.empty()) update_waiting(result.sweep);
-    for (const NewJob& job : jobs) {
-      if (!job.starts_from.empty()) update_starts_from(job.starts_from);
-    }
+    for (const NewJob& job : jobs) hold_or_release(job.id);
     result.counts = store_.counts_of(Target(result.sweep));
     return result;
   });
@@ -145,7 +165,7 @@ Submitted Queue::submit(const std::string& name, int priority, std::span<const N
 void Queue::submit_again(const NewJob& job, int priority, const Terms& terms, Submitted& result) {
   const Job known = *store_.job(job.id);
   const std::string sweep = sweep_word(result.sweep);
-  const bool is_lost = known.state == JobState::kDone && !job.has_results.value_or(true);
+  const bool is_lost = has_lost_results(job, known);
   bool is_longer = false;
   if (is_withdrawn(known.phase)) {
     store_.set_scene(job.id, job.scene);
@@ -164,15 +184,71 @@ void Queue::submit_again(const NewJob& job, int priority, const Terms& terms, Su
   }
 }
 
+/// The scene of a job that is there already, once it has been submitted again.
+std::string Queue::scene_after(const NewJob& job, const Job& known) const {
+  if (is_withdrawn(known.phase)) return job.scene;
+  const std::string present = store_.scene(job.id);
+  const bool stays = known.state == JobState::kDone && !has_lost_results(job, known);
+  return stays ? present : as_long_as_both(present, job.scene);
+}
+
 /// Whether the job's scene has become longer.
 bool Queue::make_longer(const Job& job, const std::string& scene, const std::string& how) {
   const std::string present = store_.scene(job.id);
   const std::string longer = as_long_as_both(present, scene);
   if (longer == present) return false;
+  refuse_other_end(job.id, longer);
   store_.set_scene(job.id, longer);
   if (job.state == JobState::kRunning || job.state == JobState::kStopping) store_.set(job.id, "longer", 1);
   store_.add_to_journal(job.id, to_word(job.state), to_word(job.state), job.attempt, "asked to go on longer, " + how);
   return true;
+}
+
+void Queue::check(std::span<const NewJob> jobs, const Terms& terms) const {
+  const std::lock_guard lock(mutex_);
+  refuse_conflicts(jobs, terms);
+}
+
+void Queue::refuse_conflicts(std::span<const NewJob> jobs, const Terms& terms) const {
+  refuse_circle(jobs, terms);
+  std::map<std::string, std::string> scenes;  // afterwards, of those jobs that are there already
+  for (const NewJob& job : jobs) {
+    const auto known = store_.job(job.id);
+    if (!known) continue;
+    std::string scene = scene_after(job, *known);
+    refuse_other_end(job.id, scene);
+    if (scene != job.scene) scenes.emplace(job.id, std::move(scene));
+  }
+  std::set<std::string> ours;
+  for (const NewJob& job : jobs) ours.insert(job.id);
+  for (const NewJob& job : jobs) {
+    if (job.starts_from.empty()) continue;
+    auto scene = scenes.find(job.starts_from);
+    if (scene == scenes.end()) {
+      if (ours.contains(job.starts_from) || !store_.job(job.starts_from)) continue;  // it is as this submission says
+      scene = scenes.emplace(job.starts_from, store_.scene(job.starts_from)).first;
+    }
+    const auto plan = scene::load_scene(scene->second, "the scene of a job");
+    if (!plan || plan->until || std::llround(job.starts_at / plan->system.dt) == scene::total_ticks(*plan)) continue;
+    throw Conflict(
+        fmt::format("job {} is to start from the end of run {} at {:.10g} s, but that run goes on to {:.10g} s "
+                    "here, where its last state is kept: start from there, or clean that run first",
+                    job.id, job.starts_from, job.starts_at, plan->total_time()));
+  }
+}
+
+/// Where others wait to start from its end, a job keeps that end.
+void Queue::refuse_other_end(const std::string& id, const std::string& scene) const {
+  const std::vector<std::string> next = store_.ids_starting_from(id);
+  const bool is_needed = std::any_of(next.begin(), next.end(), [&](const std::string& each) {
+    return store_.job(each)->attempt == 0;  // afterwards it goes on from its own state
+  });
+  if (!is_needed) return;
+  const std::string present = store_.scene(id);
+  const auto end = end_of(present), then = end_of(scene);
+  if (present == scene || !end || !then || *end == *then) return;
+  throw Conflict(fmt::format("run {} cannot end elsewhere: job {} is to start from its end; cancel that one first", id,
+                             next.front()));
 }
 
 void Queue::refuse_circle(std::span<const NewJob> jobs, const Terms& terms) const {
@@ -181,7 +257,7 @@ void Queue::refuse_circle(std::span<const NewJob> jobs, const Terms& terms) cons
   std::set<std::string> ours;
   for (const NewJob& job : jobs) {
     const auto known = store_.job(job.id);
-    if (!known || known->state != JobState::kDone || !job.has_results.value_or(true)) ours.insert(job.id);
+    if (!known || known->state != JobState::kDone || has_lost_results(job, *known)) ours.insert(job.id);
   }
   // Each of the targets, and what the jobs in it wait for themselves.
   std::vector<Target> pending = terms.after;
@@ -191,14 +267,20 @@ void Queue::refuse_circle(std::span<const NewJob> jobs, const Terms& terms) cons
     pending.pop_back();
     for (const std::string& id : store_.ids_of(target)) {
       if (ours.contains(id)) {
-        throw Circular(fmt::format("these jobs would wait for themselves: job {} is one of them, and {} has it too{}",
+        throw Conflict(fmt::format("these jobs would wait for themselves: job {} is one of them, and {} has it too{}",
                                    id, to_word(target),
                                    std::find(terms.after.begin(), terms.after.end(), target) == terms.after.end()
                                        ? ", for which they would wait by way of others"
                                        : ""));
       }
       const Job job = *store_.job(id);
-      if (job.waits_for_start && seen.insert(job.starts_from).second) pending.emplace_back(job.starts_from);
+      const bool needs_start = !job.starts_from.empty() && job.attempt == 0 && job.state != JobState::kDone;
+      if (needs_start && ours.contains(job.starts_from)) {
+        throw Conflict(
+            fmt::format("these jobs would wait for themselves: job {} starts from run {}, which is one of them", id,
+                        job.starts_from));
+      }
+      if (needs_start && seen.insert(job.starts_from).second) pending.emplace_back(job.starts_from);
       if (!job.waits) continue;
       for (const std::string& word : store_.prerequisites(job.asked_by)) {
         if (seen.insert(target_named(word)).second) pending.push_back(target_named(word));
@@ -207,39 +289,49 @@ void Queue::refuse_circle(std::span<const NewJob> jobs, const Terms& terms) cons
   }
 }
 
-void Queue::update_waiting(std::int64_t sweep) {
-  bool all_done = true;
+/// Why what the jobs of a sweep come after will not be done as things are; "" if it may be.
+std::string Queue::why_never_after(std::int64_t sweep) const {
   for (const std::string& word : store_.prerequisites(sweep)) {
     const JobCounts counts = store_.counts_of(target_named(word));
-    all_done = all_done && counts[JobState::kDone] == counts.total();
     const auto trouble = state_without_result(counts);
     if (!trouble) continue;
     const std::string of_all = sweep_number(word) ? fmt::format("{} of {} ", counts[*trouble], counts.total()) : "";
-    const std::string reason = fmt::format("it was to come after {}: {}{}", word, of_all, to_word(*trouble));
-    for (const std::string& id : store_.waiting_in(sweep)) apply(id, kPrerequisiteFailed, reason, reason);
-    return;
+    return fmt::format("it was to come after {}: {}{}", word, of_all, to_word(*trouble));
   }
-  for (const std::string& id : store_.waiting_in(sweep)) {
-    apply(id, kPrerequisiteRetried, "what it is to come after is tried again");
-  }
-  if (all_done) store_.end_waiting(sweep);
+  return "";
 }
 
-/// Jobs that are to start from run `id` wait until it is done, and are held where nothing will come of it. One that is
-/// not in the queue keeps nobody waiting: its results may be on the disk.
-void Queue::update_starts_from(const std::string& id) {
-  const auto run = store_.job(id);
-  if (!run) return;
-  const bool is_hopeless = (has_ended(run->state) && run->state != JobState::kDone) ||  //
-                           run->phase == JobPhase::kHeldForOthers;
-  const std::string reason = fmt::format("it is to start from run {}: {}", id, to_word(run->state));
-  for (const std::string& next : store_.ids_starting_from(id)) {
-    const bool is_needed = store_.job(next)->attempt == 0;  // afterwards it goes on from its own state
-    store_.set_waiting_for_start(next, is_needed && run->state != JobState::kDone);
-    const bool never_starts = is_needed && is_hopeless;
-    apply(next, never_starts ? kPrerequisiteFailed : kPrerequisiteRetried,
-          never_starts ? reason : "run " + id + " goes on", never_starts ? reason : "");
+/// Why the run that a job starts from will not be done as things are; "" if it may be, or need not be.
+std::string Queue::why_never_started_from(const Job& job) const {
+  if (!job.waits_for_start) return "";
+  const Job run = *store_.job(job.starts_from);
+  const bool is_hopeless = has_ended(run.state) || run.phase == JobPhase::kHeldForOthers;
+  return is_hopeless ? fmt::format("it is to start from run {}: {}", run.id, to_word(run.state)) : "";
+}
+
+/// A queued job is held while nothing comes of what it waits for, and one that is held for that is queued again once
+/// something may. `why_never`: of its sweep, where that is known.
+void Queue::hold_or_release(const std::string& id, const std::optional<std::string>& why_never) {
+  const auto job = store_.job(id);
+  if (!job || (job->phase != JobPhase::kQueued && job->phase != JobPhase::kHeldForOthers)) return;
+  std::string why = why_never_started_from(*job);
+  if (why.empty() && job->waits) why = why_never ? *why_never : why_never_after(job->asked_by);
+  if (why.empty()) {
+    apply(id, kPrerequisiteRetried, "what it waits for goes on");
+  } else {
+    apply(id, kPrerequisiteFailed, why, why);
   }
+}
+
+void Queue::update_waiting(std::int64_t sweep) {
+  const auto words = store_.prerequisites(sweep);
+  const bool all_done = std::all_of(words.begin(), words.end(), [&](const std::string& word) {
+    const JobCounts counts = store_.counts_of(target_named(word));
+    return counts[JobState::kDone] == counts.total();
+  });
+  const std::string why = why_never_after(sweep);
+  for (const std::string& id : store_.waiting_in(sweep)) hold_or_release(id, why);
+  if (all_done) store_.end_waiting(sweep);
 }
 
 void Queue::update_all_waiting() {
@@ -263,8 +355,9 @@ std::vector<Job> Queue::jobs(std::optional<std::int64_t> sweep, std::optional<Jo
 
 std::vector<Job> Queue::begun(Sweep& sweep, SweepWork& work) const {
   const std::lock_guard lock(mutex_);
-  sweep.counts = store_.counts_of(Target(sweep.id));
-  work = store_.work_of(sweep.id);
+  const Sums& sums = sums_of(sweep.id);
+  sweep.counts = sums.counts;
+  work = sums.work;
   return sweep.counts.ended() == sweep.counts.total() ? std::vector<Job>{} : explained(store_.begun(sweep.id));
 }
 
@@ -272,11 +365,52 @@ std::map<std::int64_t, double> Queue::work_ahead() const {
   constexpr int kMany = 5000;  // some ten milliseconds
   constexpr std::chrono::seconds kStale{2};
   const std::lock_guard lock(mutex_);
-  if (const auto now = std::chrono::steady_clock::now(); now >= work_ahead_until_) {
+  if (const auto now = std::chrono::steady_clock::now(); work_ahead_is_old_ && now >= work_ahead_until_) {
     work_ahead_ = store_.work_ahead();
-    work_ahead_until_ = store_.counts()[JobState::kQueued] > kMany ? now + kStale : now;
+    work_ahead_is_old_ = false;
+    work_ahead_until_ = counted()[JobState::kQueued] > kMany ? now + kStale : now;
   }
   return work_ahead_;
+}
+
+const JobCounts& Queue::counted() const {
+  if (!counts_) counts_ = store_.counts();
+  return *counts_;
+}
+
+JobCounts Queue::counts() const {
+  const std::lock_guard lock(mutex_);
+  return counted();
+}
+
+const Queue::Sums& Queue::sums_of(std::int64_t sweep) const {
+  const auto [entry, is_new] = sums_.try_emplace(sweep);
+  if (!is_new) return entry->second;
+  try {
+    entry->second = {store_.counts_of(Target(sweep)), store_.work_of(sweep)};
+  } catch (...) {
+    sums_.erase(entry);
+    throw;
+  }
+  return entry->second;
+}
+
+std::vector<Sweep> Queue::sweeps() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<Sweep> sweeps = store_.sweeps();
+  for (Sweep& sweep : sweeps) sweep.counts = sums_of(sweep.id).counts;
+  return sweeps;
+}
+
+std::vector<Job> Queue::next(int limit, const ExecutorRole& executor) const {
+  const std::lock_guard lock(mutex_);
+  const std::int64_t now = utime_now();
+  const auto known = ready_.find(executor.name);
+  if (known != ready_.end() && known->second.limit == limit && known->second.from <= now && now < known->second.until) {
+    return known->second.jobs;
+  }
+  Ready ready{limit, now, store_.next_pause_end(), store_.ready(limit, executor)};
+  return (ready_[executor.name] = std::move(ready)).jobs;
 }
 
 std::optional<Job> Queue::job(const std::string& id) const {
@@ -348,7 +482,6 @@ int Queue::request(JobEvent event, const Target& target) {
   return write([&] {
     int changed = 0;
     std::map<std::int64_t, bool> was_refused;  // by sweep
-    std::set<std::string> starts;              // runs without which some of these cannot start
     const auto end_refusal = [&](std::int64_t sweep) {
       const auto [entry, is_new] = was_refused.try_emplace(sweep);
       const auto refusal = is_new ? store_.refusal_of(sweep) : std::nullopt;
@@ -363,14 +496,11 @@ int Queue::request(JobEvent event, const Target& target) {
         for (const std::string_view column : {"crashes", "not_before_utime"}) store_.set(id, column, 0);
         store_.set(id, "reason", "");
       }
+      const bool is_released = job.phase == JobPhase::kHeldForOthers && (event == kResume || event == kRetry);
+      if (is_released) store_.set(id, "waits", 0);  // it waits for the run that it starts from only
       const auto to = apply(id, event, cause_of(event, job.state));
-      if (to == JobPhase::kQueued && job.phase == JobPhase::kHeldForOthers) {
-        store_.wait_for_start_only(id);
-        if (!job.starts_from.empty()) starts.insert(job.starts_from);
-      }
       changed += to || is_paused ? 1 : 0;
     }
-    for (const std::string& id : starts) update_starts_from(id);
     if (event == kCancel || event == kHold) return changed;
     if (const std::int64_t* sweep = std::get_if<std::int64_t>(&target)) store_.lift_met_rule(*sweep);
     update_all_waiting();
@@ -504,6 +634,7 @@ void Queue::refused(const std::string& id, const ExecutorRequest& request, const
 void Queue::accepted(const ExecutorRequest& request) {
   const std::lock_guard lock(mutex_);
   store_.forget_refusal(request.executor.name, request.settings);
+  ready_.clear();
 }
 
 void Queue::set_trouble(const ExecutorRole& executor, const std::string& why) {
@@ -522,6 +653,11 @@ bool Queue::preempt(const std::string& id, const ExecutorRole& executor) {
 
 void Queue::time_out(const std::string& id) {
   write([&] { apply(id, kTimeLimit, "its time limit is over"); });
+}
+
+void Queue::close(const std::string& why) {
+  const std::lock_guard lock(mutex_);
+  closed_ = why;
 }
 
 void Queue::wait_less() {

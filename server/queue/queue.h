@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/files.h"
 #include "server/queue/job.h"
 #include "server/queue/rules.h"
 #include "server/queue/store.h"
@@ -34,8 +35,9 @@ struct Submitted {
   JobCounts counts{};    ///< of the sweep's jobs, afterwards
 };
 
-/// The jobs of a submission would wait for each other. Nothing has happened.
-struct Circular : std::runtime_error {
+/// What was asked for cannot be, as the queue is: jobs would wait for themselves, or a run would not end where others
+/// start from it. Nothing has happened.
+struct Conflict : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
@@ -68,10 +70,12 @@ class Queue {
   std::vector<std::pair<std::string, std::string>> outlives_daemon() const;
 
   /// One sweep, in one transaction. A job that exists is not done twice. The same jobs under the same name again give
-  /// the same sweep. One whose scene asks for a longer run than it did goes on longer. Throws Circular.
+  /// the same sweep. One whose scene asks for a longer run than it did goes on longer. Throws Conflict.
   Submitted submit(const std::string& name, int priority, std::span<const NewJob> jobs, const Terms& terms = {});
+  /// Throws the Conflict that submit() would throw.
+  void check(std::span<const NewJob> jobs, const Terms& terms) const;
 
-  std::vector<Sweep> sweeps() const { return read(&QueueStore::sweeps); }  ///< oldest first
+  std::vector<Sweep> sweeps() const;  ///< oldest first
   std::optional<Sweep> sweep(std::int64_t id) const { return read(&QueueStore::sweep, id); }
   /// The newest sweep of that name.
   std::optional<Sweep> sweep_named(const std::string& name) const { return read(&QueueStore::sweep_named, name); }
@@ -94,10 +98,10 @@ class Queue {
   }
   /// The canonical scene of a job.
   std::string scene(const std::string& id) const { return read(&QueueStore::scene, id); }
-  JobCounts counts() const { return read(&QueueStore::counts); }
+  JobCounts counts() const;
 
   /// Asks jobs to go on for as long as a scene says, pairs of id and canonical scene. Done ones are queued again.
-  /// Returns how many were asked for more than before.
+  /// Returns how many were asked for more than before. Throws Conflict.
   int extend(std::span<const std::pair<std::string, std::string>> scenes);
   /// kCancel, kHold, kResume or kRetry, to one job or all of a sweep. Returns how many were changed.
   int request(JobEvent event, const Target& target);
@@ -112,9 +116,7 @@ class Queue {
   bool clean(const std::string& id, JobState state);
 
   /// The next jobs to be launched by an executor (rules.h: order).
-  std::vector<Job> next(int limit, const ExecutorRole& executor = {}) const {
-    return read(&QueueStore::ready, limit, executor);
-  }
+  std::vector<Job> next(int limit, const ExecutorRole& executor = {}) const;
   /// Launches a job, in one transaction: queued -> running. None if it is not ready any more, has used up its time
   /// limit, or meets an obstacle. `prepare` gets the scene as which its worker will run it; it must not call the queue.
   using Prepare = std::function<Obstacle(const std::string& scene)>;
@@ -156,6 +158,8 @@ class Queue {
   bool preempt(const std::string& id, const ExecutorRole& executor = {});
   /// The time limit of a running job is over: it stops and is timed out.
   void time_out(const std::string& id);
+  /// From now on nothing can be written any more: StorageError with these words.
+  void close(const std::string& why);
   /// From now on a file that another program keeps is waited for half a second only: the daemon ends.
   void wait_less();
   /// running -> stopping, and then queued: the daemon ends, and with it all workers but those that outlive it.
@@ -184,19 +188,46 @@ class Queue {
                                 const std::string& reason = "");
   void submit_again(const NewJob& job, int priority, const Terms& terms, Submitted& result);
   bool make_longer(const Job& job, const std::string& scene, const std::string& how);
+  void refuse_conflicts(std::span<const NewJob> jobs, const Terms& terms) const;
   void refuse_circle(std::span<const NewJob> jobs, const Terms& terms) const;
+  std::string scene_after(const NewJob& job, const Job& known) const;
+  void refuse_other_end(const std::string& id, const std::string& scene) const;
   void update_waiting(std::int64_t sweep);
   void update_all_waiting();
-  void update_starts_from(const std::string& id);
+  std::string why_never_after(std::int64_t sweep) const;
+  std::string why_never_started_from(const Job& job) const;
+  void hold_or_release(const std::string& id, const std::optional<std::string>& why_never = std::nullopt);
   void check_stop_rule(std::int64_t sweep);
   std::pair<std::string, std::int64_t> why_waiting(const Job& job) const;
   std::vector<Job> explained(std::vector<Job> jobs) const;
 
   mutable std::mutex mutex_;
+  /// What was found of a sweep; until one of its jobs changes.
+  struct Sums {
+    JobCounts counts{};
+    SweepWork work{};
+  };
+  const Sums& sums_of(std::int64_t sweep) const;
+  const JobCounts& counted() const;
+
+  /// The jobs that an executor may start; until something is written, or a pause ends.
+  struct Ready {
+    int limit = -1;
+    std::int64_t from = 0, until = 0;
+    std::vector<Job> jobs{};
+  };
+
+  // what is asked for again and again, while nothing may have changed in a queue of a hundred thousand jobs
+  mutable std::map<std::int64_t, Sums> sums_{};   ///< by sweep
+  mutable std::map<std::string, Ready> ready_{};  ///< by executor
+  mutable std::optional<JobCounts> counts_{};
   mutable std::map<std::int64_t, double> work_ahead_{};
+  mutable bool work_ahead_is_old_ = true;
   mutable std::chrono::steady_clock::time_point work_ahead_until_{};
   mutable std::condition_variable changed_;
   QueueStore store_;
+  FileAsOpened file_;  ///< what is written into another's place would be acknowledged, and lost
+  std::string closed_;
   std::int64_t last_change_ = 0;
   std::map<std::string, std::pair<ExecutorRole, std::string>> troubles_;  ///< by executor
 };

@@ -10,6 +10,7 @@
 //   nothing, those that are queued are held; they wait on if it is tried again, and start all the same if resumed.
 // - *Starts.* A job that begins at the end of another run waits until that is done. It is held if nothing comes of it,
 //   and goes on waiting if it is tried again; resumed, it is held again as long as there is nothing to start from.
+//   While it waits, that run keeps its end. Once begun, it goes on from its own state.
 // - *Soft limit.* A job is preempted only if more ready jobs, of at least its priority, need a slot than others stop.
 // - *Time limit.* All attempts count together. A retry, or a submission once more, begins the count anew.
 // - *Stop rule (`--stop-if`).* Looked at whenever a job of the sweep ends by itself. It holds the queued jobs of the

@@ -20,7 +20,12 @@ constexpr std::int64_t kHour = std::chrono::microseconds(std::chrono::hours(1)).
 const std::string kNotPausing = fmt::format("NOT (not_before_utime > ?1 AND not_before_utime < ?1 + {}) ", kHour);
 /// A refusal that counts at ?1; likewise.
 const std::string kCounts = fmt::format("f.until_utime > ?1 AND f.until_utime < ?1 + {} ", kHour);
-const std::string kWaitsForTurn = "state = 'queued' AND waits = 0 AND " + kNotPausing;
+/// Of a job `j` that has not begun: the run from whose end it is to begin is in the queue, and not done. One that has
+/// begun goes on from its own state.
+const std::string kWaitsForStart =
+    "(j.starts_from <> '' AND j.attempt = 0 AND EXISTS "
+    "(SELECT 1 FROM jobs p WHERE p.id = j.starts_from AND p.state <> 'done')) ";
+const std::string kWaitsForTurn = "state = 'queued' AND waits = 0 AND NOT " + kWaitsForStart + "AND " + kNotPausing;
 /// Not of a sweep of which as many jobs run as may.
 const std::string kHasPlace =
     "sweep NOT IN (SELECT s.id FROM sweeps s WHERE s.at_most > 0 AND s.at_most <= "
@@ -42,7 +47,8 @@ std::string members_of(const Target& target) {
 const std::string kColumns =
     ", j.id, j.state, j.hold, j.after_stop, j.reason, j.attempt, j.pid, j.created_utime, j.started_utime, "
     "j.finished_utime, j.priority, j.not_before_utime, j.soft_limit_ms, j.time_limit_ms, j.wall_ms, j.sweep, j.waits, "
-    "j.crashes, j.longer, j.worker, j.starts_from, j.work ";
+    "j.crashes, j.longer, j.worker, j.starts_from, j.work, " +
+    kWaitsForStart;
 const std::string kSelectJobs = "SELECT j.sweep, j.label, j.parameters, j.replica" + kColumns + "FROM jobs j ";
 const std::string kSelectMembers = "SELECT m.sweep, m.label, m.parameters, m.replica" + kColumns +
                                    "FROM members m JOIN jobs j ON j.number = m.job WHERE m.sweep = ?1 ";
@@ -78,8 +84,8 @@ Job read_job(const Query& query) {
           .finished = query.integer(13),
           .not_before = query.integer(15),
           .asked_by = query.integer(19),
-          .waits = (query.integer(20) & 1) != 0,
-          .waits_for_start = (query.integer(20) & 2) != 0,
+          .waits = query.integer(20) != 0,
+          .waits_for_start = query.integer(26) != 0,
           .soft_limit = milliseconds(query.integer(16)),
           .time_limit = milliseconds(query.integer(17)),
           .wall = milliseconds(query.integer(18)),
@@ -147,13 +153,6 @@ QueueStore::QueueStore(const std::filesystem::path& file) : database_(file) {
 std::vector<Sweep> QueueStore::sweeps() const {
   std::vector<Sweep> sweeps = read_all(database_.query(kSelectSweeps + "ORDER BY id"), read_sweep);
   for (Sweep& sweep : sweeps) sweep.after = prerequisites(sweep.id);
-  Query count = database_.query(
-      "SELECT m.sweep, j.state, COUNT(*) FROM members m JOIN jobs j ON j.number = m.job GROUP BY m.sweep, j.state");
-  while (count.next()) {
-    const auto sweep = std::lower_bound(sweeps.begin(), sweeps.end(), count.integer(0),
-                                        [](const Sweep& a, std::int64_t id) { return a.id < id; });
-    sweep->counts[stored_state(count.text(1))] = count.integer(2);
-  }
   return sweeps;
 }
 
@@ -290,14 +289,34 @@ std::int64_t QueueStore::last_change() const {
   return read_integer(database_.query("SELECT COALESCE(MAX(sequence), 0) FROM journal"));
 }
 
+std::vector<std::int64_t> QueueStore::sweeps_changed_since(std::int64_t sequence) const {
+  return read_integers(
+      database_.query("SELECT DISTINCT m.sweep FROM journal l JOIN jobs j ON j.id = l.job JOIN members m ON "
+                      "m.job = j.number WHERE l.sequence > ?1",
+                      sequence));
+}
+
+std::int64_t QueueStore::next_pause_end() const {
+  const std::int64_t now = utime_now();
+  return read_integer(
+      database_.query("SELECT MIN(COALESCE((SELECT MIN(not_before_utime) FROM jobs WHERE not_before_utime > ?1 AND "
+                      "not_before_utime > 0), "
+                      "?2), COALESCE((SELECT MIN(until_utime) FROM refusals WHERE until_utime > ?1), ?2))",
+                      now, now + kHour));
+}
+
 std::vector<Job> QueueStore::ready(int limit, const ExecutorRole& executor) const {
+  // else all jobs of others would be looked at
+  const std::string any_sweep = "SELECT 1 FROM sweeps WHERE executor = ?1 OR (executor = '' AND ?2) LIMIT 1";
+  if (!database_.query(any_sweep, executor.name, executor.is_default ? 1 : 0).next()) return {};
   return read_jobs(database_.query(kSelectJobs + "WHERE " + kWaitsForTurn + "AND " + kHasPlace + "AND " + kOfExecutor +
                                        "AND " + kNotRefused + "ORDER BY priority DESC, turn, number LIMIT ?4",
                                    utime_now(), executor.name, executor.is_default ? 1 : 0, limit));
 }
 
 bool QueueStore::is_ready(const std::string& id) const {
-  return database_.query("SELECT 1 FROM jobs WHERE id = ?2 AND " + kWaitsForTurn + "AND " + kHasPlace, utime_now(), id)
+  return database_
+      .query("SELECT 1 FROM jobs j WHERE id = ?2 AND " + kWaitsForTurn + "AND " + kHasPlace, utime_now(), id)
       .next();
 }
 
@@ -309,7 +328,7 @@ bool QueueStore::has_successor(const Job& job, const ExecutorRole& executor) con
   const std::string ready = kWaitsForTurn + "AND priority >= ?4 AND (sweep = ?5 OR " + kHasPlace + ") AND " +
                             kOfExecutor + "AND " + kNotRefused;
   return needed <=
-         read_integer(database_.query("SELECT COUNT(*) FROM (SELECT 1 FROM jobs WHERE " + ready + "LIMIT ?6)",
+         read_integer(database_.query("SELECT COUNT(*) FROM (SELECT 1 FROM jobs j WHERE " + ready + "LIMIT ?6)",
                                       utime_now(), executor.name, is_default, job.priority, job.asked_by, needed));
 }
 
@@ -324,8 +343,8 @@ bool QueueStore::is_full(std::int64_t sweep) const {
 
 std::vector<std::string> QueueStore::held_for_room(std::int64_t free) const {
   return read_texts(
-      database_.query("SELECT id FROM jobs WHERE state = 'held' AND hold = ?2 AND needed_bytes <= ?3 "
-                      "AND " +
+      database_.query("SELECT id FROM jobs WHERE state = 'held' AND hold = ?2 AND needed_bytes > 0 AND "
+                      "needed_bytes <= ?3 AND " +
                           kNotPausing + "ORDER BY number",
                       utime_now(), stored(JobPhase::kHeldForRoom).hold, free));
 }
@@ -335,23 +354,23 @@ std::vector<std::string> QueueStore::prerequisites(std::int64_t sweep) const {
 }
 
 std::vector<std::string> QueueStore::waiting_in(std::int64_t sweep) const {
-  return read_texts(database_.query("SELECT id FROM jobs WHERE sweep = ?1 AND waits & 1 ORDER BY number", sweep));
+  return read_texts(database_.query("SELECT id FROM jobs WHERE sweep = ?1 AND waits ORDER BY number", sweep));
 }
 
 std::vector<std::int64_t> QueueStore::sweeps_that_wait() const {
-  return read_integers(database_.query("SELECT DISTINCT sweep FROM jobs WHERE waits & 1"));
+  return read_integers(database_.query("SELECT DISTINCT sweep FROM jobs WHERE waits"));
 }
 
 std::vector<std::int64_t> QueueStore::sweeps_that_wait_for(const std::string& id) const {
   return read_integers(database_.query(
       "SELECT DISTINCT sweep FROM prerequisites WHERE target IN "
       "(SELECT ?1 UNION ALL SELECT 's' || m.sweep FROM jobs j JOIN members m ON m.job = j.number WHERE j.id = ?1) "
-      "AND EXISTS (SELECT 1 FROM jobs w WHERE w.sweep = prerequisites.sweep AND w.waits & 1)",
+      "AND EXISTS (SELECT 1 FROM jobs w WHERE w.sweep = prerequisites.sweep AND w.waits)",
       id));
 }
 
 void QueueStore::end_waiting(std::int64_t sweep) {
-  database_.run("UPDATE jobs SET waits = waits & ~1 WHERE sweep = ?1 AND waits & 1", sweep);
+  database_.run("UPDATE jobs SET waits = 0 WHERE sweep = ?1 AND waits", sweep);
 }
 
 std::vector<std::string> QueueStore::ids_starting_from(const std::string& id) const {
@@ -359,14 +378,6 @@ std::vector<std::string> QueueStore::ids_starting_from(const std::string& id) co
       database_.query("SELECT id FROM jobs WHERE starts_from = ?1 AND starts_from <> '' AND state IN ('queued', "
                       "'held') ORDER BY number",
                       id));
-}
-
-void QueueStore::set_waiting_for_start(const std::string& id, bool waits) {
-  database_.run("UPDATE jobs SET waits = (waits & ~2) | ?2 WHERE id = ?1", id, waits ? 2 : 0);
-}
-
-void QueueStore::wait_for_start_only(const std::string& id) {
-  database_.run("UPDATE jobs SET waits = waits & ~1 WHERE id = ?1", id);
 }
 
 std::vector<std::int64_t> QueueStore::ruled_sweeps_of(const std::string& id) const {
@@ -426,8 +437,7 @@ void QueueStore::set_terms(std::int64_t sweep, const Terms& terms) {
                   static_cast<std::int64_t>(i), to_word(terms.after[i]));
   }
   database_.run(
-      "UPDATE jobs SET waits = (waits & ~1) | (?2 AND state IN ('queued', 'held')) WHERE sweep = ?1 AND (?2 OR waits & "
-      "1) "
+      "UPDATE jobs SET waits = ?2 AND state IN ('queued', 'held') WHERE sweep = ?1 AND (?2 OR waits) "
       "AND number IN (SELECT job FROM members WHERE sweep = ?1)",
       sweep, terms.after.empty() ? 0 : 1);
 }

@@ -30,6 +30,7 @@ struct NewJob {
   /// them. Where nobody has looked, the queue is believed.
   std::optional<bool> has_results{};
   std::string starts_from{};  ///< the id of a run whose end it begins at; empty: none
+  double starts_at = 0;       ///< that end [s]
 };
 
 /// A state change, from the journal.
@@ -70,7 +71,7 @@ class QueueStore {
   Database& database() { return database_; }
 
   // --- what is there ---
-  std::vector<Sweep> sweeps() const;
+  std::vector<Sweep> sweeps() const;  ///< without their counts
   std::optional<Sweep> sweep(std::int64_t id) const;
   std::optional<Sweep> sweep_named(const std::string& name) const;
   std::vector<Job> jobs(std::optional<std::int64_t> sweep, std::optional<JobState> state) const;
@@ -92,9 +93,13 @@ class QueueStore {
   std::vector<Change> history(const std::string& id) const;
   std::vector<Change> changes_since(std::int64_t sequence, int limit) const;
   std::int64_t last_change() const;
+  /// Of which the journal has lines after `sequence`.
+  std::vector<std::int64_t> sweeps_changed_since(std::int64_t sequence) const;
 
   // --- what may start ---
   std::vector<Job> ready(int limit, const ExecutorRole& executor) const;
+  /// When the next pause ends, of a job or after a refusal, within an hour.
+  std::int64_t next_pause_end() const;
   bool is_ready(const std::string& id) const;
   /// Whether more jobs of at least its priority are ready than others stop, which make room for as many. One of its own
   /// sweep would have its place, although as many of that run as may.
@@ -111,10 +116,6 @@ class QueueStore {
   void end_waiting(std::int64_t sweep);
   /// Those that have not begun, of the jobs that start from run `id`.
   std::vector<std::string> ids_starting_from(const std::string& id) const;
-  /// Whether a job waits for the run that it starts from.
-  void set_waiting_for_start(const std::string& id, bool waits);
-  /// A job does not wait for what its sweep comes after any more.
-  void wait_for_start_only(const std::string& id);
   /// Sweeps with this job that have a stop rule which is not met yet.
   std::vector<std::int64_t> ruled_sweeps_of(const std::string& id) const;
   /// Jobs that obey the terms of a sweep of which they are members.

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cstdlib>
 #include <set>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -159,6 +161,39 @@ TEST(ReadPart, IsWhatIsThereOfIt) {
   EXPECT_EQ(*read_part(file, -30, 2), "01");
   EXPECT_FALSE(read_part(folder.path(), 0, 1));
   EXPECT_FALSE(read_part("/dev/zero", 0, 1));
+}
+
+TEST(FileAsOpened, IsGoneWhenItIsRemovedReplacedOrMovedWithItsFolder) {
+  const ScratchFolder folder;
+  const auto in = folder / "in";
+  const auto opened = [&] {
+    EXPECT_TRUE(make_folder(in));
+    EXPECT_TRUE(write_file(in / "file", "1"));
+    return FileAsOpened(in / "file");
+  };
+  const FileAsOpened stays = opened();
+  EXPECT_TRUE(write_file(in / "file", "22")) << "other content in the same file";
+  EXPECT_FALSE(stays.is_gone());
+  EXPECT_TRUE(write_file_atomically(in / "file", "1"));
+  EXPECT_TRUE(stays.is_gone());
+  const FileAsOpened removed = opened(), moved = opened();
+  std::filesystem::rename(in, folder / "elsewhere");
+  EXPECT_TRUE(moved.is_gone());
+  EXPECT_TRUE(removed.is_gone());
+}
+
+TEST(ScratchFolder, IsWhereTmpdirSaysWhichIsNamedWhereItIsOfNoUse) {
+  setenv("TMPDIR", "", 1);
+  EXPECT_EQ(ScratchFolder().path().parent_path(), "/tmp") << "empty is as if it were not set";
+  setenv("TMPDIR", "/nonexistent", 1);
+  try {
+    const ScratchFolder folder;
+    FAIL() << folder.path();
+  } catch (const std::system_error& problem) {
+    EXPECT_STREQ(problem.what(),
+                 "no folder can be made in /nonexistent, which TMPDIR names: No such file or directory");
+  }
+  unsetenv("TMPDIR");
 }
 
 TEST(AtomicFile, MissingFileCannotBeRead) {

@@ -20,6 +20,7 @@
 
 #include "base/failure.h"
 #include "run/files/directory.h"
+#include "scene/canonical.h"
 #include "scene/load.h"
 #include "tests/support/effort.h"
 #include "tests/unit/server/server_support.h"
@@ -1077,6 +1078,48 @@ TEST_F(ApiTest, StagesAreChainsThatRunBesideEachOther) {
                                           {"stages": [{"time.measure": "2 s"}, {"plates.gamma": 5}]}]})";
   EXPECT_THAT(submit({{"text", other}, {"name", "other"}}).error(),
               HasSubstr("stages that say the same from the start on must last equally long"));
+}
+
+/// Two stages, of which the first ends at `time` s.
+std::string two_stages(const std::string& time) {
+  return R"({"sweep": {"stages": [{"time.measure": ")" + time +
+         R"( s"}, {"plates.gamma": 6, "time.measure": "1 s"}]}})";
+}
+
+// A run may be in several sweeps, and its length is not part of its id.
+TEST_F(ApiTest, ARunEndsWhereOthersStartFromIt) {
+  const std::string parent = submit({{"text", R"({"time": {"measure": "4 s"}})"}}).json["jobs"][0]["id"];
+  for (const bool dry_run : {true, false}) {
+    const Response shorter = submit({{"text", two_stages("2")}, {"dry_run", dry_run}});
+    EXPECT_EQ(shorter.status, 409);
+    EXPECT_THAT(shorter.error(), HasSubstr("from the end of run " + parent + " at 2 s, but that run goes on to 4 s"));
+  }
+  const Json chain = submit({{"text", two_stages("5")}}).json["jobs"];
+  ASSERT_EQ(chain.size(), 2U) << "a run that waits for longer stages becomes longer";
+  EXPECT_EQ(chain[0]["id"], parent);
+  for (const bool is_done : {false, true}) {
+    if (is_done) {
+      begin(queue_, parent);
+      queue_.ended(parent, JobEvent::kWorkerDone);
+    }
+    const Response longer = submit({{"text", R"({"time": {"measure": "9 s"}})"}});
+    EXPECT_EQ(longer.status, 409);
+    EXPECT_THAT(longer.error(), HasSubstr("cannot end elsewhere: job " + chain[1]["id"].get<std::string>()));
+  }
+  post("/v1/jobs/" + chain[1]["id"].get<std::string>() + "/cancel");
+  EXPECT_EQ(submit({{"text", R"({"time": {"measure": "9 s"}})"}}).json["counts"]["extended"], 1);
+}
+
+TEST_F(ApiTest, ARunOnTheDiskThatWentOnFurtherIsNoFirstStage) {
+  const std::string parent = submit({{"text", two_stages("2")}, {"dry_run", true}}).status == 200
+                                 ? scene::run_id(*scene::load_scene(R"({"time": {"measure": "2 s"}})", "scene"))
+                                 : "";
+  std::filesystem::create_directories(directory_ / "runs" / parent);
+  write_text(directory_ / "runs" / parent / "summary.json",
+             R"({"run_id": ")" + parent + R"(", "exit": {"state": "done", "tick": 1000000}})");
+  const Response refused = submit({{"text", two_stages("2")}});
+  EXPECT_EQ(refused.status, 422);
+  EXPECT_THAT(refused.error(), HasSubstr("run " + parent + " went on to 4 s, where its last state is kept"));
 }
 
 TEST_F(ApiTest, AStageThatHasBegunNeedsItsStartNoMore) {

@@ -94,6 +94,8 @@ constexpr int kOperations = 25;
 /// As many crashes in a row are forgiven.
 constexpr std::array<std::chrono::milliseconds, 2> kPauses{};
 constexpr std::string_view kDigits = "abcd";
+/// A chain: c starts from the end of b, and d from that of c.
+char start_of(char digit) { return digit == 'c' ? 'b' : digit == 'd' ? 'c' : '\0'; }
 
 bool may_become(JobState from, JobState to) {
   if (from == kQueued) return to != kQueued && to != kStopping && to != kDone;
@@ -114,10 +116,20 @@ class Model {
       const auto job = jobs_.find(pending[i]);
       if (job == jobs_.end()) continue;
       if (digits.find(pending[i]) != std::string::npos && job->second.state != kDone) return true;
-      const char next = job->second.waits ? sweeps_.at(job->second.sweep).after : 0;
-      if (next != 0 && pending.find(next) == std::string::npos) pending += next;
+      const char prerequisite = job->second.waits ? sweeps_.at(job->second.sweep).after : 0;
+      const bool has_begun = job->second.attempt > 0 || job->second.state == kDone;
+      const char start = has_begun ? '\0' : start_of(pending[i]);
+      if (start != 0 && digits.find(start) != std::string::npos && !is_done(start)) return true;
+      for (const char next : {prerequisite, start}) {
+        if (next != 0 && pending.find(next) == std::string::npos) pending += next;
+      }
     }
     return false;
+  }
+  bool is_done(char digit) const { return jobs_.contains(digit) && jobs_.at(digit).state == kDone; }
+  bool waits_for_start(char digit) const {
+    const char start = start_of(digit);
+    return start != 0 && jobs_.at(digit).attempt == 0 && jobs_.contains(start) && !is_done(start);
   }
   void submit(const ModelSweep& asked, int priority) {
     const bool same = !sweeps_.empty() && sweeps_.rbegin()->second.digits == asked.digits;
@@ -161,18 +173,27 @@ class Model {
     if (end == kDone && jobs_.at(digit).longer) return stop(digit);
     become(digit, end);
   }
-  /// What follows from the end of a job, or from its being tried again, for those that wait for it (of `only`, if
-  /// given).
-  void settle_waits(char only = 0) {
-    for (auto& [digit, job] : jobs_) {
-      if (!job.waits) continue;
+  /// Whether nothing comes of what a job waits for, as things are.
+  bool waits_in_vain(char digit) const {
+    const ModelJob& job = jobs_.at(digit);
+    const auto sweep = sweeps_.find(job.sweep);
+    const bool after = job.waits && sweep != sweeps_.end() && sweep->second.after != 0 &&
+                       has_no_result(jobs_.at(sweep->second.after).state);
+    if (after || !waits_for_start(digit)) return after;
+    const ModelJob& start = jobs_.at(start_of(digit));
+    return has_no_result(start.state) || start.hold == Hold::kOthers;
+  }
+  /// Those that wait for others are held while nothing comes of that, and wait no more for what is done.
+  void settle_waits() {
+    for (auto& [digit, job] : jobs_) {  // in the order of the chain
       const auto sweep = sweeps_.find(job.sweep);
-      if (sweep == sweeps_.end() || sweep->second.after == 0) continue;  // it is just being submitted
-      if (only != 0 && sweep->second.after != only) continue;
-      const JobState awaited = jobs_.at(sweep->second.after).state;
-      if (awaited == kDone) job.waits = false;
-      if (has_no_result(awaited) && job.state == kQueued) become(digit, kHeld, Hold::kOthers);
-      if (!has_no_result(awaited) && job.hold == Hold::kOthers) become(digit, kQueued);
+      if (sweep != sweeps_.end() && sweep->second.after != 0 && is_done(sweep->second.after)) job.waits = false;
+      const bool is_held = job.hold == Hold::kOthers;
+      if ((job.state == kQueued || is_held) && waits_in_vain(digit) != is_held) {
+        ++time_;
+        job.state = is_held ? kQueued : kHeld;
+        job.hold = is_held ? Hold::kNone : Hold::kOthers;
+      }
     }
   }
   void judge(char ended) {
@@ -188,14 +209,13 @@ class Model {
   }
   void become(char digit, JobState state, Hold hold = Hold::kNone) {
     ModelJob& job = jobs_.at(digit);
-    const bool is_again = state == kQueued && (job.state == kDone || has_no_result(job.state));
     job.state = state;
     job.after_stop = kQueued;
     job.hold = hold;
     job.crashes = 0;
     ++time_;  // a line of the journal
     if (state == kDone || state == kFailed || state == kTimedOut) judge(digit);
-    if (state == kDone || has_no_result(state) || is_again) settle_waits(digit);
+    if (state != kHeld) settle_waits();
   }
   void stop(char digit) {
     const ModelJob& job = jobs_.at(digit);
@@ -219,6 +239,7 @@ class Model {
     ModelJob& job = jobs_.at(digit);
     if (job.state == kQueued) become(digit, kHeld, Hold::kRequest);
     if (job.state == kHeld) job.hold = Hold::kRequest;
+    settle_waits();
     const bool is_ending = job.after_stop == kCancelled || job.after_stop == kTimedOut;
     if (job.state == kRunning || (job.state == kStopping && !is_ending)) ask_to_stop(digit, kHeld);
   }
@@ -258,7 +279,7 @@ class Model {
   }
   bool waits_for_its_turn(char digit) const {
     const ModelJob& job = jobs_.at(digit);
-    return job.state == kQueued && !job.waits;
+    return job.state == kQueued && !job.waits && !waits_for_start(digit);
   }
   bool begins(char digit) const { return waits_for_its_turn(digit) && !is_full(jobs_.at(digit).sweep); }
   bool gives_way(char digit) const {
@@ -320,12 +341,13 @@ void apply(Operation operation, char digit, int priority, std::unique_ptr<Queue>
       std::vector<NewJob> jobs;
       for (const char each : sweep.digits) {
         jobs.push_back(new_job(each));
+        if (const char start = start_of(each); start != 0) jobs.back().starts_from = std::string(16, start);
         if (sweep.has_results) jobs.back().has_results = true;
       }
       bool refused = false;
       try {
         queue->submit("sweep", priority, jobs, terms);
-      } catch (const Circular&) {
+      } catch (const Conflict&) {
         refused = true;
       }
       RC_ASSERT(refused == (sweep.after != 0 && model.is_circular(sweep.digits, sweep.after)));
@@ -380,7 +402,10 @@ void apply(Operation operation, char digit, int priority, std::unique_ptr<Queue>
     case Operation::kClean: {
       const bool has_ended = known && (model.jobs_[digit].state == kDone || has_no_result(model.jobs_[digit].state));
       RC_ASSERT(queue->clean(id, known ? model.jobs_[digit].state : kDone) == has_ended);
-      if (has_ended) model.become(digit, kCancelled);
+      if (has_ended) {
+        model.jobs_[digit].attempt = 0;
+        model.become(digit, kCancelled);
+      }
       return;
     }
     case Operation::kHold:
@@ -435,6 +460,22 @@ void apply(Operation operation, char digit, int priority, std::unique_ptr<Queue>
   }
 }
 
+/// Once everything is tried again, and everything that may start is done, every job is done or held with a reason.
+void expect_an_end(Queue& queue) {
+  constexpr int kRounds = 2 * static_cast<int>(kDigits.size());
+  for (int round = 0; round < kRounds; ++round) {
+    for (const Job& job : queue.active()) queue.ended(job.id, JobEvent::kWorkerStopped, "stopped");
+    for (const Job& job : queue.jobs(std::nullopt)) {
+      queue.retry(job.id);
+      begin(queue, job.id);
+    }
+    for (const Job& job : queue.active()) queue.ended(job.id, JobEvent::kWorkerDone);
+  }
+  for (const Job& job : queue.jobs(std::nullopt)) {
+    RC_ASSERT(job.state == kDone || (job.state == kHeld && !job.reason.empty()));
+  }
+}
+
 using History = std::vector<std::tuple<Operation, char, int>>;  ///< what, to which job, with which priority
 
 /// Whether the queue is as the model says after each operation, and its journal leads to that.
@@ -466,6 +507,7 @@ void compare(const History& history) {
     replayed[change.job] = *job_state(change.to);
   }
   for (const Job& job : queue->jobs(std::nullopt)) RC_ASSERT(replayed.at(job.id) == job.state);
+  expect_an_end(*queue);
 }
 
 /// In memory, where there is a folder for that: hundreds of queues, none of which is to outlast a loss of power.
@@ -501,6 +543,11 @@ TEST_F(QueueModelTest, EveryOperationInEveryPhaseDoesWhatTheModelSays) {
       {{kSubmit, 'a'}, {kHold, 'a'}},
       {{kSubmit, 'a'}, {kBegin, 'a'}, {kNoRoom, 'a'}},
       {{kSubmit, 'b'}, {kSubmitAfter, 'a'}, {kCancel, 'b'}},
+      // the second stage of a chain: waiting, held for the first, cancelled, held while the first is done and cleaned
+      {{kSubmitTwo, 'b'}, {kSubmit, 'c'}},
+      {{kSubmitTwo, 'b'}, {kCancel, 'b'}, {kResume, 'c'}},
+      {{kSubmitTwo, 'b'}, {kCancel, 'c'}, {kBegin, 'b'}, {Operation::kDone, 'b'}, {kRetry, 'c'}},
+      {{kSubmitTwo, 'b'}, {kHold, 'c'}, {kBegin, 'b'}, {Operation::kDone, 'b'}, {kClean, 'b'}, {kResume, 'c'}},
       {{kSubmitTwoWithRule, 'a'}, {kBegin, 'b'}, {kFail, 'b'}},
       {{kSubmit, 'a'}, {kBegin, 'a'}},
       {{kSubmit, 'a'}, {kBegin, 'a'}, {kStopAll, 'a'}},
@@ -519,7 +566,7 @@ TEST_F(QueueModelTest, EveryOperationInEveryPhaseDoesWhatTheModelSays) {
     for (const auto& [operation, digit] : ways[phase]) history.emplace_back(operation, digit, 1);
     for (int last = 0; last < kOperations; ++last) {
       History whole = history;
-      whole.emplace_back(static_cast<Operation>(last), 'a', 1);
+      whole.emplace_back(static_cast<Operation>(last), std::get<char>(history.back()), 1);
       EXPECT_NO_THROW(compare(whole)) << "operation " << last << " in phase " << phase;
     }
   }

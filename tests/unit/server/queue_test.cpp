@@ -235,7 +235,7 @@ TEST_F(QueueTest, APauseBegunBeforeTheClockWasSetBackIsOver) {
         .run("UPDATE jobs SET not_before_utime = not_before_utime + ?1", hours * 3'600'000'000);
   };
   move_clock_back(24);
-  EXPECT_EQ(queue_.next(1).size(), 1U);
+  EXPECT_EQ(Queue(directory_ / "queue.db").next(1).size(), 1U) << "of a daemon that has not seen it before";
 }
 
 /// A job with a real scene, which asks for so many simulated seconds.
@@ -407,7 +407,7 @@ TEST_F(QueueTest, AChainIsHeldWhereARunOfItFailsAndGoesOnWhenThatIsTriedAgain) {
 
 TEST_F(QueueTest, AJobDoesNotWaitForWhatStartsFromIt) {
   queue_.submit("s", 0, chain("ab"));
-  EXPECT_THROW(queue_.submit("t", 0, std::vector{new_job('a')}, Terms{.after = {Target(b_)}}), Circular);
+  EXPECT_THROW(queue_.submit("t", 0, std::vector{new_job('a')}, Terms{.after = {Target(b_)}}), Conflict);
 }
 
 TEST_F(QueueTest, IdsAreFoundByTheirBeginning) {

@@ -5,6 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
+#include <string>
+
 namespace shaken::server {
 namespace {
 
@@ -14,6 +18,21 @@ constexpr int kEvents = static_cast<int>(JobEvent::kStopRuleMet) + 1;
 bool has_worker(JobPhase phase) {
   const JobState state = stored(phase).state;
   return state == JobState::kRunning || state == JobState::kStopping;
+}
+
+TEST(JobWords, OfAllStatesStandInTheMessageOfAJob) {
+  std::string words;
+  for (const JobState state : kJobStates) words += (words.empty() ? "// " : " | ") + std::string(to_word(state));
+  std::ifstream file(SHAKEN_SOURCE_DIR "/proto/job_t.lcm");
+  const std::string text(std::istreambuf_iterator<char>(file), {});
+  EXPECT_NE(text.find(words + "\n"), std::string::npos) << words;
+}
+
+TEST(JobWords, ASweepHasOneId) {
+  EXPECT_EQ(sweep_number("s22"), 22);
+  for (const char* word : {"s022", "s0", "s", "s-1", "s+1", "s 1", "s22x", "S22", "22", "s99999999999999999999"}) {
+    EXPECT_EQ(sweep_number(word), std::nullopt) << word << " may be a name";
+  }
 }
 
 TEST(RulesTest, EveryPhaseIsARowOfItsOwn) {

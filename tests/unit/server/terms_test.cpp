@@ -154,10 +154,10 @@ TEST_F(TermsTest, ToHoldAndResumeWhatWaitsDoesNotEndTheWaiting) {
 TEST_F(TermsTest, NothingCanWaitForItself) {
   const auto one = submit("a");
   const auto two = submit("b", {.after = {one}});
-  EXPECT_THROW(submit("ca", {.after = {one}}), Circular);
-  EXPECT_THROW(submit("ca", {.after = {two}}), Circular) << "by way of b";
-  EXPECT_THROW(submit("ca", {.after = {id('b')}}), Circular);
-  EXPECT_THROW(submit("b", {.after = {two}}), Circular) << "the same sweep again";
+  EXPECT_THROW(submit("ca", {.after = {one}}), Conflict);
+  EXPECT_THROW(submit("ca", {.after = {two}}), Conflict) << "by way of b";
+  EXPECT_THROW(submit("ca", {.after = {id('b')}}), Conflict);
+  EXPECT_THROW(submit("b", {.after = {two}}), Conflict) << "the same sweep again";
   EXPECT_EQ(queue_.sweeps().size(), 2U);
   EXPECT_FALSE(queue_.job(id('c')).has_value()) << "nothing has happened";
   EXPECT_EQ(next(), "a");
@@ -166,7 +166,7 @@ TEST_F(TermsTest, NothingCanWaitForItself) {
   EXPECT_EQ(next(), "bc") << "what is done does not wait";
   std::vector<NewJob> lost{new_job('a')};
   lost[0].has_results = false;
-  EXPECT_THROW(queue_.submit("again", 0, lost, {.after = {one}}), Circular);
+  EXPECT_THROW(queue_.submit("again", 0, lost, {.after = {one}}), Conflict);
 }
 
 TEST_F(TermsTest, ASweepThatFailsTooOftenIsHeld) {
