@@ -34,6 +34,9 @@ class Descriptor {
 };
 
 /// `what`, and the system's reason for the last call that failed.
-inline Error system_error(const std::string& what) { return {what + ": " + std::strerror(errno)}; }
+inline Error system_error(const std::string& what) {
+  const int code = errno;
+  return {what + ": " + std::strerror(code), code};
+}
 
 }  // namespace shaken

@@ -16,6 +16,7 @@ enum class ExitCode : int {
   kBadInput = 2,       ///< wrong arguments, a refused scene, an ID that names nothing
   kNoDaemon = 3,       ///< nobody listens on the socket
   kNoRoom = 97,        ///< a run found no room on the disk; the same command goes on from the last checkpoint
+  kSystemFailed = 98,  ///< the system refused a run what it may grant another time: a read, memory, a thread; likewise
   kStopped = 99,       ///< a run has stopped with a checkpoint, from which the same command goes on
   kInterrupted = 130,  ///< by Ctrl-C, as the shell has it for a program that SIGINT ends
   kTerminated = 143,   ///< as it has it for SIGTERM

@@ -21,8 +21,8 @@ constexpr const char* kFooter = R"(Examples:
 
 Exit codes:
   0 done   1 failed   2 bad input   3 no daemon   130 interrupted by Ctrl-C
-  of a run: 97 no room on the disk, 99 stopped with a checkpoint; the same
-  command goes on
+  of a run: 97 no room on the disk, 98 an error of the system that may pass,
+  99 stopped with a checkpoint; the same command goes on
 Environment:
   SHAKEN_ROOT      the daemon's root directory
   LCM_DEFAULT_URL  the bus of the live state

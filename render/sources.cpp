@@ -23,6 +23,7 @@
 #include "render/headline.h"
 #include "render/interpolation.h"
 #include "run/files/directory.h"
+#include "run/files/foreign_file.h"
 #include "run/files/order_curve.h"
 #include "run/files/version.h"
 #include "scene/cell_limits.h"
@@ -82,6 +83,7 @@ Result<TrajectorySource> TrajectorySource::open(const std::filesystem::path& run
     return Error{"there is no " + file.string() +
                  ": give a run directory or its trajectory.h5, of a scene with a \"trajectory\" or \"movie\" block"};
   }
+  if (auto done = run::try_to_read(file); !done) return done.error();
   Result<run::TrajectoryReader> reader = run::TrajectoryReader::open(file);
   if (!reader) return reader.error();
   if (reader->n_frames() == 0) return Error{file.string() + " holds no complete frame yet"};

@@ -97,7 +97,7 @@ class Sender {
 
 FramePublisher::FramePublisher(const std::string& lcm_url, const std::string& job_id, const Constants& constants)
     : shared_(std::make_shared<Shared>()) {
-  const auto work = [shared = shared_, lcm_url, job_id, constants] {
+  const auto publish = [shared = shared_, lcm_url, job_id, constants] {
     if (auto bus = proto::Bus::open(lcm_url)) {
       Sender sender(std::move(bus).value(), job_id, constants);
       Clock::time_point next_static = Clock::now();
@@ -122,11 +122,24 @@ FramePublisher::FramePublisher(const std::string& lcm_url, const std::string& jo
     } else {
       spdlog::warn("no live state: {}", bus.error().message);
     }
+  };
+  // no result depends on live state: whatever is thrown ends that alone
+  const auto work = [shared = shared_, publish] {
+    try {
+      publish();
+    } catch (const std::exception& problem) {
+      spdlog::warn("no live state any more: {}", problem.what());
+    }
     const std::lock_guard lock(shared->mutex);
     shared->finished = true;
     shared->changed.notify_all();
   };
-  std::thread(work).detach();  // the destructor waits for `finished`, but not for ever
+  try {
+    std::thread(work).detach();  // the destructor waits for `finished`, but not for ever
+  } catch (const std::system_error& problem) {
+    spdlog::warn("no live state: {}", problem.what());
+    shared_->finished = true;
+  }
 }
 
 FramePublisher::~FramePublisher() {

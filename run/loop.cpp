@@ -6,10 +6,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <ctime>
 #include <exception>
 #include <memory>
+#include <new>
+#include <system_error>
 
 #include "analysis/collision_rates.h"
 #include "analysis/order.h"
@@ -17,6 +20,7 @@
 #include "base/files.h"
 #include "proto/cell_codec.h"
 #include "run/effects.h"
+#include "run/files/content_hash.h"
 #include "run/files/done.h"
 #include "run/frame_publisher.h"
 #include "run/open_run.h"
@@ -65,8 +69,11 @@ std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(
 
 std::string scene_text(const scene::RunPlan& plan) { return scene::to_json(plan).dump(2) + "\n"; }
 
-RunOutcome failure(const std::string& message) {
-  return {means_no_room(message) ? RunState::kNoRoom : RunState::kFailed, message};
+RunOutcome failure(const Error& error) {
+  const RunState state = means_no_room(error.message) ? RunState::kNoRoom
+                         : error.code != 0            ? RunState::kSystemFailed
+                                                      : RunState::kFailed;
+  return {state, error.message};
 }
 
 /// One run from where it stands to its end.
@@ -253,13 +260,23 @@ class Loop {
     return summary;
   }
 
-  /// trajectory.h5 of all frames so far.
+  /// trajectory.h5 of all frames so far. Those that were recorded are in it, or it has failed: what they were recorded
+  /// in is removed afterwards.
   Result<void> write_frames() {
     if (!run_.frames) return {};
-    const Result<TrajectoryReader> frames = TrajectoryReader::open(directory_.frames());
+    const std::size_t n = run_.frames->n_frames();
+    const auto opened = [n](const std::filesystem::path& file) -> Result<TrajectoryReader> {
+      Result<TrajectoryReader> frames = TrajectoryReader::open(file);
+      if (!frames || frames->n_frames() == n) return frames;
+      return Error{fmt::format("{} has {} frames instead of {}", file.string(), frames->n_frames(), n)};
+    };
+    const Result<TrajectoryReader> frames = opened(directory_.frames());
     if (!frames) return frames.error();
     const TrajectoryHeader header = trajectory_header(run_.simulation.world(), scene_text(plan_), provenance_of(plan_));
-    return write_trajectory(directory_.trajectory(), header, frames->recorded());
+    if (auto done = write_trajectory(directory_.trajectory(), header, frames->recorded()); !done) return done.error();
+    assume_whole(directory_.trajectory());  // the hash in summary.json is of the one before
+    const Result<TrajectoryReader> written = opened(directory_.trajectory());
+    return written ? Result<void>() : written.error();
   }
 
   /// Observables and summary, in this order: a summary that says "done" is the last word.
@@ -335,7 +352,7 @@ class Loop {
         error.message + (checkpoint_tick_ > 0 ? "; the run goes on from its last checkpoint when started again"
                                               : "; there is no checkpoint yet: the run begins anew when started again");
     report("failed", message);
-    return failure(message);
+    return failure({message, error.code != 0 ? error.code : EIO});  // HDF5 says it in words only
   }
 
   const scene::RunPlan& plan_;
@@ -365,7 +382,8 @@ struct Opened {
 
 /// Puts recorded frames aside that no checkpoint fits, rather than writing over them.
 void set_aside(const std::filesystem::path& file) {
-  if (!std::filesystem::exists(file)) return;
+  const Result<bool> is_there = file_exists(file);
+  if (is_there && !*is_there) return;
   std::filesystem::path aside = file;
   aside += ".damaged";
   std::error_code reason;
@@ -381,14 +399,18 @@ void set_aside(const std::filesystem::path& file) {
 Result<Opened> open_run(const scene::RunPlan& plan, const RunDirectory& directory, const GoOn& go_on) {
   bool found = false;
   for (const auto& file : directory.checkpoints()) {
-    if (!std::filesystem::exists(file)) continue;
+    const Result<bool> is_there = file_exists(file);
+    if (!is_there) return is_there.error();
+    if (!*is_there) continue;
     found = true;
     const Result<Checkpoint> checkpoint = read_checkpoint(file, scene::run_id(plan));
+    if (!checkpoint && checkpoint.error().code != 0) return checkpoint.error();  // it may be whole
     if (!checkpoint) {
       spdlog::warn("{}", checkpoint.error().message);
       continue;
     }
     Result<OpenRun> run = resume_run(plan, directory, *checkpoint);
+    if (!run && run.error().code != 0) return run.error();
     if (!run) {
       spdlog::warn("cannot go on from {}: {}", file.string(), run.error().message);
       continue;
@@ -409,6 +431,23 @@ Result<Opened> open_run(const scene::RunPlan& plan, const RunDirectory& director
   return Opened{std::move(run).value(), true};
 }
 
+/// Of a run that is done: what its frames were recorded in is of no use any more, where trajectory.h5 has them all.
+void drop_logged_frames(const RunDirectory& directory) {
+  const Result<bool> is_there = file_exists(directory.frames());
+  if (is_there && !*is_there) return;
+  const Result<TrajectoryReader> logged = TrajectoryReader::open(directory.frames());
+  const Result<TrajectoryReader> written = TrajectoryReader::open(directory.trajectory());
+  if (logged && written && written->n_frames() >= logged->n_frames()) {
+    std::error_code ignored;
+    std::filesystem::remove(directory.frames(), ignored);
+  } else {
+    spdlog::warn("{} stays: {}", directory.frames().string(),
+                 !logged    ? logged.error().message
+                 : !written ? written.error().message
+                            : directory.trajectory().string() + " has fewer frames");
+  }
+}
+
 /// Says in progress.json too why a run never got going.
 void report_end(const RunOptions& options, const RunCallbacks& callbacks, const std::string& state,
                 const std::string& message) {
@@ -421,16 +460,19 @@ void report_end(const RunOptions& options, const RunCallbacks& callbacks, const 
   if (callbacks.on_progress) callbacks.on_progress(progress);
 }
 
-RunOutcome fail(const RunOptions& options, const RunCallbacks& callbacks, const std::string& message) {
-  report_end(options, callbacks, "failed", message);
-  return failure(message);
+RunOutcome fail(const RunOptions& options, const RunCallbacks& callbacks, const Error& error) {
+  report_end(options, callbacks, "failed", error.message);
+  return failure(error);
 }
 
 /// A directory of another scene is refused, never overwritten. One whose run is to go on longer, or less long, than it
 /// was gets the scene.json that says so.
 Result<void> claim(const scene::RunPlan& plan, const RunDirectory& directory) {
-  if (!std::filesystem::exists(directory.scene())) return write_file_atomically(directory.scene(), scene_text(plan));
+  const Result<bool> is_there = file_exists(directory.scene());
+  if (!is_there) return is_there.error();
+  if (!*is_there) return write_file_atomically(directory.scene(), scene_text(plan));
   const Result<scene::RunPlan> present = read_plan(directory);
+  if (!present && present.error().code != 0) return present.error();
   if (!present) {
     return Error{directory.root.string() + " holds a run whose scene cannot be read:\n" + present.error().message};
   }
@@ -453,8 +495,8 @@ RunOutcome draw(const scene::RunPlan& plan, const RunOptions& options, const Run
     if (auto done = write_progress(directory.progress(), progress); !done) spdlog::warn("{}", done.error().message);
     if (callbacks.on_progress) callbacks.on_progress(progress);
   };
-  std::string message;
-  if (plan.movie && callbacks.make_movie && !std::filesystem::exists(directory.movie())) {
+  const Result<bool> has_movie = file_exists(directory.movie());
+  if (plan.movie && callbacks.make_movie && !(has_movie && *has_movie)) {
     const auto on_drawn = [&](double drawn, double eta) {
       progress.drawn = drawn;
       progress.eta = eta;
@@ -466,21 +508,22 @@ RunOutcome draw(const scene::RunPlan& plan, const RunOptions& options, const Run
         report("stopped", "asked to stop");
         return {RunState::kStopped, ""};
       }
-      message = "the run is done, but without its movie: " + done.error().message;
-      spdlog::error("{}", message);
+      const std::string message =
+          "the run is done, but without its movie, which the next start draws: " + done.error().message;
+      report("failed", message);
+      return {RunState::kFailed, message};
     }
   }
-  report("done", message);
-  return {RunState::kDone, message};
+  report("done", "");
+  return {RunState::kDone, ""};
 }
 
 RunOutcome run_owned(const scene::RunPlan& plan, const RunOptions& options, const RunCallbacks& callbacks) {
   const RunDirectory directory{options.directory};
-  if (auto done = claim(plan, directory); !done) return failure(done.error().message);
+  if (auto done = claim(plan, directory); !done) return failure(done.error());
   if (is_done(directory, plan)) {
     spdlog::info("{} is done already", directory.root.string());
-    std::error_code ignored;
-    std::filesystem::remove(directory.frames(), ignored);  // left by a worker that was killed right after its last word
+    drop_logged_frames(directory);  // left by a worker that was killed right after its last word
     const Result<Progress> last = read_progress(directory.progress());
     return draw(plan, options, callbacks, last ? *last : Progress{});
   }
@@ -492,7 +535,7 @@ RunOutcome run_owned(const scene::RunPlan& plan, const RunOptions& options, cons
       report_end(options, callbacks, "stopped", "asked to stop");
       return {RunState::kStopped, ""};
     }
-    if (!opened) return fail(options, callbacks, opened.error().message);
+    if (!opened) return fail(options, callbacks, opened.error());
     if (options.n_threads > 1) {
       opened->run.simulation.use_threads(options.n_threads);
       opened->run.simulation.share_where_faster(wall_seconds);
@@ -512,9 +555,9 @@ RunOutcome run_owned(const scene::RunPlan& plan, const RunOptions& options, cons
 RunOutcome run(const scene::RunPlan& plan, const RunOptions& options, const RunCallbacks& callbacks) {
   std::error_code reason;
   std::filesystem::create_directories(options.directory, reason);
-  if (reason) return failure("cannot create " + options.directory.string() + ": " + reason.message());
+  if (reason) return failure({"cannot create " + options.directory.string() + ": " + reason.message(), reason.value()});
   const Result<DirectoryLock> lock = DirectoryLock::acquire(RunDirectory{options.directory}.lock());
-  if (!lock) return {RunState::kFailed, lock.error().message};
+  if (!lock) return failure(lock.error());
   const RunDirectory own{options.directory};
   for (const auto& file : {own.scene(), own.trajectory(), own.frames(), own.observables(), own.summary(),
                            own.progress(), own.checkpoint(), own.trouble()})
@@ -522,8 +565,12 @@ RunOutcome run(const scene::RunPlan& plan, const RunOptions& options, const RunC
   if (callbacks.on_owned) callbacks.on_owned();
   try {
     return run_owned(plan, options, callbacks);
+  } catch (const std::bad_alloc&) {
+    return fail(options, callbacks, {"there is no memory left", ENOMEM});
+  } catch (const std::system_error& problem) {  // no thread, say
+    return fail(options, callbacks, {problem.what(), problem.code().value()});
   } catch (const std::exception& problem) {
-    return fail(options, callbacks, std::string("internal error: ") + problem.what());
+    return fail(options, callbacks, {std::string("internal error: ") + problem.what()});
   }
 }
 

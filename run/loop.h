@@ -41,7 +41,8 @@ struct RunCallbacks {
 enum class RunState {
   kDone,
   kFailed,
-  kNoRoom,  ///< failed for want of room on the disk
+  kNoRoom,        ///< failed for want of room on the disk
+  kSystemFailed,  ///< failed by an error of the disk, of memory or threads, which may pass
   kStopped,
 };
 

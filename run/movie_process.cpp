@@ -10,6 +10,7 @@
 
 #include "base/files.h"
 #include "base/process.h"
+#include "run/files/directory.h"
 
 namespace shaken::run {
 namespace {
@@ -55,6 +56,7 @@ Result<void> render_movie(const std::filesystem::path& directory, const std::ato
   if (end.is_success()) tell(so_far, on_drawn);
   std::error_code ignored;
   std::filesystem::remove(so_far, ignored);
+  if (!end.is_success()) remove_unfinished(RunDirectory{directory}.movie());  // it may have been killed
   if (stop) return Error{"stopped while drawing"};
   if (!end.is_success()) return Error{program + " " + end.text()};
   return {};

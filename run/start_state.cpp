@@ -42,7 +42,8 @@ std::vector<RunDirectory> find_run(const std::vector<path>& folders, const std::
   std::vector<RunDirectory> found;
   std::error_code ignored;
   for (const path& folder : folders) {
-    if (std::filesystem::exists(RunDirectory{folder / id}.scene(), ignored)) found.push_back({folder / id});
+    const Result<bool> is_there = file_exists(RunDirectory{folder / id}.scene());
+    if (!is_there || *is_there) found.push_back({folder / id});
   }
   for (const path& folder : folders) {
     std::error_code trouble;
@@ -73,14 +74,17 @@ std::vector<path> folders_near(const path& directory) {
 Result<Simulation> saved_state(const RunDirectory& directory, const std::string& id, double time) {
   const Result<scene::RunPlan> plan = read_plan(directory);
   if (!plan) return plan.error();
-  std::error_code ignored;
-  const bool is_imported = std::filesystem::exists(directory.imported(), ignored);
+  const Result<bool> imported = file_exists(directory.imported());
+  if (!imported) return imported.error();
+  const bool is_imported = *imported;
   const Error other{directory.root.string() + " holds another run"};
   if (!is_imported && scene::run_id(*plan) != id) return other;
   std::string trouble = kNotSaved;
   for (const path& file : directory.checkpoints()) {
-    if (!std::filesystem::exists(file)) continue;
+    const Result<bool> is_there = file_exists(file);
+    if (is_there && !*is_there) continue;
     const Result<Checkpoint> checkpoint = read_checkpoint(file, id);
+    if (!checkpoint && checkpoint.error().code != 0) return checkpoint.error();
     Result<Simulation> simulation =
         checkpoint ? Simulation::resume(plan->system, checkpoint->simulation) : Result<Simulation>(checkpoint.error());
     if (simulation && is_imported && import_id(*plan, *simulation) != id) return other;
@@ -98,15 +102,17 @@ Result<Simulation> start_simulation(const scene::RunPlan& plan, const path& dire
   if (!plan.start) return Simulation::start(plan.system, go_on);
   const auto& [id, time] = *plan.start;
   const std::vector<path> folders = folders_near(directory);
-  std::string trouble;
+  Error trouble;
   for (const RunDirectory& parent : find_run(folders, id)) {
     const Result<Simulation> left = saved_state(parent, id, time);
     Result<Simulation> simulation =
         left ? Simulation::start(plan.system, left->world(), go_on) : Result<Simulation>(left.error());
     if (simulation) return simulation;
-    if (trouble.empty()) trouble = simulation.error().message;
+    if (trouble.message.empty()) trouble = simulation.error();
   }
-  if (!trouble.empty()) return Error{fmt::format("cannot start from run {}: {}", id, trouble)};
+  if (!trouble.message.empty()) {
+    return Error{fmt::format("cannot start from run {}: {}", id, trouble.message), trouble.code};
+  }
   std::string places;
   for (const path& folder : folders) places += (places.empty() ? "" : " and ") + folder.string();
   return Error{fmt::format("run {}, from which this one starts, is not in {}", id, places)};

@@ -128,6 +128,9 @@ ExitCode run_scene(const scene::RunPlan& plan, const WorkerOptions& asked) {
     case RunState::kNoRoom:
       spdlog::error("{}", outcome.message);
       return ExitCode::kNoRoom;
+    case RunState::kSystemFailed:
+      spdlog::error("{}", outcome.message);
+      return ExitCode::kSystemFailed;
     case RunState::kFailed:
       spdlog::error("{}", outcome.message);
       return ExitCode::kFailed;

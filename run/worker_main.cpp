@@ -2,6 +2,7 @@
 #include <string_view>
 
 #include "base/program.h"
+#include "run/files/foreign_file.h"
 #include "run/files/version.h"
 #include "run/import/import_run.h"
 #include "run/replay.h"
@@ -19,7 +20,8 @@ constexpr const char* kFooter = R"(Examples:
   shaken-worker replay runs/wild                      meets a failed run's numerical trouble again
   shaken-worker import rods.csv --scene scene.json    makes a run of the rods in a file
 
-Exit codes: 0 done, 1 failed, 2 bad input, 97 no room on the disk, 99 stopped by a signal after a checkpoint.)";
+Exit codes: 0 done, 1 failed, 2 bad input, 97 no room on the disk,
+98 an error of the system that may pass, 99 stopped by a signal after a checkpoint.)";
 
 void describe(CLI::App& app, run::WorkerOptions& options) {
   app.set_version_flag("--version", run::version());
@@ -60,6 +62,7 @@ void describe(CLI::App& app, run::WorkerOptions& options) {
 
 int main(int argc, char** argv) {
   if (argc > 1 && std::string_view(argv[1]) == "replay") return run::replay_command(argc - 1, argv + 1);
+  if (argc > 1 && std::string_view(argv[1]) == "read") return run::read_command(argc - 1, argv + 1);
   if (argc > 1 && std::string_view(argv[1]) == "import") return run::import_command(argc - 1, argv + 1);
   Program app("shaken-worker", "Runs one scene from start to end in a run directory.", kFooter);
   run::stop_on_signals();

@@ -45,6 +45,7 @@ std::int64_t bytes_below(const fs::path& folder) {
 std::chrono::seconds age_of(const fs::path& folder) {
   std::error_code error;
   auto newest = fs::last_write_time(folder, error);
+  if (error) return std::chrono::seconds(0);  // what cannot be looked at now is not old
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     std::error_code gone;
     const auto written = fs::last_write_time(entry->path(), gone);

@@ -13,6 +13,7 @@
 #include "run/export/columns.h"
 #include "run/export/frames.h"
 #include "run/files/directory.h"
+#include "run/files/foreign_file.h"
 #include "scene/observables.h"
 
 namespace shaken::client {
@@ -148,6 +149,7 @@ class Export : public Verb {
 
   run::Observables read_observables() const {
     require(files_.observables(), "the run has measured nothing yet, or its scene asks for nothing");
+    done_or_fail(run::try_to_read(files_.observables()));
     return value_or_fail(run::read_observables(files_.observables()));
   }
 
@@ -187,6 +189,7 @@ class Export : public Verb {
 
   ExitCode write_frames(const run::WantedFrames& wanted, Console& console) {
     require(files_.recorded(), "the run records no frames: its scene needs a \"trajectory\" or \"movie\" block");
+    done_or_fail(run::try_to_read(files_.recorded()));
     const auto trajectory = value_or_fail(run::TrajectoryReader::open(files_.recorded()));
     const run::FrameRange range = value_or_fail(run::find_frames(trajectory, wanted), ExitCode::kBadInput);
     const std::unique_ptr<run::FrameFormat> format = make_format(trajectory.header(), range.size());

@@ -14,16 +14,16 @@ namespace {
 class Run : public Verb {
  public:
   VerbInfo info() const override {
-    return {
-        "run", kPrepareGroup, "Simulate one scene here and now, without a daemon",
-        "  shaken run scene.json                         into runs/ID, named after what the scene says\n"
-        "  shaken run scene.json --out runs/first\n"
-        "  shaken run scene.json --out runs/dilute -s rods.area_fraction=0.5 -s time.measure=5\n"
-        "  shaken run large.json --out runs/large --threads 2\n"
-        "  shaken run scene.json --out runs/first        goes on from the last checkpoint\n"
-        "  shaken plot runs/first && shaken movie runs/first",
-        "0 done, 1 failed, 2 bad input, 97 no room on the disk, 99 stopped by Ctrl-C or a signal; after both the same "
-        "command goes on from a checkpoint"};
+    return {"run", kPrepareGroup, "Simulate one scene here and now, without a daemon",
+            "  shaken run scene.json                         into runs/ID, named after what the scene says\n"
+            "  shaken run scene.json --out runs/first\n"
+            "  shaken run scene.json --out runs/dilute -s rods.area_fraction=0.5 -s time.measure=5\n"
+            "  shaken run large.json --out runs/large --threads 2\n"
+            "  shaken run scene.json --out runs/first        goes on from the last checkpoint\n"
+            "  shaken plot runs/first && shaken movie runs/first",
+            "0 done, 1 failed, 2 bad input, 97 no room on the disk, 98 an error of the system that may "
+            "pass, 99 stopped by Ctrl-C or a signal; after these the same "
+            "command goes on from a checkpoint"};
   }
 
   void declare(Arguments& arguments) override {

@@ -69,7 +69,7 @@ Result<void> write_checkpoint(const RunDirectory& directory, const std::string& 
   if (!done) return done;
   // The new one is written by now: should the machine stop between the renames, the previous one is whole.
   if (std::rename(file.c_str(), directory.previous_checkpoint().c_str()) != 0 && errno != ENOENT) {
-    return Error{"cannot keep " + file.string() + ": " + std::strerror(errno)};
+    return system_error("cannot keep " + file.string());
   }
   return next->finish();
 }

@@ -134,6 +134,8 @@ Result<void> check_content(const fs::path& file) {
       file.string())};
 }
 
+bool has_hash(const fs::path& file) { return promised(file).has_value(); }
+
 void assume_whole(const fs::path& file) {
   if (const std::optional<Identity> identity = identity_of(file)) whole_files().add(file, *identity);
 }

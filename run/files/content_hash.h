@@ -26,6 +26,9 @@ Result<ContentHash> content_hash(const std::filesystem::path& file);
 /// thread.
 Result<void> check_content(const std::filesystem::path& file);
 
+/// Whether the summary.json beside it has a hash of `file`.
+bool has_hash(const std::filesystem::path& file);
+
 /// Takes `file`, as it is now, for one that has been found whole: another process has looked.
 void assume_whole(const std::filesystem::path& file);
 

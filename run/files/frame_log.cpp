@@ -2,6 +2,7 @@
 #include "run/files/frame_log.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -168,7 +169,7 @@ class LoggedFrames final : public RecordedFrames {
     Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
     if (!file) return system_error("cannot open " + path.string());
     const Result<std::string> prefix = read_at(file.value(), 0, kPrefixBytes);
-    if (!prefix) return Error{path.string() + ": " + prefix.error().message};
+    if (!prefix) return Error{path.string() + ": " + prefix.error().message, prefix.error().code};
     if (prefix->size() < kPrefixBytes || !prefix->starts_with(kFramesMagic)) return refuse("holds no recorded frames");
     StateReader numbers(bytes_of(*prefix).subspan(kFramesMagic.size()));
     std::uint32_t version = 0, length = 0;
@@ -179,7 +180,7 @@ class LoggedFrames final : public RecordedFrames {
     }
     if (length > kMostHeaderBytes) return refuse("is damaged");
     const Result<std::string> text = read_at(file.value(), kPrefixBytes, length + kHashBytes);
-    if (!text) return Error{path.string() + ": " + text.error().message};
+    if (!text) return Error{path.string() + ": " + text.error().message, text.error().code};
     if (text->size() < length + kHashBytes) return refuse("is damaged");
     std::uint64_t hash = 0;
     StateReader(bytes_of(*text).subspan(length)).get(hash);
@@ -191,31 +192,46 @@ class LoggedFrames final : public RecordedFrames {
       return refuse(std::string("has a header that cannot be read: ") + problem.what());
     }
     if (auto done = check(header); !done) return refuse("is damaged: " + done.error().message);
-    return std::unique_ptr<LoggedFrames>(
+    std::unique_ptr<LoggedFrames> frames(
         new LoggedFrames(path, std::move(file), kPrefixBytes + length + kHashBytes, std::move(header)));
+    if (auto done = frames->count(); !done) return done.error();
+    return frames;
   }
 
   const TrajectoryHeader& header() const override { return header_; }
   std::size_t n_frames() const override { return n_frames_; }
   Result<RecordedFrame> frame(std::size_t index) const override {
-    const std::size_t size = frame_bytes(n_rods());
-    const Result<std::string> record = read_at(file_.value(), begin_ + index * size, size);
-    if (!record) return Error{path_.string() + ": " + record.error().message};
-    std::optional<RecordedFrame> frame = record->size() == size ? frame_of(*record, n_rods()) : std::nullopt;
-    if (!frame) return Error{path_.string() + ": frame " + std::to_string(index) + " is damaged"};
-    return std::move(*frame);
+    Result<std::optional<RecordedFrame>> frame = read(index);
+    if (!frame) return frame.error();
+    if (!*frame) return Error{path_.string() + ": frame " + std::to_string(index) + " is damaged"};
+    return std::move(**frame);
   }
   std::size_t begin() const { return begin_; }
   std::size_t n_rods() const { return static_cast<std::size_t>(header_.n_rods); }
 
  private:
   LoggedFrames(std::filesystem::path path, Descriptor file, std::size_t begin, TrajectoryHeader header)
-      : path_(std::move(path)), file_(std::move(file)), begin_(begin), header_(std::move(header)) {
-    std::error_code ignored;
-    const std::uintmax_t size = std::filesystem::file_size(path_, ignored);
-    if (!ignored && size > begin_) n_frames_ = (size - begin_) / frame_bytes(n_rods());
+      : path_(std::move(path)), file_(std::move(file)), begin_(begin), header_(std::move(header)) {}
+
+  /// A frame; none where the record is not whole. That it cannot be read is another matter.
+  Result<std::optional<RecordedFrame>> read(std::size_t index) const {
+    const std::size_t size = frame_bytes(n_rods());
+    const Result<std::string> record = read_at(file_.value(), begin_ + index * size, size);
+    if (!record) return Error{path_.string() + ": " + record.error().message, record.error().code};
+    return record->size() == size ? frame_of(*record, n_rods()) : std::nullopt;
+  }
+
+  Result<void> count() {
+    struct stat about {};
+    if (::fstat(file_.value(), &about) != 0) return system_error("cannot tell the size of " + path_.string());
+    const auto size = static_cast<std::size_t>(about.st_size);
+    if (size > begin_) n_frames_ = (size - begin_) / frame_bytes(n_rods());
+    if (n_frames_ == 0) return {};
     // The last one may be on its way to the file just now, or have been when its writer was killed.
-    if (n_frames_ > 0 && !frame(n_frames_ - 1)) --n_frames_;
+    const Result<std::optional<RecordedFrame>> last = read(n_frames_ - 1);
+    if (!last) return last.error();
+    if (!*last) --n_frames_;
+    return {};
   }
 
   std::filesystem::path path_;

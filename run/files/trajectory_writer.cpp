@@ -178,7 +178,10 @@ Result<void> write_trajectory(const std::filesystem::path& file, const Trajector
 }
 
 Result<FrameLog> reopen_frames(const RunDirectory& directory, std::size_t n_frames) {
-  if (std::filesystem::exists(directory.frames()) || !std::filesystem::exists(directory.trajectory())) {
+  const Result<bool> is_logged = file_exists(directory.frames()), is_written = file_exists(directory.trajectory());
+  if (!is_logged) return is_logged.error();
+  if (!is_written) return is_written.error();
+  if (*is_logged || !*is_written) {
     return FrameLog::reopen(directory.frames(), n_frames);
   }
   const Result<TrajectoryReader> trajectory = TrajectoryReader::open(directory.trajectory());

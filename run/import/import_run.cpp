@@ -139,6 +139,10 @@ bool holds(const RunDirectory& directory, const std::string& id, const Checkpoin
 void write_run(const RunDirectory& directory, const std::string& id, const ImportOptions& asked,
                const scene::RunPlan& plan, const Simulation& simulation, const OrderedJson& report) {
   done_or_fail(make_folder(directory.root));
+  const auto lock = DirectoryLock::acquire(directory.lock());  // another one at work beside this writes the same
+  for (const auto& file : {directory.checkpoint(), directory.trajectory(), directory.imported(), directory.scene()}) {
+    if (lock) remove_unfinished(file);  // of an import that was killed
+  }
   const std::string scene = text_of_scene(plan);
   const Provenance provenance{id, plan.system.seed};
   done_or_fail(write_checkpoint(directory, id, {simulation.checkpoint(), {}, 0, 0}));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include "run/files/foreign_file.h"
 #include "run/files/trajectory.h"
 #include "run/import/imported_rods.h"
 #include "scene/load.h"
@@ -11,6 +12,7 @@ namespace shaken::run {
 
 Result<std::vector<ImportedRod>> read_recorded_rods(const std::string& file, std::optional<int> frame,
                                                     const System& system) {
+  if (auto done = try_to_read(file); !done) return done.error();
   const auto frames = TrajectoryReader::open(file);
   if (!frames) return frames.error();
   const TrajectoryHeader& header = frames->header();

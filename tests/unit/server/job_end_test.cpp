@@ -61,6 +61,13 @@ TEST_F(VerdictTest, AFullDiskIsNoFailureOfTheJob) {
   EXPECT_EQ(exit(97).reason, "2026-11-28T13:06:32.775 frames cannot be written") << "no level";
 }
 
+// On a network's disk a read fails for once: the run goes on from its checkpoint.
+TEST_F(VerdictTest, AnErrorOfTheSystemIsTriedAgain) {
+  write_text(run_.log(), "2026-11-28T13:06:32.775 error cannot read trajectory.part: Stale file handle\n");
+  EXPECT_EQ(exit(98).outcome, kCrashed);
+  EXPECT_EQ(exit(98).reason, "exit 98: cannot read trajectory.part: Stale file handle");
+}
+
 TEST_F(VerdictTest, TheLastLineOfTheLogExplains) {
   EXPECT_EQ(exit(1).reason, "exit 1");
   write_text(run_.log(), std::string(kHeading) + "attempt 1\n");
