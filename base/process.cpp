@@ -13,7 +13,6 @@
 #include <csignal>
 #include <cstring>
 
-#include "base/core/check.h"
 #include "base/descriptor.h"
 #include "base/failure.h"
 #include "base/standard_streams.h"
@@ -23,6 +22,8 @@ namespace {
 
 constexpr int kParentHasGone = 1;
 constexpr int kCannotRun = 127;
+/// Of a child of whose end the system does not know, as if it had been killed.
+constexpr ProcessEnd kLost{0, SIGKILL};
 
 std::vector<char*> argument_vector(const std::vector<std::string>& command) {
   std::vector<char*> arguments;
@@ -143,7 +144,7 @@ Result<pid_t> start_child(const ChildSetup& setup) {
 ProcessEnd wait_for_child(pid_t child) {
   int status = 0;
   while (waitpid(child, &status, 0) < 0) {
-    SHAKEN_CHECK(errno == EINTR, "waitpid(" + std::to_string(child) + "): " + std::strerror(errno));
+    if (errno != EINTR) return kLost;
   }
   return end_of(status);
 }
@@ -152,8 +153,7 @@ std::optional<ProcessEnd> poll_child(pid_t child) {
   int status = 0;
   const pid_t ended = waitpid(child, &status, WNOHANG);
   if (ended == child) return end_of(status);
-  SHAKEN_CHECK(ended == 0 || errno == EINTR, "waitpid(" + std::to_string(child) + "): " + std::strerror(errno));
-  return std::nullopt;
+  return ended == 0 || errno == EINTR ? std::nullopt : std::optional(kLost);
 }
 
 Captured run_captured(const std::vector<std::string>& command, const std::filesystem::path& folder) {

@@ -65,6 +65,8 @@ Result<void> flush_standard_output() {
 void guard_standard_streams(const char* program) {
   open_closed();
   std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGCHLD,
+              SIG_DFL);  // whoever started us may ignore it, and then the system would not say how children end
   on_exit(check_output, const_cast<char*>(program));
 }
 

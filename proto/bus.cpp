@@ -19,6 +19,7 @@
 #include <mutex>
 #include <optional>
 #include <string_view>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -156,7 +157,8 @@ Result<std::unique_ptr<Bus>> Bus::open(const std::string& url) {
   if (auto done = check_url(url); !done) return done.error();
   std::unique_ptr<Bus> bus(new Bus(url));
   bus->connect();
-  if (bus->lcm_ == nullptr && !bus->attempt_) return Error{"LCM cannot start with '" + url + "'"};
+  const bool may_come = bus->attempt_ || url.starts_with(kTcpq);
+  if (bus->lcm_ == nullptr && !may_come) return Error{"LCM cannot start with '" + url + "'"};
   return bus;
 }
 
@@ -221,14 +223,19 @@ void Bus::connect() {
     return;
   }
   if (!attempt_) {
-    attempt_ = std::make_shared<Attempt>();
-    std::thread([attempt = attempt_, url = url_] {
-      lcm_t* made = create(url);
-      const std::lock_guard lock(attempt->mutex);
-      attempt->made = made;
-      attempt->has_ended = true;
-      attempt->ended.notify_all();
-    }).detach();
+    const auto attempt = std::make_shared<Attempt>();
+    try {
+      std::thread([attempt, url = url_] {
+        lcm_t* made = create(url);
+        const std::lock_guard lock(attempt->mutex);
+        attempt->made = made;
+        attempt->has_ended = true;
+        attempt->ended.notify_all();
+      }).detach();
+    } catch (const std::system_error&) {
+      return;  // the system has no thread just now: an attempt that came to nothing
+    }
+    attempt_ = attempt;
   }
   std::unique_lock lock(attempt_->mutex);
   if (!attempt_->ended.wait_for(lock, kPatience, [&] { return attempt_->has_ended; })) return;  // it goes on

@@ -172,7 +172,7 @@ class ControlSocket {
     try {
       server_ = std::make_unique<http::HttpServer>(file_, handler_);
       last_failure_.clear();
-    } catch (const Failure& failure) {  // the folder is gone, too; it may come back
+    } catch (const std::exception& failure) {  // the folder is gone, too, or there is no thread; it may come back
       if (std::exchange(last_failure_, failure.what()) != failure.what()) spdlog::error("{}", failure.what());
     }
   }
@@ -216,11 +216,33 @@ std::unique_ptr<relay::Relay> start_relay(DaemonConfig& config) {
   return relay;
 }
 
+/// Does a part of each round. What it throws is logged, at most once a second, and the next round tries again: whatever
+/// the system refuses for a moment, a daemon goes on.
+class KeptGoing {
+ public:
+  template <class Part>
+  void operator()(const char* name, const Part& part) {
+    try {
+      part();
+    } catch (const std::exception& problem) {
+      const auto now = std::chrono::steady_clock::now();
+      if (now < next_word_) return;
+      next_word_ = now + std::chrono::seconds(1);
+      spdlog::error("{}: {}", name, problem.what());
+    }
+  }
+
+ private:
+  std::chrono::steady_clock::time_point next_word_{};
+};
+
 /// Waits until every worker has ended, or until a second signal has killed them. A queue that cannot take their ends
 /// does not keep the daemon up: the next one finds out anew.
 void stop_workers(Supervisor& supervisor, const Signals& signals) {
+  KeptGoing keep_going;
+  const auto step = [&] { keep_going("stopping", [&] { supervisor.step(); }); };
   supervisor.shut_down();
-  supervisor.step();
+  step();
   std::optional<std::chrono::steady_clock::time_point> give_up;
   while (!supervisor.idle()) {
     if (supervisor.all_ended()) {
@@ -235,7 +257,7 @@ void stop_workers(Supervisor& supervisor, const Signals& signals) {
       spdlog::warn("second signal: killing the workers");
       supervisor.kill_all();
     }
-    supervisor.step();
+    step();
   }
 }
 
@@ -270,6 +292,7 @@ void run_daemon(const DaemonConfig& asked_for) {
     }
   }();
   Queue& queue = *opened_queue;
+  const FileAsOpened queue_file(info.root / "queue.db"), lock_as_opened(lock_file);
   for (const std::string& id : queue.recover()) spdlog::info("job {}: was running when the daemon ended", id);
 
   if (queue.counts().total() == 0) {
@@ -319,7 +342,8 @@ void run_daemon(const DaemonConfig& asked_for) {
   Supervisor slurm_supervisor(queue, slurm_executor, std::move(in_slurm));
   slurm_supervisor.adopt();
   std::optional<StatusPublisher> publisher;
-  if (bus) publisher.emplace(queue, std::move(bus), info);
+  KeptGoing keep_going;
+  if (bus) keep_going("no live state", [&] { publisher.emplace(queue, std::move(bus), info); });
   const Api api(queue, info);
   ControlSocket control(info.socket(), [&api](const http::Request& request) { return api.handle(request); });
 
@@ -332,13 +356,22 @@ void run_daemon(const DaemonConfig& asked_for) {
   std::optional<WebProgram> web;
   if (config.web_port) web.emplace(web_command(config, info.root));
 
+  std::string lost;
   do {
-    supervisor.step();
-    slurm_supervisor.step();
-    control.check();
-    if (web) web->check();
-  } while (!signals.wait(kRound));
+    keep_going("runs", [&] { supervisor.step(); });
+    keep_going("runs in Slurm", [&] { slurm_supervisor.step(); });
+    keep_going("requests", [&] { control.check(); });
+    if (web) keep_going("the page", [&] { web->check(); });
+    for (const FileAsOpened& file : {queue_file, lock_as_opened}) {
+      if (lost.empty() && file.is_gone()) lost = file.path().string() + " was removed or replaced";
+    }
+  } while (lost.empty() && !signals.wait(kRound));
 
+  if (!lost.empty()) {
+    lost += ": this daemon ends, and nothing is acknowledged any more";
+    spdlog::error("{}", lost);
+    queue.close(lost);
+  }
   spdlog::info("stopping: workers write a checkpoint");
   if (web) web->request_stop();
   control.close();
@@ -349,8 +382,9 @@ void run_daemon(const DaemonConfig& asked_for) {
   if (!control.ended_within(kLastAnswers)) {
     // A client that keeps its connection busy must not keep the daemon up.
     spdlog::shutdown();
-    std::_Exit(EXIT_SUCCESS);
+    std::_Exit(lost.empty() ? EXIT_SUCCESS : EXIT_FAILURE);
   }
+  if (!lost.empty()) throw Failure(ExitCode::kFailed, lost);
 }
 
 }  // namespace shaken::server

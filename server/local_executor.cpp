@@ -39,7 +39,7 @@ Result<int> LocalExecutor::start(const Launch& launch) {
 WorkerReport LocalExecutor::poll(int pid) {
   siginfo_t info{};
   const int status = waitid(P_PID, static_cast<id_t>(pid), &info, WEXITED | WNOHANG | WNOWAIT);
-  SHAKEN_CHECK(status == 0, "waitid(" + std::to_string(pid) + "): " + std::strerror(errno));
+  if (status != 0) return {.phase = WorkerReport::Phase::kLost, .words = system_error("its worker is lost").message};
   if (info.si_pid == 0) return {};
 
   // Children that it has left behind; before it is reaped, for then the number of its group may be given anew.

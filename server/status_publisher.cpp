@@ -52,7 +52,7 @@ void StatusPublisher::run(const std::stop_token& stop) {
         next_tick += kPeriod;
       }
       if (running_is_due && publish_running()) running_is_due = false;
-    } catch (const StorageError& problem) {
+    } catch (const std::exception& problem) {  // the queue, memory, a thread; no result depends on live state
       spdlog::error("publisher: {}", problem.what());
       next_tick = Clock::now() + kPeriod;
       std::this_thread::sleep_for(kReaction);
@@ -61,7 +61,7 @@ void StatusPublisher::run(const std::stop_token& stop) {
   } while (!stop.stop_requested());
   try {
     while (publish_changes() && !is_over()) continue;  // of the jobs that were stopped with the daemon
-  } catch (const StorageError& problem) {
+  } catch (const std::exception& problem) {
     spdlog::error("publisher: {}", problem.what());
   }
 }

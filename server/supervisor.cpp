@@ -42,9 +42,11 @@ double reported_time(const run::RunDirectory& directory) {
 std::int64_t bytes_in(const std::filesystem::path& folder) {
   std::error_code error;
   std::int64_t bytes = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-    const auto size = entry.file_size(error);
-    if (!error) bytes += static_cast<std::int64_t>(size);
+  // step by step: a range's ++ throws where the system refuses to read on
+  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    std::error_code unknown;
+    const auto size = entry->file_size(unknown);
+    if (!unknown) bytes += static_cast<std::int64_t>(size);
   }
   return bytes;
 }
@@ -108,7 +110,7 @@ void Supervisor::record_ended() {
   for (auto& [id, worker] : workers_) {
     try {
       if (!worker.job_end) check_worker(id, worker);
-    } catch (const StorageError& problem) {
+    } catch (const std::exception& problem) {
       warn_once(problem.what());
     }
   }
@@ -123,8 +125,15 @@ void Supervisor::record_ended() {
       ++entry;
       continue;
     }
-    record_end(id, worker);
-    entry = workers_.erase(entry);
+    try {
+      record_end(id, worker);
+      entry = workers_.erase(entry);
+    } catch (const StorageError&) {
+      throw;                                   // no other could be recorded either
+    } catch (const std::exception& problem) {  // the others' ends do not wait for this one's
+      warn_once("job " + id + ": " + problem.what());
+      ++entry;
+    }
   }
   write_notes();
 }
@@ -331,9 +340,22 @@ Obstacle Supervisor::prepare(const Job& job, const std::string& scene) {
 }
 
 void Supervisor::start(const Job& job) {
-  const auto launched = queue_.launch(job.id, [&](const std::string& scene) { return prepare(job, scene); });
-  if (!launched) return;
-  Worker worker;
+  // there before the queue says that it runs: whatever is thrown from here on, the job goes back into the queue
+  const auto [entry, is_new] = workers_.try_emplace(job.id);
+  if (!is_new) return;
+  Worker& worker = entry->second;
+  worker.job_end = JobEnd{JobEnd::Outcome::kNotStarted, ""};
+  std::optional<Launched> launched;
+  try {
+    launched = queue_.launch(job.id, [&](const std::string& scene) { return prepare(job, scene); });
+  } catch (...) {
+    workers_.erase(entry);  // nothing has happened
+    throw;
+  }
+  if (!launched) {
+    workers_.erase(entry);
+    return;
+  }
   worker.directory.root = options_.runs / job.id;
   const run::RunDirectory& directory = worker.directory;
   Launch launch{directory.root,
@@ -350,6 +372,7 @@ void Supervisor::start(const Job& job) {
     return;
   }
   worker.handle = *handle;
+  worker.job_end.reset();
   worker.started = worker.counted = Clock::now();
   worker.settings = launched->settings;
   worker.unsaved_name = executor_.name(*handle);
@@ -358,9 +381,8 @@ void Supervisor::start(const Job& job) {
   waited_.erase(job.id);
   pause_ = std::chrono::milliseconds(0);
   spdlog::info("job {}: attempt {}, worker {}: {}", job.id, launched->attempt, *handle, printable(job.label));
-  Worker& kept = workers_[job.id] = std::move(worker);
-  queue_.set_worker(job.id, kept.waits ? 0 : *handle, kept.unsaved_name);
-  kept.unsaved_name.clear();
+  queue_.set_worker(job.id, worker.waits ? 0 : *handle, worker.unsaved_name);
+  worker.unsaved_name.clear();
 }
 
 void Supervisor::could_not_start(const std::string& id, const std::string& why) {
@@ -368,7 +390,7 @@ void Supervisor::could_not_start(const std::string& id, const std::string& why) 
   start_after_ = Clock::now() + pause_;
   const std::string reason = "could not be started: " + why;
   warn_once(fmt::format("job {} {}; next try in {} s", id, reason, std::chrono::duration<double>(pause_).count()));
-  workers_[id].job_end = JobEnd{JobEnd::Outcome::kNotStarted, reason};  // until the queue has taken it
+  workers_.at(id).job_end->reason = reason;  // until the queue has taken it
 }
 
 Obstacle Supervisor::delayed(const Job& job, const std::string& why) {

@@ -86,7 +86,7 @@ void serve(const std::filesystem::path& root, int port, const std::string& lcm_u
       server = listen_on(served_port);
       std::fprintf(stderr, "shaken-web: the port failed: listening anew\n");
       last_failure.clear();
-    } catch (const Failure& failure) {  // in a second again
+    } catch (const std::exception& failure) {  // in a second again
       server.reset();
       if (std::exchange(last_failure, failure.what()) != failure.what()) {
         std::fprintf(stderr, "shaken-web: %s; trying again each second\n", failure.what());

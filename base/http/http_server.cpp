@@ -41,14 +41,17 @@ class ThreadPerConnection final : public httplib::TaskQueue {
     ++n_open_;
     lock.unlock();
     const auto connection = [this, serve = std::move(serve)] {
-      serve();
+      try {
+        serve();
+      } catch (...) {  // out of memory, say: this connection ends, and no other
+      }
       const std::lock_guard end(mutex_);
       --n_open_;
       ended_.notify_all();
     };
     try {
       std::thread(connection).detach();
-    } catch (const std::system_error&) {  // the system has no more threads
+    } catch (const std::exception&) {  // the system has no more threads, or no memory for one
       connection();
     }
   }
@@ -104,7 +107,12 @@ void put(const Reply& reply, httplib::Response& response) {
     return;
   }
   response.set_chunked_content_provider(reply.type, [stream = reply.stream](std::size_t, httplib::DataSink& sink) {
-    const std::optional<std::string> piece = stream();
+    std::optional<std::string> piece;
+    try {
+      piece = stream();
+    } catch (const std::exception&) {
+      return false;  // no last chunk: the client sees that it is cut off
+    }
     if (!piece) {
       sink.done();
       return true;
@@ -220,7 +228,13 @@ struct HttpServer::Impl {
   }
 
   void start() {
-    listening = std::async(std::launch::async, [this] { server.listen_after_bind(); });
+    listening = std::async(std::launch::async, [this] {
+      try {
+        server.listen_after_bind();
+      } catch (...) {  // out of memory between two connections
+        failed = server.forget_listener();
+      }
+    });
     // stop() before that would be lost; an accept() that fails at once ends it before it is seen
     const auto has_ended = [this] { return listening.wait_for(std::chrono::seconds(0)) == std::future_status::ready; };
     while (!server.is_running() && !has_ended()) std::this_thread::yield();

@@ -41,7 +41,8 @@ struct Reply {
   std::string allow = {};                 ///< methods that the path has; with status 405
   std::string type = "application/json";  ///< of the body
   Headers headers = {};
-  /// In place of `body`: one piece after the other, until nothing comes. It may wait for a second or so, and must end
+  /// In place of `body`: one piece after the other, until nothing comes; what it throws breaks the connection, so that
+  /// nobody takes a part for the whole. It may wait for a second or so, and must end
   /// before an answer may take no longer (HttpConnection::kAnswer). Called from one thread.
   std::function<std::optional<std::string>()> stream = {};
 };

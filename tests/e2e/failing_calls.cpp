@@ -10,23 +10,31 @@
 //
 // Or a call of one kind fails, wherever it is made:
 //   SHAKEN_CALL_FAILS=CALL:ERRNO:N   the N-th CALL of the process fails with this number; CALL is accept, bind, open,
-//                                    write, fsync, rename or poll; several, between commas, are for one call each
+//                                    read, write, fsync, rename, stat, readdir, poll, thread, memory or wait; several,
+//                                    between commas, are for one call each. N = 0 counts: at its end the process says
+//                                    "CALL: so many calls" on stderr
 //   SHAKEN_CALL_FAILS_IN=NAME        in programs of this name only, not in what they start
 //   SHAKEN_CALL_FAILS_FROM=FILE      calls count only while this file is there
+#include <dirent.h>
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
+#include <pthread.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/types.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <atomic>
+#include <new>
 
 namespace {
 
@@ -124,7 +132,8 @@ bool call_fails(const char* name, std::atomic<long>& calls) {
       char* end = nullptr;
       const long error = strtol(order + length + 1, &end, 10);
       if (*end != ':' || !is_meant() || ++calls != atol(end + 1)) return false;
-      dprintf(STDERR_FILENO, "fault met\n");
+      static const char met[] = "fault met\n";
+      syscall(SYS_write, STDERR_FILENO, met, sizeof(met) - 1);  // which asks for no memory
       errno = static_cast<int>(error);
       return true;
     }
@@ -133,7 +142,20 @@ bool call_fails(const char* name, std::atomic<long>& calls) {
   return false;
 }
 
-std::atomic<long> accepts{0}, opens{0}, writes{0}, fsyncs{0}, renames{0}, polls{0}, binds{0};
+std::atomic<long> accepts{0}, opens{0}, reads{0}, writes{0}, fsyncs{0}, renames{0}, stats{0}, readdirs{0}, polls{0},
+    binds{0}, threads{0}, allocations{0}, waits{0};
+
+/// Says how many calls there were of the kind that is counted.
+struct Count {
+  ~Count() {
+    const char* order = getenv("SHAKEN_CALL_FAILS");
+    const char* number = order == nullptr ? nullptr : strrchr(order, ':');
+    if (number == nullptr || strcmp(number, ":0") != 0 || !is_meant()) return;
+    const long all = accepts + opens + reads + writes + fsyncs + renames + stats + readdirs + polls + binds + threads +
+                     allocations + waits;
+    dprintf(STDERR_FILENO, "%.*s: %ld calls\n", static_cast<int>(strchr(order, ':') - order), order, all);
+  }
+} count;
 
 /// The mode of an open(), which is there only where a file may be made.
 template <class Open>
@@ -212,6 +234,57 @@ int ftruncate64(int fd, off64_t length) noexcept {
   return guarded(counts(fd), [&] { return next(fd, length); });
 }
 
+ssize_t read(int fd, void* data, size_t size) {
+  static const auto next = real<ssize_t (*)(int, void*, size_t)>("read");
+  return call_fails("read", reads) ? -1 : next(fd, data, size);
+}
+
+ssize_t pread(int fd, void* data, size_t size, off_t offset) {
+  static const auto next = real<ssize_t (*)(int, void*, size_t, off_t)>("pread");
+  return call_fails("read", reads) ? -1 : next(fd, data, size, offset);
+}
+
+ssize_t pread64(int fd, void* data, size_t size, off64_t offset) {
+  static const auto next = real<ssize_t (*)(int, void*, size_t, off64_t)>("pread64");
+  return call_fails("read", reads) ? -1 : next(fd, data, size, offset);
+}
+
+int stat(const char* path, struct stat* about) noexcept {
+  static const auto next = real<int (*)(const char*, struct stat*)>("stat");
+  return call_fails("stat", stats) ? -1 : next(path, about);
+}
+
+int fstat(int fd, struct stat* about) noexcept {
+  static const auto next = real<int (*)(int, struct stat*)>("fstat");
+  return call_fails("stat", stats) ? -1 : next(fd, about);
+}
+
+int fstatat(int folder, const char* path, struct stat* about, int flags) noexcept {
+  static const auto next = real<int (*)(int, const char*, struct stat*, int)>("fstatat");
+  return call_fails("stat", stats) ? -1 : next(folder, path, about, flags);
+}
+
+dirent* readdir(DIR* folder) {
+  static const auto next = real<dirent* (*)(DIR*)>("readdir");
+  return call_fails("readdir", readdirs) ? nullptr : next(folder);
+}
+
+int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*begin)(void*),
+                   void* argument) noexcept {
+  static const auto next = real<int (*)(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*)>("pthread_create");
+  return call_fails("thread", threads) ? errno : next(thread, attributes, begin, argument);
+}
+
+int waitid(idtype_t kind, id_t id, siginfo_t* about, int options) {
+  static const auto next = real<int (*)(idtype_t, id_t, siginfo_t*, int)>("waitid");
+  return call_fails("wait", waits) ? -1 : next(kind, id, about, options);
+}
+
+pid_t waitpid(pid_t child, int* status, int options) {
+  static const auto next = real<pid_t (*)(pid_t, int*, int)>("waitpid");
+  return call_fails("wait", waits) ? -1 : next(child, status, options);
+}
+
 int fsync(int fd) {
   static const auto next = real<int (*)(int)>("fsync");
   if (call_fails("fsync", fsyncs)) return -1;
@@ -232,3 +305,12 @@ int remove(const char* path) noexcept {
 }
 
 }  // extern "C"
+
+/// C++'s memory: what a library in C does without it is its own affair.
+void* operator new(size_t size) {
+  if (call_fails("memory", allocations)) throw std::bad_alloc();
+  if (void* memory = malloc(size == 0 ? 1 : size)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { free(memory); }
+void operator delete(void* memory, size_t) noexcept { free(memory); }

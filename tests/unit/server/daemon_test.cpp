@@ -245,6 +245,44 @@ TEST_F(DaemonTest, AQueueThatCannotBeWrittenDoesNotKeepItUp) {
   EXPECT_TRUE(becomes(next, "done"));
 }
 
+// Small supervisors and scripts do: the system then does not say how children end.
+TEST_F(DaemonTest, AParentThatIgnoresTheEndsOfItsChildrenChangesNothing) {
+  setenv("FAKE_WORKER", "done", 1);
+  std::signal(SIGCHLD, SIG_IGN);
+  Daemon shakend = daemon();
+  std::signal(SIGCHLD, SIG_DFL);
+  shakend.first_line();
+  shakend.call("/v1/sweeps", json{{"text", "{}"}});
+  EXPECT_TRUE(becomes(shakend, "done")) << shakend.errors();
+  shakend.send(SIGTERM);
+  EXPECT_EQ(shakend.wait(), 0);
+}
+
+// What would be written into a file that has no name any more would be acknowledged, and lost.
+TEST_F(DaemonTest, AQueueOrALockThatGoesAwayEndsIt) {
+  setenv("FAKE_WORKER", "run", 1);
+  const auto root = directory_ / "root";
+  const auto move = [](const auto& file) { std::filesystem::rename(file, file.string() + ".away"); };
+  const std::vector<std::function<void()>> losses{[&] { std::filesystem::remove(root / "queue.db"); },
+                                                  [&] { std::filesystem::remove(root / "shakend.lock"); },
+                                                  [&] {
+                                                    move(root / "queue.db");
+                                                    write_text(root / "queue.db", "");
+                                                  },
+                                                  [&] { move(root); }};
+  for (std::size_t k = 0; k < losses.size(); ++k) {
+    Daemon shakend = daemon();
+    const int worker = run_one(shakend);
+    losses[k]();
+    const json answer = shakend.call("/v1/sweeps", json{{"text", R"({"time": {"seed": 7}})"}});
+    if (k != 1) EXPECT_FALSE(answer.contains("counts")) << answer;
+    EXPECT_EQ(shakend.wait(), 1);
+    EXPECT_THAT(shakend.errors(), HasSubstr(k == 1 ? "shakend.lock was removed or replaced" : "queue.db was removed"));
+    EXPECT_NE(kill(worker, 0), 0);
+    std::filesystem::remove_all(root);
+  }
+}
+
 TEST_F(DaemonTest, AnAcceptThatFailsEndsNothing) {
   for (const int error : {ENFILE, ENOMEM, ECONNABORTED, EMFILE}) {
     setenv("LD_PRELOAD", SHAKEN_FAILING_CALLS, 1);
