@@ -16,6 +16,11 @@ enum class Palette {
   kPaper,  ///< red and magenta, as in Sharma & Soni (2024)
 };
 
+/// Nematic order S from which automatic colours are those of layers, not those of angles in the box: in pictures, on
+/// the page and in the terminal. What follows a run stays with its colours until S is beyond this by the margin, so
+/// that they do not flicker.
+inline constexpr double kOrderOfLayers = 0.7, kOrderMargin = 0.1;
+
 /// Colour of a rod at `theta` to the director, in [-pi/2, pi/2] [rad]: orange (red) if it leans to the left
 /// (theta > 0), blue (magenta) if to the right, growing out of a neutral tone over the first 15 degrees so that layers
 /// stand out; from 45 degrees on it fades into grey, so that +90 and -90 degrees, which are the same, look the same.

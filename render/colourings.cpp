@@ -182,9 +182,8 @@ std::vector<std::string> colour_names() {
 }
 
 std::string chosen_colour(const RodPicture& picture, std::span<const double> orders, bool defects_are_marked) {
-  constexpr double kOrdered = 0.7;
   if (!picture.cell.has_axes()) return "species";
-  const auto ordered = std::count_if(orders.begin(), orders.end(), [](double s) { return s >= kOrdered; });
+  const auto ordered = std::count_if(orders.begin(), orders.end(), [](double s) { return s >= kOrderOfLayers; });
   const bool is_ordered = !orders.empty() && 10 * static_cast<std::size_t>(ordered) >= 9 * orders.size();
   return is_ordered && !(defects_are_marked && !picture.found.defects.empty()) ? "layers" : "angle";
 }

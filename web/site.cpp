@@ -7,10 +7,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <system_error>
 #include <utility>
 
 #include "base/descriptor.h"
@@ -98,8 +100,9 @@ Json defects_json(const defects_t& m) {
   return {{"time_s", number(m.sim_time_s)}, {"defects", list}};
 }
 
-/// The colours of rods (base/palettes.h), evenly spaced along each scale: angles to the director from -90 to 90
-/// degrees, angles in the box over half a turn, n_z from -0.3 to 0.3; and those of species, beside angles and alone.
+/// The colours of rods and what chooses between them (base/palettes.h), evenly spaced along each scale: angles to the
+/// director from -90 to 90 degrees, angles in the box over half a turn, n_z from -0.3 to 0.3; and those of species,
+/// beside angles and alone.
 Json palettes() {
   constexpr double kPi = std::numbers::pi;
   const auto scale = [](std::size_t steps, auto colour_at) {
@@ -113,17 +116,22 @@ Json palettes() {
           {"tilt", scale(25, [&](std::size_t i) { return diverging_colour(2 * part(i, 24) - 1); })},
           {"species", scale(3, name_colour)},
           {"others", scale(3, species_colour)},
+          {"order_of_layers", kOrderOfLayers},
+          {"order_margin", kOrderMargin},
           {"floor", client::ink_of(client::kFloorTone)},
           {"wall", client::ink_of(client::kWallTone)}};
 }
 
-/// The pieces of an open file.
+/// The pieces of an open file. Throws where one cannot be read: what has come so far is not the file.
 struct FilePieces {
   Descriptor file;
   std::optional<std::string> operator()() const {
     std::string piece(kPiece, '\0');
-    const ssize_t n = read(file.value(), piece.data(), piece.size());
-    if (n <= 0) return std::nullopt;
+    ssize_t n = 0;
+    do n = read(file.value(), piece.data(), piece.size());
+    while (n < 0 && errno == EINTR);
+    if (n < 0) throw std::system_error(errno, std::generic_category(), "a file that is sent");
+    if (n == 0) return std::nullopt;
     piece.resize(static_cast<std::size_t>(n));
     return piece;
   }

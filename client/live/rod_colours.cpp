@@ -89,8 +89,8 @@ Ink ink_of(Tone tone, double share) {
 
 Colouring automatic_colouring(double order, Colouring last) {
   if (std::isnan(order)) return Colouring::kSpecies;
-  if (order > 0.6) return Colouring::kLayers;
-  if (order < 0.4) return Colouring::kWheel;
+  if (order > kOrderOfLayers + kOrderMargin) return Colouring::kLayers;
+  if (order < kOrderOfLayers - kOrderMargin) return Colouring::kWheel;
   return last;
 }
 

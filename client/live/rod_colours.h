@@ -46,8 +46,8 @@ Ink ink_of(Tone tone);
 /// `share` of `tone` over the floor, 0 to 1.
 Ink ink_of(Tone tone, double share);
 
-/// What kAuto stands for at nematic order S: kLayers above 0.6, kWheel below 0.4, and `last` between, so that it does
-/// not flicker. kSpecies where there is no S (NaN): spheres have no axis.
+/// What kAuto stands for at nematic order S: kLayers above kOrderOfLayers (base/palettes.h), kWheel below it, and
+/// `last` within its margin. kSpecies where there is no S (NaN): spheres have no axis.
 Colouring automatic_colouring(double order, Colouring last);
 
 }  // namespace shaken::client

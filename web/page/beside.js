@@ -54,7 +54,7 @@ class Pane {
       const response = await fetched(`/runs/${this.id}/${path}`);
       if (!response.ok) throw new Error((await response.json()).error);
       this.frame = unpack(await response.arrayBuffer());
-      this.kind = suitingColouring(this.frame, this.kind);
+      this.kind = suitingColouring(this.frame, this.canvas.palettes, this.kind);
       this.canvas.set(this.frame);
       shown();
     } catch (problem) {

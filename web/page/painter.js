@@ -81,10 +81,10 @@ export function instancesOf(frame, view) {
  * The colouring that suits a frame. Spheres have no axes, and so no S; layers where there is order, the wheel where there
  * is none, and no flicker between: `before` is what was chosen last, if anything was.
  */
-export function suitingColouring(frame, before = "") {
+export function suitingColouring(frame, palettes, before = "") {
   if (frame.order === null) return "species";
-  if (frame.order > (before ? 0.6 : 0.5)) return "layers";
-  return frame.order < 0.4 || !before ? "wheel" : before;
+  const beyond = frame.order - palettes.order_of_layers;
+  return before && Math.abs(beyond) <= palettes.order_margin ? before : beyond >= 0 ? "layers" : "wheel";
 }
 
 export class RodPainter {

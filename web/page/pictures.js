@@ -145,8 +145,8 @@ export class PictureMap {
     this.say(cell);
     if (!frame) return;
     cell.frame = frame;
-    cell.colouring = suitingColouring(frame, cell.colouring);
     this.painter ??= new RodPainter(this.ground = make("canvas"), await ask("/palettes.json"));
+    cell.colouring = suitingColouring(frame, this.painter.palettes, cell.colouring);
     this.paint(cell);
   }
 

@@ -82,7 +82,7 @@ export class RodCanvas {
 
   set(frame) {
     this.frame = frame;
-    this.automatic = suitingColouring(frame, this.automatic);
+    this.automatic = suitingColouring(frame, this.palettes, this.automatic);
     this.draw();
   }
 

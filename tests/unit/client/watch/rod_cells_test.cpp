@@ -204,15 +204,15 @@ TEST(RodColours, TheWheelHasPeriodPi) {
 
 TEST(RodColours, AutomaticDoesNotFlicker) {
   Colouring colouring = Colouring::kWheel;
-  for (const double order : {0.3, 0.45, 0.55}) {
+  for (const double order : {0.3, 0.65, 0.75}) {
     colouring = automatic_colouring(order, colouring);
     EXPECT_EQ(colouring, Colouring::kWheel) << order;
   }
-  for (const double order : {0.65, 0.55, 0.45}) {
+  for (const double order : {0.85, 0.75, 0.65}) {
     colouring = automatic_colouring(order, colouring);
     EXPECT_EQ(colouring, Colouring::kLayers) << order;
   }
-  EXPECT_EQ(automatic_colouring(0.35, colouring), Colouring::kWheel);
+  EXPECT_EQ(automatic_colouring(0.55, colouring), Colouring::kWheel);
   EXPECT_EQ(automatic_colouring(std::nan(""), colouring), Colouring::kSpecies) << "spheres have no S";
 }
 
