@@ -10,7 +10,6 @@
 #include <cstdio>
 #include <limits>
 #include <map>
-#include <thread>
 
 #include "base/failure.h"
 #include "base/files.h"
@@ -22,8 +21,6 @@
 
 namespace shaken::bench {
 namespace {
-
-int n_cores() { return static_cast<int>(std::thread::hardware_concurrency()); }
 
 double number_of(const Json& row, const std::string& path) {
   const Json& value = path.empty() ? Json() : member_of(row, path);
@@ -97,7 +94,7 @@ std::string csv(const Json& rows) {
 }
 
 std::string this_machine() {
-  return fmt::format("{}, {} cores; {}; {}", cpu_name(), n_cores(), run::compiler(), SHAKEN_BENCH_FLAGS);
+  return fmt::format("{}, {} cores; {}; {}", cpu_name(), allowed_cores(), run::compiler(), SHAKEN_BENCH_FLAGS);
 }
 
 Report::Report(std::string file_name, const std::string& bench)
@@ -105,7 +102,10 @@ Report::Report(std::string file_name, const std::string& bench)
       json{{"bench", bench},
            {"version", run::version()},
            {"machine",
-            {{"cpu", cpu_name()}, {"cores", n_cores()}, {"compiler", run::compiler()}, {"flags", SHAKEN_BENCH_FLAGS}}},
+            {{"cpu", cpu_name()},
+             {"cores", allowed_cores()},
+             {"compiler", run::compiler()},
+             {"flags", SHAKEN_BENCH_FLAGS}}},
            {"rows", Json::array()}},
       text(fmt::format("shaken {} on {}\n", run::version(), this_machine())) {}
 

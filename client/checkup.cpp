@@ -4,11 +4,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <thread>
-
 #include "base/failure.h"
 #include "base/plots_by_python.h"
 #include "base/process.h"
+#include "base/processor.h"
 #include "base/text.h"
 #include "client/live/api_client.h"
 #include "client/live/target.h"
@@ -98,8 +97,7 @@ CheckResult check_disk(fs::path folder) {
 }
 
 CheckResult check_cores() {
-  const unsigned n = std::thread::hardware_concurrency();
-  return {Level::kOk, "cores", fmt::format("{}: as many runs at once", n), ""};
+  return {Level::kOk, "cores", fmt::format("{}: as many runs at once", allowed_cores()), ""};
 }
 
 }  // namespace

@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <sstream>
 
+#include "base/core/cgroup.h"
 #include "scene/observables.h"
 
 namespace shaken::scene {
@@ -25,38 +25,15 @@ std::string bytes_shown(double bytes) {
 
 }  // namespace
 
-std::vector<std::filesystem::path> cgroup_limits(const std::string& line) {
-  const std::size_t first = line.find(':');
-  const std::size_t second = line.find(':', first + 1);
-  if (first == std::string::npos || second == std::string::npos) return {};
-  const bool is_unified = second == first + 1;
-  bool is_of_memory = is_unified;
-  std::istringstream controllers(line.substr(first + 1, second - first - 1));
-  for (std::string name; std::getline(controllers, name, ',');) is_of_memory = is_of_memory || name == "memory";
-  if (!is_of_memory) return {};
-  const std::filesystem::path top = is_unified ? "/sys/fs/cgroup" : "/sys/fs/cgroup/memory";
-  const char* limit = is_unified ? "memory.max" : "memory.limit_in_bytes";
-  std::vector<std::filesystem::path> files{top / limit};
-  std::filesystem::path group = top;
-  for (const auto& part : std::filesystem::path(line.substr(second + 1)).relative_path()) {
-    group /= part;
-    files.push_back(group / limit);
-  }
-  return files;
-}
-
 double memory_allowed() {
   double allowed = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   rlimit limit{};
   if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) {
     allowed = std::min(allowed, static_cast<double>(limit.rlim_cur));
   }
-  std::ifstream groups("/proc/self/cgroup");
-  for (std::string line; std::getline(groups, line);) {
-    for (const std::filesystem::path& file : cgroup_limits(line)) {
-      double bytes = 0;  // no number there ("max"), or no file: no limit
-      if (std::ifstream(file) >> bytes && bytes > 0) allowed = std::min(allowed, bytes);
-    }
+  for (const auto& file : own_cgroup_files({"memory", "memory.max", "memory.limit_in_bytes"})) {
+    double bytes = 0;  // no number there ("max"), or no file: no limit
+    if (std::ifstream(file) >> bytes && bytes > 0) allowed = std::min(allowed, bytes);
   }
   return allowed;
 }

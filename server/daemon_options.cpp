@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <thread>
 
 #include "base/failure.h"
 #include "base/paths.h"
+#include "base/processor.h"
 #include "proto/bus.h"
 #include "proto/relay/address.h"
 #include "scene/slurm_settings.h"
@@ -38,7 +38,7 @@ relay::Address relay_address(const std::string& text, bool for_anyone) {
 
 DaemonOptions::DaemonOptions(CLI::App& app) {
   config_.worker = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "shaken-worker";
-  config_.slots = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  config_.slots = allowed_cores();
   config_.lcm_url = proto::default_url();
   app.add_option("--root", root_,
                  "Directory of queue, socket, log and runs [default: $SHAKEN_ROOT, else "

@@ -8,10 +8,10 @@
 #include <csignal>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "base/failure.h"
 #include "base/files.h"
+#include "base/processor.h"
 #include "base/progress_line.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
@@ -141,8 +141,7 @@ void make_film(const Options& options) {
   MovieOptions movie;
   movie.title = options.labels.empty() ? last.captions.label : headline(printable(options.labels.front()));
   movie.notes = notes_of(source, style, cut);
-  movie.n_threads =
-      options.n_threads > 0 ? options.n_threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  movie.n_threads = options.n_threads > 0 ? options.n_threads : allowed_cores();
   // All painters of a process share Mesa's rasteriser, which takes one picture at a time: it is its threads that use
   // the cores, and the painters' own only have the next picture ready.
   setenv("LP_NUM_THREADS", std::to_string(movie.n_threads).c_str(), 1);

@@ -12,7 +12,7 @@ TEST(DataRoot, WhatIsGivenDecidesElseTheFirstVariableThatIsSet) {
   for (const char* name : {"SHAKEN_ROOT", "XDG_DATA_HOME", "HOME"}) unsetenv(name);
   const auto none = data_root();
   ASSERT_FALSE(none);
-  EXPECT_EQ(none.error().message, "no root directory: set --root, SHAKEN_ROOT or HOME");
+  EXPECT_EQ(none.error().message, "no root directory: set --root, SHAKEN_ROOT, or HOME to an absolute path");
   setenv("HOME", "/h", 1);
   EXPECT_EQ(*data_root(), "/h/.local/share/shaken");
   setenv("XDG_DATA_HOME", "/x", 1);
@@ -21,6 +21,16 @@ TEST(DataRoot, WhatIsGivenDecidesElseTheFirstVariableThatIsSet) {
   EXPECT_EQ(*data_root(), "/s");
   EXPECT_EQ(*data_root("/g"), "/g");
   EXPECT_EQ(*data_root("g"), std::filesystem::current_path() / "g");
+}
+
+// It would be another root in every folder.
+TEST(DataRoot, ARelativePathInTheEnvironmentIsIgnored) {
+  unsetenv("SHAKEN_ROOT");
+  setenv("XDG_DATA_HOME", "rel", 1);
+  setenv("HOME", "/h", 1);
+  EXPECT_EQ(*data_root(), "/h/.local/share/shaken");
+  setenv("HOME", "rel", 1);
+  EXPECT_FALSE(data_root());
 }
 
 // Verbs that open a run's folder got its name through JSON, with U+FFFD in the place of such a byte.

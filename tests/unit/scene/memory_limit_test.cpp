@@ -87,17 +87,5 @@ TEST(MemoryAllowed, IsSomethingThatAMachineHas) {
   EXPECT_LT(memory_allowed(), 1e15);
 }
 
-TEST(CgroupLimits, AreThoseOfTheGroupAndAllAroundIt) {
-  using Files = std::vector<std::filesystem::path>;
-  EXPECT_EQ(cgroup_limits("0::/user.slice/one.service"),
-            (Files{"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/user.slice/memory.max",
-                   "/sys/fs/cgroup/user.slice/one.service/memory.max"}));
-  EXPECT_EQ(cgroup_limits("0::/"), Files{"/sys/fs/cgroup/memory.max"});
-  EXPECT_EQ(cgroup_limits("4:cpu,memory:/a"),
-            (Files{"/sys/fs/cgroup/memory/memory.limit_in_bytes", "/sys/fs/cgroup/memory/a/memory.limit_in_bytes"}));
-  EXPECT_EQ(cgroup_limits("4:cpu,memory2:/a"), Files{});
-  EXPECT_EQ(cgroup_limits("nonsense"), Files{});
-}
-
 }  // namespace
 }  // namespace shaken::scene
