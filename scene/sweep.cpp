@@ -264,8 +264,12 @@ std::optional<std::string> name_problem(std::string_view name) {
 std::optional<std::string> id_problem(std::string_view name) {
   const bool is_like_an_id = name.size() > 1 && name.front() == 's' && name[1] != '0' &&
                              name.find_first_not_of("0123456789", 1) == std::string_view::npos;
-  if (!is_like_an_id) return {};
-  return fmt::format("'{}' could be mistaken for a sweep's id", name);
+  if (is_like_an_id) return fmt::format("'{}' could be mistaken for a sweep's id", name);
+  constexpr std::size_t kDigitsOfARun = 16;
+  if (name.size() == kDigitsOfARun && name.find_first_not_of("0123456789abcdef") == std::string_view::npos) {
+    return fmt::format("'{}' could be mistaken for a job's id", name);
+  }
+  return {};
 }
 
 std::string sweep_name(std::string_view text, const std::string& file) {

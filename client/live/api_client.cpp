@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 #include <httplib.h>
 #include <sys/un.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <condition_variable>
+#include <cstring>
 #include <functional>
 #include <mutex>
 #include <thread>
@@ -93,6 +96,10 @@ httplib::Result ApiClient::Connection::asked(const std::function<httplib::Result
 }
 
 void ApiClient::Connection::fail_without_answer(httplib::Error error) const {
+  if (access(socket.c_str(), W_OK) != 0 && (errno == EACCES || errno == EPERM)) {
+    throw Failure(ExitCode::kNoDaemon, fmt::format("{}: {}: what listens there is another user's daemon",
+                                                   socket.string(), std::strerror(errno)));
+  }
   if (error == httplib::Error::Connection) {
     throw Failure(ExitCode::kNoDaemon, fmt::format("no daemon at {}: start one with `shakend --root {} &`",
                                                    socket.string(), shell_word(root.string())));
@@ -141,10 +148,11 @@ Json ApiClient::get(const std::string& path) {
   return connection_->checked(connection_->asked([&] { return connection_->http.Get(path.c_str()); }), "GET " + path);
 }
 
-std::optional<Json> ApiClient::find(const std::string& path) {
+Result<Json> ApiClient::find(const std::string& path) {
   const auto result = connection_->asked([&] { return connection_->http.Get(path.c_str()); });
-  if (result && result->status == 404) return std::nullopt;
-  return connection_->checked(result, "GET " + path);
+  if (!result || result->status != 404) return connection_->checked(result, "GET " + path);
+  const Json body = Json::parse(result->body, nullptr, false);
+  return Error{body.is_object() ? body.value("error", "") : ""};
 }
 
 Json ApiClient::post(const std::string& path, const Json& body) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/core/result.h"
 #include "client/live/json.h"
 
 namespace shaken::client {
@@ -31,8 +32,8 @@ class ApiClient {
 
   Json get(const std::string& path);
   Json post(const std::string& path, const Json& body);
-  /// As get, but nothing where the daemon answers 404.
-  std::optional<Json> find(const std::string& path);
+  /// As get, but the daemon's words where it answers 404.
+  Result<Json> find(const std::string& path);
 
  private:
   struct Connection;

@@ -32,14 +32,19 @@ bool is_run_directory(const std::string& id) {
 
 Target find_target(ApiClient& session, const std::string& id) {
   if (id.empty()) throw Failure(ExitCode::kBadInput, "an empty ID names nothing");
+  std::string hint;  // the daemon's; a name is more than a shortened id
   for (const bool is_sweep : {true, false}) {
-    const std::string path = (is_sweep ? "/v1/sweeps/" : "/v1/jobs/") + url_encoded(id);
-    if (std::optional<Json> answer = session.find(path)) {
+    const std::string folder = is_sweep ? "/v1/sweeps/" : "/v1/jobs/";
+    Result<Json> answer = session.find(folder + url_encoded(id));
+    if (answer) {
       const std::string full_id = answer->at(is_sweep ? "sweep" : "job").at("id").get<std::string>();
-      return {(is_sweep ? "/v1/sweeps/" : "/v1/jobs/") + url_encoded(full_id), *std::move(answer), is_sweep};
+      return {folder + url_encoded(full_id), std::move(answer).value(), is_sweep};
     }
+    const std::size_t begin = answer.error().message.find("; did you mean");
+    if (hint.empty() && begin != std::string::npos) hint = answer.error().message.substr(begin);
   }
-  throw Failure(ExitCode::kBadInput, fmt::format("no sweep or job is called '{}': `shaken status` lists them", id));
+  throw Failure(ExitCode::kBadInput, fmt::format("no sweep or job is called '{}'{}: `shaken status` lists them",
+                                                 printable(id), printable(hint)));
 }
 
 std::vector<Target> find_targets(ApiClient& session, const std::vector<std::string>& ids) {
@@ -68,18 +73,12 @@ Target find_target_or_newest(ApiClient& session, const std::string& id) {
 }
 
 Json find_job(ApiClient& session, const std::string& id) {
-  if (id.empty()) throw Failure(ExitCode::kBadInput, "an empty ID names nothing");
-  if (const std::optional<Json> answer = session.find("/v1/jobs/" + url_encoded(id))) return answer->at("job");
-  if (const std::optional<Json> sweep = session.find("/v1/sweeps/" + url_encoded(id))) {
-    // A sweep of one job is as clear as the job itself.
-    const Json& jobs = sweep->at("jobs");
-    if (jobs.size() == 1) return jobs.front();
-    throw Failure(ExitCode::kBadInput,
-                  fmt::format("'{}' is a sweep of {} jobs, and this needs one job: `shaken status {}` "
-                              "lists them",
-                              id, jobs.size(), id));
-  }
-  throw Failure(ExitCode::kBadInput, fmt::format("no job is called '{}': `shaken status SWEEP` lists them", id));
+  const std::vector<Json> jobs = jobs_of(find_target(session, id));
+  if (jobs.size() == 1) return jobs.front();  // a sweep of one job is as clear as the job itself
+  throw Failure(ExitCode::kBadInput,
+                fmt::format("'{}' is a sweep of {} jobs, and this needs one job: `shaken status {}` "
+                            "lists them",
+                            id, jobs.size(), id));
 }
 
 void refresh(ApiClient& session, Target& target) { target.answer = session.get(target.path); }

@@ -61,17 +61,14 @@ class Submit : public Verb {
     if (no_probe_ && !dry_run_) throw Failure(ExitCode::kBadInput, "--no-probe has a meaning with --dry-run only");
     const SceneInput input = read_scene_input(file_);
     const std::string name = name_.empty() ? scene::sweep_name(input.text, input.file) : name_;
-    if (const auto problem = scene::id_problem(name)) {
+    auto problem = name_.empty() ? std::nullopt : scene::name_problem(name);
+    if (!problem) problem = scene::id_problem(name);
+    if (problem) {
       throw Failure(ExitCode::kBadInput,
                     fmt::format("{}: {}; choose another one with --name", printable(input.file), printable(*problem)));
     }
     // Read here as the daemon reads it: mistakes are told even without a daemon, and rods can be counted.
     const scene::Sweep sweep = load_points(input, settings_, replicas_);
-    if (dry_run_) {
-      show_dry_run(sweep, context.console);
-      return ExitCode::kOk;
-    }
-
     Json request{{"text", input.text}, {"file", input.file}, {"settings", settings_}};
     if (replicas_) request["replicas"] = *replicas_;
     if (!name_.empty()) request["name"] = name_;
@@ -81,6 +78,12 @@ class Submit : public Verb {
     if (at_most_) request["at_most"] = *at_most_;
     if (!after_.empty()) request["after"] = after_;
     if (!stop_if_.empty()) request["stop_if"] = stop_if_;
+    if (dry_run_) {
+      request["dry_run"] = true;
+      check_with_daemon(context, request);
+      show_dry_run(sweep, context.console);
+      return ExitCode::kOk;
+    }
     ApiClient session(context.root());
     const Json answer = session.post("/v1/sweeps", request);
     if (json_) {
@@ -95,6 +98,16 @@ class Submit : public Verb {
   }
 
  private:
+  /// What the daemon would refuse, it refuses now. Points and costs need no daemon.
+  static void check_with_daemon(const Context& context, const Json& request) {
+    try {
+      ApiClient(context.root()).post("/v1/sweeps", request);
+    } catch (const Failure& failure) {
+      if (failure.code != ExitCode::kNoDaemon) throw;
+      context.console.err << "shaken: whether the daemon would take it is not known: " << failure.what() << '\n';
+    }
+  }
+
   void show_dry_run(const scene::Sweep& sweep, Console& console) const {
     Json list = Json::array();
     Table table({{"JOB"}, {"N", Align::kRight}, {"SIM s", Align::kRight}, {"POINT"}});
