@@ -24,9 +24,10 @@ Result<std::filesystem::path> any_root(const std::string& given) {
   };
   if (!given.empty()) return std::filesystem::absolute(given);
   if (const auto root = variable("SHAKEN_ROOT"); !root.empty()) return std::filesystem::absolute(root);
-  if (const auto data = variable("XDG_DATA_HOME"); !data.empty()) return std::filesystem::absolute(data / "shaken");
-  if (const auto home = variable("HOME"); !home.empty()) return std::filesystem::absolute(home / ".local/share/shaken");
-  return Error{"no root directory: set --root, SHAKEN_ROOT or HOME"};
+  // relative ones would be another root in every folder; the XDG base directory specification has them ignored
+  if (const auto data = variable("XDG_DATA_HOME"); data.is_absolute()) return data / "shaken";
+  if (const auto home = variable("HOME"); home.is_absolute()) return home / ".local/share/shaken";
+  return Error{"no root directory: set --root, SHAKEN_ROOT, or HOME to an absolute path"};
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 //
 #include <GL/osmesa.h>
 
+#include <cstdlib>
 #include <string>
 
 namespace shaken::render {
@@ -15,7 +16,24 @@ GlContext::GlContext(GlContext&&) noexcept = default;
 GlContext& GlContext::operator=(GlContext&&) noexcept = default;
 GlContext::~GlContext() = default;
 
+namespace {
+
+/// The one rasteriser that is tested: what the environment chooses for other programs (WSL sets GALLIUM_DRIVER) ends
+/// this one by a signal, or draws other pixels.
+void choose_rasteriser() {
+  for (const char* name : {"MESA_GL_VERSION_OVERRIDE", "MESA_GLSL_VERSION_OVERRIDE", "MESA_EXTENSION_OVERRIDE",
+                           "MESA_LOADER_DRIVER_OVERRIDE", "LIBGL_ALWAYS_SOFTWARE", "MESA_NO_ERROR"}) {
+    unsetenv(name);
+  }
+  setenv("GALLIUM_DRIVER", "llvmpipe", 1);
+  // Mesa would keep compiled shaders in the home directory; compiling them takes a tenth of a second
+  setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
+}
+
+}  // namespace
+
 Result<GlContext> GlContext::create() {
+  [[maybe_unused]] static const bool once = (choose_rasteriser(), true);
   const int attributes[] = {OSMESA_FORMAT,
                             OSMESA_RGBA,
                             OSMESA_DEPTH_BITS,

@@ -39,8 +39,6 @@ std::string footer() {
 
 int main(int argc, char** argv) {
   using namespace shaken::render;
-  // Mesa would otherwise keep compiled shaders in the home directory; compiling them takes a tenth of a second.
-  setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
   Options options;
   shaken::Program app("shaken-render", "Pictures and movies of shaken rods, without a display.", footer().c_str());
   app.set_version_flag("--version", std::string("shaken-render ") + shaken::run::version());
