@@ -1,67 +1,85 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Lines of code and of tests in every folder, beside those of the last release (until 0.1.0 is tagged: those before
-2026-11-25): how the house grows.
+"""Lines of code and of tests in every folder, held to a budget that can only fall by itself.
 
     .ci/size.py            the table
-    .ci/size.py --release  writes today's numbers into .ci/size_at_release.json, when a version is released
+    .ci/size.py --check    fails where there are more lines than .ci/size_budget.json allows, and lowers its numbers
+                           where there are fewer: commit it then
 
-Counts every line of C++ (.h, .cpp), Python (.py) and JavaScript (.js) that git knows. Tests are counted apart: those
-below tests/unit/NAME with folder NAME, the others with the folder `tests`."""
+Counts every line that is not blank of C++ (.h, .cpp), Python (.py) and JavaScript (.js) that git knows. Tests are
+counted apart: those below tests/unit/NAME with folder NAME, the others with the folder `tests`. A number that is raised
+is a line of the diff, with its reason in the commit."""
 import json
 import pathlib
 import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-AT_RELEASE = ROOT / ".ci/size_at_release.json"
+BUDGET = ROOT / ".ci/size_budget.json"
 LANGUAGES = {".h": "C++", ".cpp": "C++", ".py": "Python", ".js": "JavaScript"}
 
 
 def place_of(path):
-    """The folder that a file is counted with, and whether it is a test."""
+    """The folder that a file is counted with, and whether it is code or tests."""
     parts = path.parts
     if parts[0] == "tests":
-        return (parts[2] if parts[1] == "unit" and len(parts) > 3 else "tests"), True
-    return parts[0], "tests" in parts
+        return (parts[2] if parts[1] == "unit" and len(parts) > 3 else "tests"), "tests"
+    return parts[0], "tests" if "tests" in parts else "code"
 
 
 def sizes():
-    """{language: {folder: [lines of code, lines of tests]}}"""
+    """{language: {"code" or "tests": {folder: lines}}}"""
     command = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
     lines = {}
     for name in subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True).stdout.split("\0"):
         path = pathlib.Path(name)
         language = LANGUAGES.get(path.suffix)
         if language and (ROOT / path).is_file() and not path.parts[0].startswith("."):
-            folder, is_test = place_of(path)
-            counts = lines.setdefault(language, {}).setdefault(folder, [0, 0])
-            counts[is_test] += (ROOT / path).read_bytes().count(b"\n")
+            folder, kind = place_of(path)
+            counts = lines.setdefault(language, {}).setdefault(kind, {})
+            here = sum(1 for line in (ROOT / path).read_bytes().split(b"\n") if line.strip())
+            counts[folder] = counts.get(folder, 0) + here
     return lines
 
 
-def row(name, code, old_code, tests, old_tests):
-    return f"{name:<12}{code:>8}{old_code:>8}{code - old_code:>+8}{tests:>8}{old_tests:>8}{tests - old_tests:>+8}"
+def table(now, budget):
+    for language in dict.fromkeys(LANGUAGES.values()):
+        for kind, counts in sorted(now.get(language, {}).items()):
+            allowed = budget.get(language, {}).get(kind, {})
+            print(f"\n{language + ', ' + kind:<20}{'lines':>8}{'budget':>8}")
+            for folder in sorted(counts):
+                print(f"{folder:<20}{counts[folder]:>8}{allowed.get(folder, 0):>8}")
+            print(f"{'all':<20}{sum(counts.values()):>8}{sum(allowed.values()):>8}")
+
+
+def check(now, budget):
+    over, lowered = [], False
+    for language, kinds in now.items():
+        for kind, counts in kinds.items():
+            allowed = budget.setdefault(language, {}).setdefault(kind, {})
+            for folder, lines in counts.items():
+                if lines > allowed.get(folder, 0):
+                    over.append(f"{folder}: {lines} lines of {kind} in {language}, where {allowed.get(folder, 0)} are "
+                                "allowed")
+                elif lines < allowed[folder]:
+                    allowed[folder], lowered = lines, True
+    if lowered:
+        BUDGET.write_text(json.dumps(budget, indent=1, sort_keys=True) + "\n")
+        print("size: .ci/size_budget.json has lower numbers now; commit it")
+    if over:
+        print("\n".join(over) + "\nTake out what the change replaces, or raise the number in .ci/size_budget.json and say "
+              "why in the commit", file=sys.stderr)
+    return 1 if over else 0
 
 
 def main():
-    now = sizes()
-    if sys.argv[1:] == ["--release"]:
-        AT_RELEASE.write_text(json.dumps(now, indent=1, sort_keys=True) + "\n")
-        return 0
-    if sys.argv[1:]:
+    if sys.argv[1:] not in ([], ["--check"]):
         print(__doc__)
         return 0 if sys.argv[1:] in (["-h"], ["--help"]) else 2
-    before = json.loads(AT_RELEASE.read_text())
-    for language in ("C++", "Python", "JavaScript"):
-        print(f"\n{language:<12}{'code':>8}{'before':>8}{'':>8}{'tests':>8}{'before':>8}")
-        total = [0, 0, 0, 0]
-        for folder in sorted({*now.get(language, {}), *before.get(language, {})}):
-            code, tests = now.get(language, {}).get(folder, [0, 0])
-            old_code, old_tests = before.get(language, {}).get(folder, [0, 0])
-            total = [a + b for a, b in zip(total, (code, old_code, tests, old_tests))]
-            print(row(folder, code, old_code, tests, old_tests))
-        print(row("all", *total))
+    now, budget = sizes(), json.loads(BUDGET.read_text()) if BUDGET.exists() else {}
+    if sys.argv[1:]:
+        return check(now, budget)
+    table(now, budget)
     return 0
 
 

@@ -195,6 +195,93 @@ class Reported(unittest.TestCase):
         self.assertIn("measure.order.every 100 s is longer than the run",
                       self.type("shaken validate one.json -s measure.order.every=100s"))
 
+    def test_61_a_name_with_a_zero_before_its_number_is_no_id(self):
+        self.write("long.json", {**ONE, "time": {"steady": 0, "measure": "1000 s", "step": "20 us"}})
+        self.start_daemon()
+        self.type("shaken submit long.json --name victim && shaken submit long.json -s time.seed=52 --name s01")
+        self.assertIn("sweep s2 (s01): 1 job", self.type("shaken cancel s01"))
+        states = {row["sweep"]: row["state"] for row in json.loads(self.type("shaken results --json"))["rows"]}
+        self.assertNotIn(states["s1"], ("cancelled", "stopping"))
+        for name in ("s1", "0123456789abcdef"):
+            self.assertIn("could be mistaken for", self.type(f"shaken submit long.json --name {name}", 2))
+        # every verb looks in one order: a name before a shortened id (30)
+        job = json.loads(self.type("shaken status s1 --json"))["jobs"][0]["id"]
+        self.type(f"shaken submit long.json -s time.seed=53 --name {job[:4]}")
+        for verb in ("status", "history"):
+            self.assertNotIn(job, self.type(f"shaken {verb} {job[:4]} --json"))
+        self.assertIn("did you mean victim?", self.type("shaken status victm", 2))
+
+    def test_68_the_environment_chooses_no_rasteriser(self):
+        self.run_one()
+        self.type("shaken picture r -o right.png --size 160x120")
+        for setting in ("GALLIUM_DRIVER=zink", "GALLIUM_DRIVER=nonsense", "GALLIUM_DRIVER=softpipe",
+                        "MESA_GL_VERSION_OVERRIDE=2.1"):
+            self.type(f"{setting} shaken picture r -o x.png --size 160x120")
+            self.assertEqual((self.folder / "x.png").read_bytes(), (self.folder / "right.png").read_bytes(), setting)
+
+    def test_68_a_film_that_could_not_be_made_is_said(self):
+        scene = {**ONE, "movie": {"every": "50 ms"}}
+        self.write("film.json", scene)
+        programs = self.folder / "bin"
+        programs.mkdir()
+        for program in BIN.iterdir():
+            (programs / program.name).symlink_to(program)
+        copy = programs / "shaken-worker"  # its siblings are those beside it
+        copy.unlink()
+        shutil.copy(BIN / "shaken-worker", copy)
+        (programs / "shaken-render").unlink()
+        (programs / "shaken-render").write_text("#!/bin/sh\n: >\"$2/movie.mp4.0123456789ab.tmp\"\nkill -SEGV $$\n")
+        (programs / "shaken-render").chmod(0o755)
+        output = self.type("bin/shaken-worker film.json --out r --no-lcm", 1)
+        self.assertIn("without its movie, which the next start draws", output)
+        self.assertEqual(list((self.folder / "r").glob("*.tmp")), [])
+        self.type("shaken-worker film.json --out r --no-lcm")
+        self.assertTrue((self.folder / "r/movie.mp4").exists())
+
+    def test_70_a_dry_run_refuses_what_a_submission_refuses(self):
+        self.write("tiny.json", ONE)
+        self.start_daemon()
+        for term in ("--time-limit 01:30:00", "--time-limit 0", "--soft-limit -5s", "--at-once 0", "--after nosuch",
+                     "--stop-if 'done>3'", "--name a/b", "--name .", "--name s22"):
+            said = [self.type(f"shaken submit tiny.json {term} {trial}", 2) for trial in ("--dry-run --no-probe", "")]
+            self.assertEqual(*said)
+        self.type("shaken submit tiny.json --dry-run --no-probe --at-once 1")
+        self.assertEqual(json.loads(self.type("shaken results --json"))["rows"], [])
+
+    def test_73_a_relative_root_of_the_environment_is_ignored(self):
+        for setting in ("XDG_DATA_HOME=rel", "HOME=$PWD XDG_DATA_HOME="):
+            self.assertIn("$PWD/.local".replace("$PWD", str(self.folder)),
+                          self.type(f"unset SHAKEN_ROOT; HOME=$PWD {setting} shaken status", 3))
+        self.assertIn("absolute path", self.type("unset SHAKEN_ROOT; HOME=rel XDG_DATA_HOME=rel shaken status", 2))
+
+    def test_74_another_users_daemon_is_told_as_such(self):
+        self.start_daemon()
+        if os.getuid() != 0 or not shutil.which("setpriv"):
+            self.skipTest("another user is needed")
+        for folder in (self.folder, self.folder / "root"):
+            folder.chmod(0o755)  # so that the socket itself is what refuses
+        output = self.type("setpriv --reuid 65534 --clear-groups shaken status", 3)
+        self.assertIn("Permission denied: what listens there is another user's daemon", output)
+
+    def test_126_a_folder_for_scratch_that_is_not_there_is_named(self):
+        self.write("tiny.json", ONE)
+        self.type("TMPDIR= shaken explain tiny.json")
+        self.assertIn("/nonexistent, which TMPDIR names", self.type("TMPDIR=/nonexistent shaken explain tiny.json", 1))
+
+    def test_files_of_strangers_end_no_reader(self):
+        self.run_one()
+        (self.folder / "r/summary.json").unlink()  # nothing vouches for the files any more
+        whole = (self.folder / "r/trajectory.h5").read_bytes()
+        ended = 0
+        for at in range(len(whole) // 40, len(whole), len(whole) // 12):
+            broken = bytearray(whole)
+            broken[at:at + 64] = os.urandom(64)
+            (self.folder / "r/trajectory.h5").write_bytes(broken)
+            for command in ("picture r -o x.png --size 160x120", "export r -o x.extxyz"):
+                output = self.type(f"shaken {command}", (0, 1, 2), 90)
+                ended += "ended its reader" in output
+        print(f"{ended} readers of their own were ended")
+
     def test_equal_runs_have_equal_files(self):
         self.run_one(name="a")
         time.sleep(1.1)  # HDF5 would note the second in which a data set was made
