@@ -67,8 +67,8 @@ def check(now, budget):
         BUDGET.write_text(json.dumps(budget, indent=1, sort_keys=True) + "\n")
         print("size: .ci/size_budget.json has lower numbers now; commit it")
     if over:
-        print("\n".join(over) + "\nTake out what the change replaces, or raise the number in .ci/size_budget.json and say "
-              "why in the commit", file=sys.stderr)
+        print("\n".join(over) + "\nTake out what the change replaces, or raise the number in .ci/size_budget.json and "
+              "say why in the commit", file=sys.stderr)
     return 1 if over else 0
 
 

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <climits>
 #include <cstdint>
@@ -220,6 +221,15 @@ Result<bool> file_exists(const std::filesystem::path& file) {
   const bool is_there = std::filesystem::exists(file, error);
   if (error) return Error{file.string() + ": " + error.message(), error.value()};
   return is_there;
+}
+
+bool may_pass(const Error& error) {
+  static constexpr std::array kPassing{EIO,         ESTALE,       EINTR,     EAGAIN,   ENOMEM,    EMFILE,
+                                       ENFILE,      EBUSY,        ETIMEDOUT, ENOLCK,   EHOSTDOWN, ENETDOWN,
+                                       ENETUNREACH, EHOSTUNREACH, ENODEV,    ENOTCONN, EREMOTEIO};
+  return std::any_of(kPassing.begin(), kPassing.end(), [&](int code) {
+    return error.code == code || (error.code == 0 && error.message.find(std::strerror(code)) != std::string::npos);
+  });
 }
 
 Result<void> make_folder(const std::filesystem::path& folder) {

@@ -86,6 +86,10 @@ class FileAsOpened {
 /// Whether a file is there; the error where the system does not say, as a network's disk may for a moment.
 Result<bool> file_exists(const std::filesystem::path& file);
 
+/// Whether an error is one of the system that may be gone another time: of a network's disk, of memory, of descriptors;
+/// not that a file is not there. Libraries say it in words only.
+bool may_pass(const Error& error);
+
 /// Makes `folder` and those that lead to it, where they are missing.
 Result<void> make_folder(const std::filesystem::path& folder);
 

@@ -6,6 +6,7 @@
 #include <exception>
 #include <functional>
 #include <memory>
+#include <new>
 #include <string>
 
 #include "base/failure.h"
@@ -39,6 +40,8 @@ class Program : public CLI::App {
                     ExitCode::kBadInput);
     } catch (const Failure& failure) {
       return failed(failure.what(), failure.code);
+    } catch (const std::bad_alloc&) {
+      return failed("there is no memory left", ExitCode::kSystemFailed);
     } catch (const std::exception& problem) {
       return failed(problem.what(), ExitCode::kFailed);
     }

@@ -71,7 +71,7 @@ std::string scene_text(const scene::RunPlan& plan) { return scene::to_json(plan)
 
 RunOutcome failure(const Error& error) {
   const RunState state = means_no_room(error.message) ? RunState::kNoRoom
-                         : error.code != 0            ? RunState::kSystemFailed
+                         : may_pass(error)            ? RunState::kSystemFailed
                                                       : RunState::kFailed;
   return {state, error.message};
 }
@@ -352,7 +352,7 @@ class Loop {
         error.message + (checkpoint_tick_ > 0 ? "; the run goes on from its last checkpoint when started again"
                                               : "; there is no checkpoint yet: the run begins anew when started again");
     report("failed", message);
-    return failure({message, error.code != 0 ? error.code : EIO});  // HDF5 says it in words only
+    return failure({message, error.code});
   }
 
   const scene::RunPlan& plan_;
@@ -404,13 +404,13 @@ Result<Opened> open_run(const scene::RunPlan& plan, const RunDirectory& director
     if (!*is_there) continue;
     found = true;
     const Result<Checkpoint> checkpoint = read_checkpoint(file, scene::run_id(plan));
-    if (!checkpoint && checkpoint.error().code != 0) return checkpoint.error();  // it may be whole
+    if (!checkpoint && may_pass(checkpoint.error())) return checkpoint.error();  // it may be whole
     if (!checkpoint) {
       spdlog::warn("{}", checkpoint.error().message);
       continue;
     }
     Result<OpenRun> run = resume_run(plan, directory, *checkpoint);
-    if (!run && run.error().code != 0) return run.error();
+    if (!run && may_pass(run.error())) return run.error();
     if (!run) {
       spdlog::warn("cannot go on from {}: {}", file.string(), run.error().message);
       continue;
@@ -472,7 +472,7 @@ Result<void> claim(const scene::RunPlan& plan, const RunDirectory& directory) {
   if (!is_there) return is_there.error();
   if (!*is_there) return write_file_atomically(directory.scene(), scene_text(plan));
   const Result<scene::RunPlan> present = read_plan(directory);
-  if (!present && present.error().code != 0) return present.error();
+  if (!present && may_pass(present.error())) return present.error();
   if (!present) {
     return Error{directory.root.string() + " holds a run whose scene cannot be read:\n" + present.error().message};
   }

@@ -84,7 +84,7 @@ Result<Simulation> saved_state(const RunDirectory& directory, const std::string&
     const Result<bool> is_there = file_exists(file);
     if (is_there && !*is_there) continue;
     const Result<Checkpoint> checkpoint = read_checkpoint(file, id);
-    if (!checkpoint && checkpoint.error().code != 0) return checkpoint.error();
+    if (!checkpoint && may_pass(checkpoint.error())) return checkpoint.error();
     Result<Simulation> simulation =
         checkpoint ? Simulation::resume(plan->system, checkpoint->simulation) : Result<Simulation>(checkpoint.error());
     if (simulation && is_imported && import_id(*plan, *simulation) != id) return other;

@@ -11,6 +11,7 @@
 #include <csignal>
 #include <iostream>
 #include <optional>
+#include <system_error>
 
 #include "base/failure.h"
 #include "base/files.h"
@@ -120,7 +121,11 @@ ExitCode run_scene(const scene::RunPlan& plan, const WorkerOptions& asked) {
   switch (outcome.state) {
     case RunState::kDone:
       spdlog::info("done");
-      if (!asked.quiet) tell_ending(directory);
+      try {
+        if (!asked.quiet) tell_ending(directory);
+      } catch (const std::exception& problem) {  // the run is done, whatever becomes of these words
+        spdlog::warn("{}", problem.what());
+      }
       return ExitCode::kOk;
     case RunState::kStopped:
       spdlog::info("stopped; start again to go on");
@@ -168,7 +173,9 @@ void stop_on_signals() {
   std::signal(SIGPIPE, SIG_IGN);
 }
 
-ExitCode work(const WorkerOptions& asked) {
+namespace {
+
+ExitCode run_or_probe(const WorkerOptions& asked) {
   log_to_stderr(asked.quiet);
   if (asked.out.empty() == asked.probe.empty()) {
     throw Failure(ExitCode::kBadInput, "one of --out and --probe is needed (see `shaken-worker --help`)");
@@ -178,7 +185,9 @@ ExitCode work(const WorkerOptions& asked) {
   const bool may_wait = !std::filesystem::is_regular_file(asked.scene, unknown);
   const auto on_stop = may_wait ? std::signal(SIGTERM, SIG_DFL) : SIG_DFL,
              on_interrupt = may_wait ? std::signal(SIGINT, SIG_DFL) : SIG_DFL;
-  const std::string text = value_or_fail(read_input(asked.scene), ExitCode::kBadInput);
+  const Result<std::string> read = read_input(asked.scene);
+  const std::string text =
+      value_or_fail(read, read || !may_pass(read.error()) ? ExitCode::kBadInput : ExitCode::kSystemFailed);
   if (may_wait) {
     std::signal(SIGTERM, on_stop);
     std::signal(SIGINT, on_interrupt);
@@ -196,6 +205,17 @@ ExitCode work(const WorkerOptions& asked) {
   std::signal(SIGINT, SIG_DFL);
   probe_scene(*plan, asked);
   return ExitCode::kOk;
+}
+
+}  // namespace
+
+ExitCode work(const WorkerOptions& asked) {
+  try {
+    return run_or_probe(asked);
+  } catch (const std::system_error& problem) {
+    const bool passes = may_pass({problem.what(), problem.code().value()});
+    throw Failure(passes ? ExitCode::kSystemFailed : ExitCode::kFailed, problem.what());
+  }
 }
 
 }  // namespace shaken::run

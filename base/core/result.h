@@ -11,7 +11,7 @@ namespace shaken {
 /// What went wrong, in words for the user: the cause, the value met and the way out.
 struct Error {
   std::string message;
-  int code = 0;  ///< errno where a call of the system failed, which may go well another time; otherwise 0
+  int code = 0;  ///< errno where a call of the system failed; otherwise 0
 };
 
 /// A value, or the reason why there is none. True if there is a value.

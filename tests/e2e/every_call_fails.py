@@ -60,9 +60,9 @@ def result_of(folder):
     summary = json.loads((folder / "summary.json").read_text())
     expect(summary["exit"]["state"] == "done", f"state {summary['exit']['state']}")
     with h5py.File(folder / "trajectory.h5") as frames:
-        n = len(frames["/particles/rods/position/step"])
+        n = len(frames["particles/trajectory/position/step"])
     expect(n == N_FRAMES, f"{n} of {N_FRAMES} frames")
-    return summary["exit"]["state_hash"]
+    return summary["state_hash"]
 
 
 def no_rest(folder):

@@ -589,11 +589,12 @@ TEST(Run, MovieIsDrawnOnceAndRecordsAtTheFinerCadence) {
     return Error{"no renderer here"};
   };
   const RunOutcome failed_movie = run_in(folder.path(), plan, callbacks);
-  EXPECT_EQ(failed_movie.state, RunState::kDone) << "a failed movie does not lose the run";
+  EXPECT_EQ(failed_movie.state, RunState::kFailed) << "a film that was not made is said";
+  EXPECT_TRUE(is_done(RunDirectory{folder.path()}, scene::run_id(plan))) << "it does not lose the run";
   EXPECT_NE(failed_movie.message.find("no renderer here"), std::string::npos);
   EXPECT_EQ(n_drawn, 1);
   EXPECT_EQ(drawing, (std::vector<std::pair<double, double>>{{0, -1}, {0.25, 12}}));
-  EXPECT_EQ(states.back(), "done");
+  EXPECT_EQ(states.back(), "failed");
   EXPECT_EQ(TrajectoryReader::open(RunDirectory{folder.path()}.trajectory())->n_frames(), 11U);
 
   callbacks.make_movie = [&](const OnDrawn&) -> Result<void> {
