@@ -128,8 +128,8 @@ void Supervisor::record_ended() {
     try {
       record_end(id, worker);
       entry = workers_.erase(entry);
-    } catch (const StorageError&) {
-      throw;                                   // no other could be recorded either
+    } catch (const StorageError&) {  // no other could be recorded either
+      throw;
     } catch (const std::exception& problem) {  // the others' ends do not wait for this one's
       warn_once("job " + id + ": " + problem.what());
       ++entry;

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <thread>
 #include <utility>
 
 namespace shaken::relay {
@@ -18,6 +19,8 @@ using std::chrono::milliseconds;
 
 /// Between looks at the clients' times.
 constexpr milliseconds kRound{1000};
+/// After a round that failed for want of memory.
+constexpr milliseconds kBreath{10};
 /// Where there is no descriptor for another client.
 constexpr milliseconds kPauseOfAccepting{500};
 /// Messages of the bridged bus in one go, before the clients have their turn again.
@@ -103,25 +106,34 @@ Relay::~Relay() {
 }
 
 void Relay::run(const std::stop_token& stop) {
-  for (wait(); !stop.stop_requested(); wait()) {
-    const Clock::time_point now = Clock::now();
-    for (std::size_t i = 0; i < clients_.size(); ++i) {
-      if (!is_readable_[i]) continue;
-      clients_[i]->receive([this](std::string_view channel, std::string_view payload) { hand_on(channel, payload); },
-                           now);
-      // LCM's client sends a message in five pieces, and its system each only when we have acknowledged the last one:
-      // an acknowledgement that waits, as is usual, costs 40 ms.
-      set(clients_[i]->socket(), IPPROTO_TCP, TCP_QUICKACK, 1);
+  while (!stop.stop_requested()) {
+    try {
+      wait();
+      serve();
+    } catch (const std::exception&) {  // no memory: messages are lost, as they may be, and nothing else
+      std::this_thread::sleep_for(kBreath);
     }
-    for (int i = 0; bridged_ && i < kBridgedAtOnce && bridged_->handle(0); ++i) {
-    }
-    for (const auto& client : clients_) {
-      client->send(now);
-      client->check_times(now);
-    }
-    forget_ended();
-    if (is_asked_to_accept_) accept_clients();
   }
+}
+
+void Relay::serve() {
+  const Clock::time_point now = Clock::now();
+  for (std::size_t i = 0; i < clients_.size(); ++i) {
+    if (!is_readable_[i]) continue;
+    clients_[i]->receive([this](std::string_view channel, std::string_view payload) { hand_on(channel, payload); },
+                         now);
+    // LCM's client sends a message in five pieces, and its system each only when we have acknowledged the last one:
+    // an acknowledgement that waits, as is usual, costs 40 ms.
+    set(clients_[i]->socket(), IPPROTO_TCP, TCP_QUICKACK, 1);
+  }
+  for (int i = 0; bridged_ && i < kBridgedAtOnce && bridged_->handle(0); ++i) {
+  }
+  for (const auto& client : clients_) {
+    client->send(now);
+    client->check_times(now);
+  }
+  forget_ended();
+  if (is_asked_to_accept_) accept_clients();
 }
 
 void Relay::wait() {

@@ -51,6 +51,7 @@ class Relay {
   using Clock = Client::Clock;
   Relay(const Address& address, Descriptor listener, Descriptor waker, std::unique_ptr<proto::Bus> bridged,
         const Limits& limits);
+  void serve();
   void run(const std::stop_token& stop);
   void wait();
   void accept_clients();

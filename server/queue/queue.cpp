@@ -156,7 +156,8 @@ Submitted Queue::submit(const std::string& name, int priority, std::span<const N
     }
     store_.set_terms(result.sweep, terms);
     if (!terms.after.empty()) update_waiting(result.sweep);
-    for (const NewJob& job : jobs) hold_or_release(job.id);
+    const std::string why = why_never_after(result.sweep);
+    for (const NewJob& job : jobs) hold_or_release(job.id, why);
     result.counts = store_.counts_of(Target(result.sweep));
     return result;
   });

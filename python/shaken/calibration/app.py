@@ -26,7 +26,7 @@ def parser() -> argparse.ArgumentParser:
     found.add_argument("--of", action="append", default=[], help="of this species only")
     found.add_argument("--area-fraction", type=float, help="at which rods are among their like; alone if left out")
     found.add_argument("--precision", type=float, default=0.05, help="relative standard error of D_r")
-    found.add_argument("--threads", type=int, default=os.cpu_count() or 1, help="runs at a time")
+    found.add_argument("--threads", type=int, default=len(os.sched_getaffinity(0)), help="runs at a time")
     found.add_argument("--plot", type=Path, help="picture of D_r against the noise")
     found.add_argument("--json", action="store_true")
     return found

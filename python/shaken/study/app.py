@@ -44,7 +44,7 @@ def parser() -> argparse.ArgumentParser:
     found.add_argument("--collect", action="store_true", help="first archive all runs of the daemon that are done")
     found.add_argument("--format", default="png", help="png, pdf or svg")
     found.add_argument("--width", default="183mm", help="89mm, 120mm, 183mm or another from 40mm to 500mm")
-    found.add_argument("--cores", type=int, default=os.cpu_count() or 1, help="cores that a plan is made for")
+    found.add_argument("--cores", type=int, default=len(os.sched_getaffinity(0)), help="cores that a plan is made for")
     found.add_argument("--plan", type=Path, help="file of a plan for a computing centre; nothing is started")
     found.add_argument("--executor", help="local or slurm: where the runs run")
     for name in ("partition", "account", "time", "memory"):
