@@ -169,18 +169,18 @@ class Sweep:
         cell would have several points, of a third key or of several versions: nothing is averaged over them; `where`
         chooses."""
         down, across = self._path(rows), self._path(columns)
-        cells: dict[str, Point] = {}
+        cells: dict[str, tuple[Point, float]] = {}
         for point, value in zip(self.points, self.column(name)):
-            if not value.is_known:
+            if isinstance(value, Estimate) and not value.is_known:
                 continue
-            other = cells.setdefault(json.dumps([point.key(down), point.key(across)]), point)
+            other, _ = cells.setdefault(json.dumps([point.key(down), point.key(across)]), (point, float(value)))
             if other is not point:
                 raise ShakenError(f"{rows} = {point.key(down)}, {columns} = {point.key(across)} has several points, "
                                   f"which differ in {self._differing(other, point)}: choose one, as in "
                                   f"sweep.where(...).pivot(...)")
-        frame = _pandas().DataFrame([{rows: point.key(down), columns: point.key(across), name: point[name].value}
-                                     for point in cells.values()], columns=[rows, columns, name])
-        return frame.pivot(index=rows, columns=columns, values=name)
+        frame = _pandas().DataFrame([(point.key(down), point.key(across), value) for point, value in cells.values()],
+                                    columns=["down", "across", name])
+        return frame.pivot(index="down", columns="across", values=name).rename_axis(index=rows, columns=columns)
 
     def _differing(self, a: Point, b: Point) -> str:
         """The keys in which two points differ, with all values that there are."""
@@ -193,8 +193,9 @@ class Sweep:
     def compared(self, other: "Sweep", name: str = "S") -> list[tuple[dict[str, Any], Estimate, Estimate, float]]:
         """The points that both sweeps have: (parameters, this, other, difference in standard errors). Raises
         ShakenError where one of them has a point of several versions; `where(version=...)` chooses."""
-        for sweep in (self, other):
-            sweep.column(name)
+        measured = dict.fromkeys(known for point in (*self, *other) for known in point.names())
+        if name not in measured:
+            raise UnknownName(f"'{name}' was measured at no point", name, measured)
         ours, theirs = self._by_parameters(), other._by_parameters()
         found = []
         for key, point in ours.items():

@@ -46,6 +46,8 @@ def test_choosing_columns_frames_and_pivots(tmp_path):
     pytest.importorskip("pandas")
     assert sweep.to_frame()["S"].tolist() == [0.5, 0.5, 0.6, 0.6]
     assert sweep.pivot("area_fraction", "length").loc[0.6, 2.5] == 0.6
+    assert sweep.pivot("area_fraction", "length", "rods.length").loc[0.6, 2.5] == 2.5
+    assert sweep[:1].pivot("length", "length").loc[2.5, 2.5] == 0.5
 
 
 def test_what_nothing_has_is_an_error_with_what_there_is(tmp_path):
@@ -63,6 +65,7 @@ def test_what_nothing_has_is_an_error_with_what_there_is(tmp_path):
                       (lambda: sweep.column("rods.lenght"), "did you mean rods.length"),
                       (lambda: sweep.column("box.aspect"), "'box.aspect' was measured at no point and is no key"),
                       (lambda: sweep.compared(sweep, "T"), "'T' was measured at no point"),
+                      (lambda: sweep.compared(sweep, "rods.length"), "'rods.length' was measured at no point"),
                       (lambda: sweep.pivot("length", "fraction"), "'fraction' is no key"),
                       (lambda: sweep[0]["T"], "'T' was not measured at"),
                       (lambda: sweep[0].key("rod.length"), "no 'rod.length'; did you mean rods"),
