@@ -178,7 +178,14 @@ void Canvas::spread(const Image& image, const Rect& rect) const {
   cairo_restore(cairo());
 }
 
+Result<void> Canvas::check() const {
+  const cairo_status_t status = cairo_status(cairo());
+  if (status != CAIRO_STATUS_SUCCESS) return Error{std::string("cannot draw: ") + cairo_status_to_string(status)};
+  return {};
+}
+
 Result<void> Canvas::finish() {
+  if (auto done = check(); !done) return done;
   context_.reset();
   cairo_surface_finish(surface_.get());
   const cairo_status_t status = cairo_surface_status(surface_.get());

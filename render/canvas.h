@@ -62,6 +62,8 @@ class Canvas {
   void lay_over(DeepImage& image) const;
   /// Of an SVG: the elements of all text, which Cairo would write as outlines. They belong at the file's end.
   std::string svg_words() const { return svg_words_ ? *svg_words_ : ""; }
+  /// Whether everything was drawn so far: after a font that cannot be read, say, Cairo draws nothing any more.
+  Result<void> check() const;
   /// Ends a file.
   Result<void> finish();
 

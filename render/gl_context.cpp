@@ -6,7 +6,11 @@
 #include <GL/osmesa.h>
 
 #include <cstdlib>
+#include <future>
 #include <string>
+#include <system_error>
+#include <thread>
+#include <vector>
 
 namespace shaken::render {
 
@@ -30,10 +34,27 @@ void choose_rasteriser() {
   setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
 }
 
+/// Mesa waits for ever for a thread of its own that the system has refused: whether there are as many.
+Result<void> ask_for_threads() {
+  std::vector<std::thread> threads;
+  std::promise<void> release;
+  const std::shared_future<void> released = release.get_future().share();
+  Result<void> done;
+  try {
+    for (int n = static_cast<int>(std::thread::hardware_concurrency()) + 2; n > 0; --n) threads.emplace_back([released] { released.wait(); });
+  } catch (const std::system_error& problem) {
+    done = Error{std::string("the system has no threads to draw with: ") + problem.what(), problem.code().value()};
+  }
+  release.set_value();
+  for (std::thread& thread : threads) thread.join();
+  return done;
+}
+
 }  // namespace
 
 Result<GlContext> GlContext::create() {
   [[maybe_unused]] static const bool once = (choose_rasteriser(), true);
+  if (auto done = ask_for_threads(); !done) return done.error();
   const int attributes[] = {OSMESA_FORMAT,
                             OSMESA_RGBA,
                             OSMESA_DEPTH_BITS,

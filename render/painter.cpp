@@ -76,6 +76,7 @@ Result<ImageOf<Channel>> Painter::paint(const RodPicture& picture, const Picture
       picture.beside.empty() ? paint_one(sheet, picture, drawn) : paint_panels(sheet, picture, drawn);
   if (!done) return done.error();
   draw_time_bar(sheet.over(), picture.captions, drawn);
+  if (auto whole = sheet.check(); !whole) return whole.error();
   return sheet.image();
 }
 template Result<Image> Painter::paint(const RodPicture& picture, const PictureStyle& style);
@@ -120,6 +121,7 @@ Result<Image> Painter::paint_map(const PhaseMap& map, const PictureStyle& style)
     sheet.paste(*rods, static_cast<int>(at.x()), static_cast<int>(at.y()), 1);
   }
   draw_map_words(sheet.over(), layout, map, style);
+  if (auto whole = sheet.check(); !whole) return whole.error();
   return sheet.image();
 }
 

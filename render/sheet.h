@@ -21,6 +21,7 @@ class Sheet<std::uint8_t> {
   Canvas& under() { return canvas_; }
   Canvas& over() { return canvas_; }
   void paste(const Image& image, int x, int y, double opacity) { canvas_.paste(image, x, y, opacity); }
+  Result<void> check() const { return canvas_.check(); }
   Image image() const { return canvas_.image(); }
 
  private:
@@ -36,6 +37,10 @@ class Sheet<std::uint16_t> {
   Canvas& under() { return under_; }
   Canvas& over() { return over_; }
   void paste(DeepImage image, int x, int y, double opacity) { pasted_.push_back({std::move(image), x, y, opacity}); }
+  Result<void> check() const {
+    auto done = under_.check();
+    return done ? over_.check() : done;
+  }
   DeepImage image() const;
 
  private:

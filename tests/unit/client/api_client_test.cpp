@@ -70,7 +70,7 @@ TEST(ApiClient, DaemonsWordsBecomeTheMessage) {
   EXPECT_EQ(failure_of([&] { session.post("/refused", Json::object()); }),
             std::pair(ExitCode::kBadInput, std::string("refused, with 1 problem\na.json:1:2: /box: bad")));
   EXPECT_EQ(failure_of([&] { session.get("/missing"); }).first, ExitCode::kBadInput);
-  EXPECT_FALSE(session.find("/missing").has_value());
+  EXPECT_EQ(session.find("/missing").error().message, "no such thing: GET /missing");
 }
 
 TEST(ApiClient, GarbageIsAFailureNotACrash) {
