@@ -54,4 +54,22 @@ Temperatures granular_temperatures(std::span<const Vec3> directors, std::span<co
           (first.across * about_short_axes + first.along * spinning) / n_rods / 3};
 }
 
+void TemperatureStatistics::accumulate(const Temperatures& sample, std::span<const Vec3> velocities) {
+  ++samples_;
+  for (std::size_t k = 0; k < kFreedoms; ++k) sums_[k] += sample[k];
+  double squares = 0, speeds = 0;
+  for (const Vec3& velocity : velocities) {
+    const double square = velocity.head<2>().squaredNorm();
+    squares += square;
+    speeds += std::sqrt(square);
+  }
+  squares_ += squares / static_cast<double>(velocities.size());
+  speeds_ += speeds / static_cast<double>(velocities.size());
+}
+
+Speeds TemperatureStatistics::speeds() const {
+  const auto samples = static_cast<double>(samples_);
+  return {.rms = std::sqrt(squares_ / samples), .mean = speeds_ / samples};
+}
+
 }  // namespace shaken::analysis

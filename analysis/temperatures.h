@@ -52,6 +52,12 @@ using Temperatures = std::array<double, kFreedoms>;
 Temperatures granular_temperatures(std::span<const Vec3> directors, std::span<const Vec3> velocities,
                                    std::span<const Vec3> angular_velocities, std::span<const RodInertia> inertias);
 
+/// How fast rods are in the plane, at one instant or on average [mm/s].
+struct Speeds {
+  double rms = 0;   ///< root of the mean square, of which nothing is taken away
+  double mean = 0;  ///< mean magnitude
+};
+
 /// Temperatures against time, in bounded memory (see BoundedSeries).
 class TemperatureSeries {
  public:
@@ -70,26 +76,30 @@ class TemperatureSeries {
   BoundedSeries<kFreedoms> series_;
 };
 
-/// Means of temperatures over samples.
+/// Means of temperatures over samples, and speeds over samples and rods.
 class TemperatureStatistics : public Summed<TemperatureStatistics> {
  public:
-  void accumulate(const Temperatures& sample) {
-    ++samples_;
-    for (std::size_t k = 0; k < kFreedoms; ++k) sums_[k] += sample[k];
-  }
+  /// With the velocities (n_rods) [mm/s] of that instant.
+  void accumulate(const Temperatures& sample, std::span<const Vec3> velocities);
   /// NaN without samples.
   Temperatures reduce() const {
     Temperatures means = sums_;
     for (double& mean : means) mean /= static_cast<double>(samples_);
     return means;
   }
+  /// NaN without samples.
+  Speeds speeds() const;
 
   static constexpr std::string_view kName = "TemperatureStatistics";
-  static constexpr auto fields() { return std::tuple(&TemperatureStatistics::samples_, &TemperatureStatistics::sums_); }
+  static constexpr auto fields() {
+    return std::tuple(&TemperatureStatistics::samples_, &TemperatureStatistics::sums_, &TemperatureStatistics::squares_,
+                      &TemperatureStatistics::speeds_);
+  }
 
  private:
   std::int64_t samples_ = 0;
   Temperatures sums_{};
+  double squares_ = 0, speeds_ = 0;  // means over the rods of each sample [mm^2/s^2], [mm/s]
 };
 
 }  // namespace shaken::analysis

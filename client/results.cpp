@@ -106,6 +106,10 @@ void average(const std::vector<ResultRow>& done, ResultRow& point) {
       if (n_known == 0) point.fields[name] = nullptr;
       continue;
     }
+    if (ends_with(name, "over_s")) {  // a setting, which replicas share
+      point.fields[name] = values.front();
+      continue;
+    }
     if (values.size() < done.size()) point.fields[name + ":n"] = values.size();
     if (ends_with(name, "n_effective")) {
       point.fields[name] = std::accumulate(values.begin(), values.end(), 0.0);

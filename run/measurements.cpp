@@ -50,6 +50,7 @@ Measurements::Measurements(const scene::RunPlan& plan, Cell cell) : cell_(std::m
       const std::optional<Cadence> cadence = kind.cadence(rods.plan);
       if (!cadence) continue;
       const double interval = static_cast<double>(cadence->period()) * plan.system.dt;
+      for (const Output& number : kind.numbers) over_[number.name] = kind.time_over(number, plan, interval);
       measured.timed.push_back({std::string(kind.name), *cadence,
                                 kind.make({rods.plan, plan, sizes.front(), cell_, interval, rods.species, sizes}), 0});
       const Measurement* made = measured.timed.back().measurement.get();
@@ -128,8 +129,9 @@ Reduction Measurements::reduce(const OfSpecies& rods, std::optional<double> t_st
   for (const MeasurementKind& kind : measurement_kinds()) {
     for (const Output& number : kind.numbers) {
       const auto scalar = result.scalars.find(std::string(number.name));
-      if (scalar == result.scalars.end() || is_known(scalar->second) || !scalar->second.reason.empty()) continue;
-      scalar->second.reason = number.if_none;
+      if (scalar == result.scalars.end()) continue;
+      scalar->second.over = over_.at(number.name);
+      if (!is_known(scalar->second) && scalar->second.reason.empty()) scalar->second.reason = number.if_none;
     }
   }
   return result;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/core/result.h"
@@ -73,7 +74,8 @@ class Measurements {
 
   Cell cell_;
   std::optional<double> steady_;
-  std::vector<OfSpecies> species_;  ///< the first species first
+  std::vector<OfSpecies> species_;           ///< the first species first
+  std::map<std::string_view, double> over_;  ///< of each number the time over which it is taken [s] (Output::over)
 };
 
 }  // namespace shaken::run

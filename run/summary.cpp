@@ -168,6 +168,7 @@ Result<void> write_summary(const std::filesystem::path& file, const Summary& sum
                               {"steady", json_of(scalar.steady)},
                               {"drift", drift_json(scalar.drift, scalar.drift_sem)}};
     if (std::isfinite(sem) && sem != scalar.sem) json["measured"][name]["sem_if_steady"] = scalar.sem;
+    if (std::isfinite(scalar.over)) json["measured"][name]["over_s"] = scalar.over;
     if (!scalar.reason.empty()) json["measured"][name]["reason"] = scalar.reason;
   }
   for (const auto& [name, effect] : summary.effects) json["effects"][name] = to_json(effect);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <cmath>
 #include <optional>
 #include <set>
 
@@ -129,6 +130,7 @@ class Plot : public Verb {
     }
     wanted["x"] = x;
     wanted["y"] = y;
+    wanted["over"] = {{"x", times_over(points, x)}, {"y", times_over(points, y)}};
     wanted["points"] = Json::array();
     std::set<std::string> kept;  // parameters
     for (const ResultRow& point : points) {
@@ -155,6 +157,18 @@ class Plot : public Verb {
   static std::string version_text(const ResultRow& row) {
     const RowVersion version = version_of(row);
     return version.is_known() ? version.text() : "";
+  }
+
+  /// The times over which a number is taken in the points, "over_s" in summary.json [s]; none if it depends on none.
+  static std::set<double> times_over(const std::vector<ResultRow>& points, const std::string& field) {
+    constexpr std::string_view kValue = ".value";
+    std::set<double> times;
+    if (!field.ends_with(kValue)) return times;
+    for (const ResultRow& point : points) {
+      const double time = point.number(field.substr(0, field.size() - kValue.size()) + ".over_s");
+      if (!std::isnan(time)) times.insert(time);
+    }
+    return times;
   }
 
   /// A point as `shaken.plots` takes it; what is not known is null.

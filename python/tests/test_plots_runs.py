@@ -284,6 +284,9 @@ def test_the_program_draws_what_a_description_says(tmp_path: Path) -> None:
     assert nothing.returncode == 1 and "nothing to plot" in nothing.stdout
     one = call({**wanted, "runs": [], "points": [{"parameters": {"box.gap": 1.2}, "y": 0.5}]})
     assert one.returncode == 1 and "no numeric parameter is swept" in one.stdout
+    windowed = call({**wanted, "runs": [], "y": "measured.velocity_rms_mm_s.value", "over": {"x": [], "y": [0.4]},
+                     "points": [{"parameters": {"box.gap": gap}, "y": gap} for gap in (1.0, 1.2)]})
+    assert "over 0.4 s (mm/s)" in Path(windowed.stdout.split()[-1]).with_suffix(".csv").read_text()
 
 
 def test_curves_of_shorter_runs_look_as_those_of_longer_ones() -> None:

@@ -202,6 +202,13 @@ def test_titles_of_axes(path: str, title: str) -> None:
     assert names.plain(names.axis_title(path)) == title
 
 
+@pytest.mark.parametrize("over, title", [
+    ((), "rms speed of displacements (mm/s)"), ((0.4,), "rms speed of displacements over 0.4 s (mm/s)"),
+    ((0.4, 0.1, 0.2), "rms speed of displacements over 0.1 to 0.4 s (mm/s)")])
+def test_titles_of_axes_say_the_time_that_a_number_is_taken_over(over: tuple[float, ...], title: str) -> None:
+    assert names.plain(names.axis_title("measured.velocity_rms_mm_s.value", over=over)) == title
+
+
 def test_labels_of_points() -> None:
     assert names.plain(names.point_label({"rods.area_fraction": 0.6, "rods.length": 2.5})) == "φ = 0.6, ℓ = 2.5 mm"
     assert names.plain(names.point_label({"plates.gamma": -3e-7})) == "Γ = −3·10⁻⁷"

@@ -93,7 +93,8 @@ std::string field(const OrderedJson& value) {
 
 std::string summary_row(const std::string& name, const OrderedJson& value, const OrderedJson& estimate) {
   const auto of = [&](const char* key) { return estimate.contains(key) ? field(estimate[key]) : ""; };
-  return fmt::format("{},{},{},{},{}\n", csv_field(name), field(value), of("sem"), of("n_effective"), of("steady"));
+  return fmt::format("{},{},{},{},{},{}\n", csv_field(name), field(value), of("sem"), of("n_effective"), of("steady"),
+                     of("over_s"));
 }
 
 /// A row for each number below `value`.
@@ -185,7 +186,7 @@ std::string observables_list(const Observables& arrays) {
 Result<std::string> summary_csv(const std::string& summary) {
   const OrderedJson all = OrderedJson::parse(summary, nullptr, false);
   if (!all.is_object()) return Error{"it is no JSON object"};
-  std::string rows = "name,value,sem,n_effective,steady\n";
+  std::string rows = "name,value,sem,n_effective,steady,over_s\n";
   for (const auto& [key, value] : all.items()) {
     if (key == "measured" && value.is_object()) {
       for (const auto& [name, estimate] : value.items()) {

@@ -22,9 +22,9 @@ Result<std::string> observables_csv(const Observables& arrays, const std::vector
 /// The groups and arrays that a name may stand for, one a line, with units and lengths.
 std::string observables_list(const Observables& arrays);
 
-/// The numbers of a summary.json, one a line: name, value, sem, n_effective, steady. Those of `measured` go by their
-/// own names and the average of S(t) by "order"; all others by their paths ("collisions.rod_rod"). What is not known is
-/// an empty field. Fails if `summary` is no JSON object.
+/// The numbers of a summary.json, one a line: name, value, sem, n_effective, steady, over_s. Those of `measured` go by
+/// their own names and the average of S(t) by "order"; all others by their paths ("collisions.rod_rod"). What is not
+/// known is an empty field. Fails if `summary` is no JSON object.
 Result<std::string> summary_csv(const std::string& summary);
 
 }  // namespace shaken::run

@@ -67,8 +67,9 @@ MeasurementKind density_kind() {
               {"time_s", "(maps) middle of the time that a map is averaged over"},
               {"x_mm", "(columns) centres of the cells along x"},
               {"y_mm", "(rows) centres of the cells along y"},
-              {"area_fraction",
-               "(maps · rows · columns) area fraction in the cells, map by map and row by row; NaN beyond walls"},
+              over("duration",
+                   {"area_fraction",
+                    "(maps · rows · columns) area fraction in the cells, map by map and row by row; NaN beyond walls"}),
               {"mean_area_fraction", "(rows · columns) mean over the maps of the steady state"},
               {"memory/lag_s", "time from one map to another"},
               {"memory/correlation", "⟨δ(t)δ(t + lag)⟩/⟨δ²⟩ of the relative deviations δ of cells from the mean",
@@ -76,10 +77,11 @@ MeasurementKind density_kind() {
           },
       .numbers =
           {
-              {"density_variance", "⟨δ²⟩ over cells and maps, δ being the relative deviation of a cell from the mean"},
-              {"density_variance_of_mean", "that of the mean map: what does not change in time"},
-              {"density_correlation_s", "lag at which the correlation falls to 1/e", false,
-               "it does not within the lags, or there are too few maps"},
+              over("duration", {"density_variance",
+                                "⟨δ²⟩ over cells and maps, δ being the relative deviation of a cell from the mean"}),
+              over("duration", {"density_variance_of_mean", "that of the mean map: what does not change in time"}),
+              over("duration", {"density_correlation_s", "lag at which the correlation falls to 1/e", false,
+                                "it does not within the lags, or there are too few maps"}),
           },
   };
 }

@@ -62,15 +62,16 @@ MeasurementKind flow_kind() {
       .arrays =
           {
               {"r_mm", "bin centres"},
-              {"c", "C(r) of velocities over `measure.flow.every`; 1 if all rods move together", kWithError},
-              {"c_along", "of the components along the director", kWithError},
-              {"c_across", "of the components across it", kWithError},
+              over("every", {"c", "C(r) of mean velocities; 1 if all rods move together", kWithError}),
+              over("every", {"c_along", "of the components along the director", kWithError}),
+              over("every", {"c_across", "of the components across it", kWithError}),
           },
       .numbers =
           {
-              {"flow_of_neighbours", "C of rods whose centres are less than two diameters apart"},
-              {"flow_length_mm", "distance at which C falls to 1/e", false,
-               "C does not fall to 1/e within half the box"},
+              over("every", {"flow_of_neighbours",
+                             "C of mean velocities of rods whose centres are less than two diameters apart"}),
+              over("every", {"flow_length_mm", "distance at which C falls to 1/e", false,
+                             "C does not fall to 1/e within half the box"}),
           },
       .of_axis = {"c_along", "c_across"},
   };

@@ -11,6 +11,9 @@ namespace shaken::run {
 
 namespace {
 
+/// Samples over which speeds are those of numbers.
+constexpr int kSpan = analysis::kTrackSpans[analysis::kTrackSpan];
+
 analysis::DefectTracks::Settings track_settings(const MeasureContext& context) {
   const System& system = context.plan.system;
   const analysis::Region region(system.box(), system.walls);
@@ -125,20 +128,20 @@ MeasurementKind defects_kind() {
               {"defect_lone_birth_rate_per_mm2_s", "defects that appear without a partner"},
               {"defect_lone_death_rate_per_mm2_s", "defects that vanish without a partner"},
               {"defect_lifetime_s", "time lived by all defects over the number that vanished"},
-              {"defect_speed_plus_mm_s", "mean speed of +1/2 defects, over four samples"},
-              {"defect_speed_minus_mm_s", "mean speed of -1/2 defects"},
-              {"defect_speed_plus_along_mm_s", "velocity of +1/2 defects along their tail"},
-              {"defect_speed_plus_across_mm_s", "velocity across the tail, to the left"},
+              over("every", {"defect_speed_plus_mm_s", "mean speed of +1/2 defects"}, kSpan),
+              over("every", {"defect_speed_minus_mm_s", "mean speed of -1/2 defects"}, kSpan),
+              over("every", {"defect_speed_plus_along_mm_s", "velocity of +1/2 defects along their tail"}, kSpan),
+              over("every", {"defect_speed_plus_across_mm_s", "velocity across the tail, to the left"}, kSpan),
               {"lasting_defect_density_per_mm2", "number per area, of tracks that last `measure.defects.min_lifetime`"},
               {"lasting_defect_creation_rate_per_mm2_s", "the same of lasting tracks"},
               {"lasting_defect_annihilation_rate_per_mm2_s", "the same of lasting tracks"},
               {"lasting_defect_lone_birth_rate_per_mm2_s", "the same of lasting tracks"},
               {"lasting_defect_lone_death_rate_per_mm2_s", "the same of lasting tracks"},
               {"lasting_defect_lifetime_s", "the same of lasting tracks"},
-              {"lasting_defect_speed_plus_mm_s", "the same of lasting tracks"},
-              {"lasting_defect_speed_minus_mm_s", "the same of lasting tracks"},
-              {"lasting_defect_speed_plus_along_mm_s", "the same of lasting tracks"},
-              {"lasting_defect_speed_plus_across_mm_s", "the same of lasting tracks"},
+              over("every", {"lasting_defect_speed_plus_mm_s", "the same of lasting tracks"}, kSpan),
+              over("every", {"lasting_defect_speed_minus_mm_s", "the same of lasting tracks"}, kSpan),
+              over("every", {"lasting_defect_speed_plus_along_mm_s", "the same of lasting tracks"}, kSpan),
+              over("every", {"lasting_defect_speed_plus_across_mm_s", "the same of lasting tracks"}, kSpan),
               {"defect_charge", "mean total charge; 0 in a periodic box that is full of rods"},
           },
   };

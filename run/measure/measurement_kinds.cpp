@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "run/measure/measurement_kinds.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "scene/fields.h"
 #include "scene/observables.h"
 
 namespace shaken::run {
@@ -22,6 +29,18 @@ std::optional<Cadence> MeasurementKind::cadence(const scene::RunPlan& plan) cons
   const System& system = plan.system;
   if (is_spread != nullptr && is_spread(plan)) return Cadence::spread(*period, system.dt, system.seed);
   return Cadence(*period, system.dt);
+}
+
+std::string MeasurementKind::meaning(const Output& output) const {
+  if (output.over.empty()) return std::string(output.meaning);
+  return fmt::format("{}; over {}`measure.{}.{}`", output.meaning,
+                     output.times > 1 ? fmt::format("{} × ", output.times) : "", name, output.over);
+}
+
+double MeasurementKind::time_over(const Output& output, const scene::RunPlan& plan, double interval) const {
+  if (output.over.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const scene::Field& key = scene::field_at(fmt::format("measure.{}.{}", name, output.over));
+  return output.times * std::max(1.0, std::round(std::get<double>(key.fetch(plan)) / interval)) * interval;
 }
 
 scene::RunPlan only(scene::RunPlan plan, const MeasurementKind& kind) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -20,8 +21,19 @@ struct Output {
   bool has_error = false;    ///< of an array: whether there is one with `_sem` as well (every number has an error)
   /// Of a number: why it has no value where it has none and the measurement says no more.
   std::string_view if_none = "too few samples, or too short a run";
+  /// The key of its block that sets the time over which it is taken, where its value depends on that ("window"), and
+  /// how many such times.
+  std::string_view over = {};
+  int times = 1;
 };
 inline constexpr bool kWithError = true;
+
+/// `output`, whose value depends on the time over which it is taken (Output::over).
+constexpr Output over(std::string_view key, Output output, int times = 1) {
+  output.over = key;
+  output.times = times;
+  return output;
+}
 
 /// One thing that can be measured, the block "measure.NAME" of a scene, and all that becomes of it.
 struct MeasurementKind {
@@ -39,6 +51,11 @@ struct MeasurementKind {
   std::optional<double> every(const scene::RunPlan& plan) const;
   /// When samples are taken; none: it is not measured.
   std::optional<Cadence> cadence(const scene::RunPlan& plan) const;
+
+  /// For the pages: the meaning, and the key that sets the time over which it is taken.
+  std::string meaning(const Output& output) const;
+  /// That time with `interval` between samples, a multiple of it [s]; NaN if the value depends on no such time.
+  double time_over(const Output& output, const scene::RunPlan& plan, double interval) const;
 };
 
 /// All of them, in the order in which they sample and are saved.

@@ -89,16 +89,19 @@ MeasurementKind msd_kind() {
           },
       .numbers =
           {
-              {"diffusion_mm2_s", "D at long lags: a quarter of the slope of the MSD"},
-              {"diffusion_short_mm2_s", "the same at short lags"},
+              {"diffusion_mm2_s",
+               "D at long lags, from `diffusion_lag_from_s` to `diffusion_lag_to_s`: a quarter of the slope of the "
+               "MSD"},
+              {"diffusion_short_mm2_s",
+               "the same at short lags, from `diffusion_short_lag_from_s` to `diffusion_short_lag_to_s`"},
               {"diffusion_along_mm2_s", "D along the director, at long lags"},
               {"diffusion_across_mm2_s", "D across it"},
               {"diffusion_relative_mm2_s", "D without the common drift of all rods, at long lags"},
               {"alpha_short", "exponent of the MSD at short lags"},
               {"alpha_long", "exponent at long lags"},
-              {"alpha_along_short", "exponent of the displacement along the director, at short lags"},
+              {"alpha_along_short", "exponent of the displacement along the director, at short lags of its own"},
               {"alpha_along_long", "the same at long lags"},
-              {"alpha_across_short", "exponent of the displacement across the director, at short lags"},
+              {"alpha_across_short", "exponent of the displacement across the director, at short lags of its own"},
               {"alpha_across_long", "the same at long lags"},
               {"diffusion_lag_from_s", "shortest of the long lags"},
               {"diffusion_lag_to_s", "longest of the long lags"},

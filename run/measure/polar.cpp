@@ -66,8 +66,9 @@ MeasurementKind polar_kind() {
           {
               {"P", "mean polar order: 1 where all heads point the same way"},
               {"polar_susceptibility", "N · var P"},
-              {"v_forward_mm_s", "mean velocity in the plane towards the head; negative: tails swim first"},
-              {"v_along_rms_mm_s", "root mean square of the velocity along the rod, in the plane"},
+              {"v_forward_mm_s",
+               "mean of velocities of instants in the plane towards the head; negative: tails swim first"},
+              {"v_along_rms_mm_s", "root mean square of velocities of instants along the rod, in the plane"},
               {"v_across_rms_mm_s", "that across the rod"},
               {"velocity_polarity",
                "speed of the mean velocity over the mean speed: 1 where all rods move the same way"},

@@ -16,6 +16,8 @@ namespace shaken::run {
 struct Scalar : Estimate {
   /// Why there is no value, where it takes a word: a system too small, a run too short.
   std::string reason = {};
+  /// The time over which it is taken, where its value depends on that [s] (Output::over).
+  double over = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// What the measurements say of the run as a whole.

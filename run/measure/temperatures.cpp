@@ -33,13 +33,18 @@ class MeasuredTemperatures : public Measurement {
     const analysis::Temperatures found =
         analysis::granular_temperatures(sample->director, sample->velocity, sample->angular_velocity, inertias_);
     series_.accumulate(sample->time, found);
-    statistics_.accumulate(sample->time, found);
+    statistics_.accumulate(sample->time, found, sample->velocity);
   }
   void reduce(Reduction& result) const override {
     const auto means = block_estimates(statistics_, result.t_steady, [](const analysis::TemperatureStatistics& part) {
       const analysis::Temperatures found = part.reduce();
-      return std::vector<double>(found.begin(), found.end());
+      std::vector<double> numbers(found.begin(), found.end());
+      const analysis::Speeds speeds = part.speeds();
+      numbers.insert(numbers.end(), {speeds.rms, speeds.mean});
+      return numbers;
     });
+    result.scalars["speed_rms_mm_s"] = means[analysis::kFreedoms];
+    result.scalars["speed_mean_mm_s"] = means[analysis::kFreedoms + 1];
     result.arrays["/temperatures/time_s"] = series_.times();
     for (const auto& [freedom, name] : kFreedomNames) {
       result.arrays[std::string("/temperatures/") + name + "_pJ"] = series_.of(freedom);
@@ -94,6 +99,8 @@ MeasurementKind temperatures_kind() {
               {"temperature_tipping_pJ", "of rotation out of the plane"},
               {"temperature_spinning_pJ", "of rotation about the rod's own axis"},
               {"temperature_rotation_pJ", "of rotation, mean over three axes"},
+              {"speed_rms_mm_s", "√⟨v²⟩ in the plane, of velocities of instants"},
+              {"speed_mean_mm_s", "⟨\\|v\\|⟩ in the plane, of velocities of instants"},
           },
       .of_axis = {"along_pJ", "across_pJ", "turning_pJ", "tipping_pJ", "spinning_pJ", "temperature_along_pJ",
                   "temperature_across_pJ", "temperature_turning_pJ", "temperature_tipping_pJ",

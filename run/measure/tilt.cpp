@@ -72,7 +72,7 @@ MeasurementKind tilt_kind() {
       .arrays =
           {
               {"n_z", "bin centres of the vertical component of the axis"},
-              {"v_along_mm_s", "mean velocity along the rod's own direction in the plane", kWithError},
+              {"v_along_mm_s", "mean of velocities of instants along the rod's own direction in the plane", kWithError},
               {"v_across_mm_s", "across that direction, to the left", kWithError},
               {"density", "P(n_z)"},
               {"folded/n_z", "bins with n_z > 0"},
@@ -82,7 +82,9 @@ MeasurementKind tilt_kind() {
           {
               {"n_z_switching_time_s", "mean time for which a rod stays tilted to one side"},
               {"tilt_fastest_mm_s",
-               "folded mean velocity along the rod where its magnitude is largest; negative: away from the raised end",
+               "folded mean of velocities of instants along the rod where its magnitude is largest; negative: away "
+               "from the "
+               "raised end",
                false, "no mean velocity differs from 0 by three of its errors"},
               {"tilt_fastest_n_z", "tilt at which it is reached", false,
                "no mean velocity differs from 0 by three of its errors"},

@@ -78,7 +78,7 @@ MeasurementKind van_hove_kind() {
           },
       .numbers =
           {
-              {"van_hove_beyond", "share of the displacements at the longest lag that lie beyond the range"},
+              over("lag", {"van_hove_beyond", "share of the displacements that lie beyond the range"}),
           },
       .of_axis = {"along_per_mm", "across_per_mm"},
   };

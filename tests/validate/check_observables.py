@@ -619,6 +619,11 @@ def check_temperatures(run, table):
         series = run.arrays[f"/temperatures/{name}_pJ"]
         (value,), (sem,) = jackknife(parts, lambda some: [series[some].mean()])
         scalar(run, table, f"temperature_{name}_pJ", "numpy", value, sem)
+    speeds = np.hypot(run.velocity[frames][..., 0], run.velocity[frames][..., 1])
+    for name, of in (("rms", lambda some: np.sqrt(np.mean(speeds[some] ** 2))),
+                     ("mean", lambda some: np.mean(speeds[some]))):
+        (value,), (sem,) = jackknife(parts, lambda some, of=of: [of(some)])
+        scalar(run, table, f"speed_{name}_mm_s", "numpy", value, sem)
 
 
 def check_collisions(run, table):

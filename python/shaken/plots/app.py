@@ -36,6 +36,7 @@ def draw_runs(wanted: Mapping[str, Any]) -> None:
     runs:    [{directory, parameters, state}]; each in the figures of its observables
     points:  [{parameters, version, x, y, error, steady}] or null; the figure of a number against a parameter
     x, y:    of that figure; x empty: the longest parameter
+    over:    {x, y}: the times over which these are taken [s], each a list
     rows:    [{id, version}]: what the points are made of
     folder, name, format, width: of the command line; name: of the one figure, where it has one
     Paths (directory, folder, name) are percent-encoded: their bytes may be no UTF-8.
@@ -49,7 +50,7 @@ def draw_runs(wanted: Mapping[str, Any]) -> None:
         points = [sweeps.PlottedPoint(of["parameters"], _number(of.get("y")), _number(of.get("error")),
                                       of.get("steady", True), _number(of.get("x")), of.get("version") or "")
                   for of in wanted["points"]]
-        figure = sweeps.sweep_figure(points, x, y, width)
+        figure = sweeps.sweep_figure(points, x, y, width, wanted.get("over") or {})
         if figure is not None:
             figures.append(figure)
         elif one_figure:

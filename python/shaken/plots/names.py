@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from typing import Any, Mapping
+from typing import Any, Mapping, Sequence
 
 from ..units import split_species, split_unit, unit_of
 
@@ -53,7 +53,9 @@ TABLE: dict[str, tuple[str, str, str]] = {
     "defect_density_per_mm2": ("defects per area", "", "1/mm²"),
     "P": ("polar order", r"$\langle P\rangle$", ""),
     "v_forward_mm_s": ("velocity towards the head", r"$\langle v·u\rangle$", "mm/s"),
-    "velocity_rms_mm_s": ("speed", r"$v_\mathrm{rms}$", "mm/s"),
+    "velocity_rms_mm_s": ("rms speed of displacements", "", "mm/s"),
+    "speed_rms_mm_s": ("rms speed", r"$v_\mathrm{rms}$", "mm/s"),
+    "speed_mean_mm_s": ("mean speed", r"$\langle|v|\rangle$", "mm/s"),
     "temperature_horizontal_pJ": ("temperature in the plane", r"$T_\mathrm{h}$", "pJ"),
     "temperature_vertical_pJ": ("vertical temperature", r"$T_z$", "pJ"),
     "temperature_along_pJ": ("temperature along the rods", r"$T_∥$", "pJ"),
@@ -191,20 +193,23 @@ def with_unit(title: str, unit: str) -> str:
     return f"{title} ({unit})" if unit else title
 
 
-def axis_title(path: str, unit: str | None = None) -> str:
+def axis_title(path: str, unit: str | None = None, over: Sequence[float] = ()) -> str:
     """Name, symbol and unit for an axis: of a key of the scene ("box.gap"), of a number of a run ("theta_m_deg",
     "measured.theta_m_deg.value", "order.mean") or of an array ("/g2/g2"). What the table does not have goes by its own
-    name, with the unit that it ends in. `unit` replaces that of the table."""
+    name, with the unit that it ends in. `unit` replaces that of the table. `over`: the times over which the number
+    is taken [s], "over_s" of summaries: "speed over 0.4 s (mm/s)"."""
     entry = _entry(path)
+    times = f" over {' to '.join(number_text(time) for time in sorted({min(over), max(over)}))} s" if over else ""
     if entry is not None:
         name, symbol, own = entry
-        return with_unit(f"{name} {symbol}".strip(), own if unit is None else unit)
+        return with_unit(f"{name} {symbol}".strip() + times, own if unit is None else unit)
     name = path.removeprefix("measured.").removesuffix(".value")
     stem, _ = split_unit(name.rpartition("/")[2])
     own = unit_text(unit_of(name))
     if not own and "." in name:
         own = next((unit for end, unit in _KEY_UNITS.items() if name.endswith(end)), "")
-    return with_unit((stem if "/" in name else split_unit(name)[0]).replace("_", " "), own if unit is None else unit)
+    name = stem if "/" in name else split_unit(name)[0]
+    return with_unit(name.replace("_", " ") + times, own if unit is None else unit)
 
 
 def symbol(path: str) -> str:

@@ -81,8 +81,9 @@ def _by_way(others: dict[str, Any], group: list[tuple[float, PlottedPoint]]) -> 
 
 
 def sweep_figure(points: Sequence[PlottedPoint], x: str = "", y: str = "order.mean",
-                 width: str | None = None) -> tuple[str, Sheet] | None:
-    """(name, figure): `y` against `x`, the longest swept parameter if left out. Other parameters, and versions, are
+                 width: str | None = None, over: Mapping[str, Sequence[float]] = {}) -> tuple[str, Sheet] | None:
+    """(name, figure): `y` against `x`, the longest swept parameter if left out; `over`: the times over which they are
+    taken, as axis_title has them. Other parameters, and versions, are
     told by colours and panels as Arrangement does, and so are the ways up and down of a protocol. None where no
     parameter is swept, or no point has both."""
     path = x or longest_parameter(points)
@@ -111,7 +112,8 @@ def sweep_figure(points: Sequence[PlottedPoint], x: str = "", y: str = "order.me
     if of_protocol:
         groups = [part for group in groups for part in _by_way(*group)]
     arrangement = Arrangement([others for others, _ in groups])
-    sheet = arrangement.sheet(width, names.axis_title(path), names.axis_title(y))
+    sheet = arrangement.sheet(width, names.axis_title(path, over=over.get("x", ())),
+                              names.axis_title(y, over=over.get("y", ())))
     any_error = any(math.isfinite(point.error) for _, group in groups for _, point in group)
     for panel, k in arrangement.each(sheet):
         group = sorted(groups[k][1], key=lambda pair: pair[0])

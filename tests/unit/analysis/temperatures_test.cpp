@@ -87,6 +87,21 @@ TEST(Temperatures, OfAFewRodsByHand) {
   EXPECT_NEAR(of(found, Freedom::kRotation), (18 * (13 + 52 + 2) + 0.7 * 30) / 3 / 3, 1e-12);
 }
 
+// Three rods at 5, 0 and 13 mm/s in the plane, and all of them twice as fast in a second sample.
+TEST(Temperatures, SpeedsAreThoseOfInstantsInThePlane) {
+  TemperatureStatistics statistics;
+  EXPECT_TRUE(std::isnan(statistics.speeds().rms));
+  const std::vector<Vec3> velocities{{3, -4, 100}, {0, 0, -7}, {5, 12, 1}};
+  statistics.accumulate({}, velocities);
+  EXPECT_DOUBLE_EQ(statistics.speeds().mean, 6);
+  EXPECT_DOUBLE_EQ(statistics.speeds().rms, std::sqrt((25 + 169) / 3.0));
+  std::vector<Vec3> faster = velocities;
+  for (Vec3& velocity : faster) velocity *= 2;
+  statistics.accumulate({}, faster);
+  EXPECT_DOUBLE_EQ(statistics.speeds().mean, 9);
+  EXPECT_DOUBLE_EQ(statistics.speeds().rms, std::sqrt((25 + 169) / 3.0 * 5 / 2));
+}
+
 // Slow twin: the energy of all motion relative to the centre of mass is half the sum of the temperatures of its
 // freedoms.
 void expect_sum_of_energy(Rods rods, Draw& draw) {
@@ -149,7 +164,7 @@ TEST(Temperatures, OfRodsThatDifferAreUnbiased) {
       rods.angular_velocities.push_back(w - w.dot(n) * n + std::sqrt(kTemperature / rod.along) * draw.normal() * n);
     }
     for (Vec3& v : rods.velocities) v -= momentum / 42;
-    statistics.accumulate(rods.temperatures());
+    statistics.accumulate(rods.temperatures(), rods.velocities);
   }
   const Temperatures found = statistics.reduce();
   for (const Freedom freedom : {Freedom::kHorizontal, Freedom::kVertical, Freedom::kTurning, Freedom::kTipping,
@@ -167,7 +182,7 @@ TEST(Temperatures, OfFewRodsAreUnbiased) {
   for (int i = 0; i < kRepeats; ++i) {
     Rods rods{{axis(0.3), axis(2), axis(-1, 0.5)}, {}, std::vector<Vec3>(3, Vec3::Zero())};
     for (int k = 0; k < 3; ++k) rods.velocities.push_back(Vec3(draw.normal(), draw.normal(), draw.normal()));
-    statistics.accumulate(rods.temperatures());
+    statistics.accumulate(rods.temperatures(), rods.velocities);
   }
   const Temperatures found = statistics.reduce();
   for (const Freedom freedom : {Freedom::kHorizontal, Freedom::kVertical, Freedom::kAlong, Freedom::kAcross}) {
@@ -198,12 +213,13 @@ TEST(TemperatureSeries, KeepsEachByItself) {
 
 TEST(TemperatureStatistics, MergeSaveAndReset) {
   TemperatureStatistics first, second;
-  first.accumulate({1, 2, 3, 4, 5, 6, 7, 8});
-  second.accumulate({3, 4, 5, 6, 7, 8, 9, 10});
+  first.accumulate({1, 2, 3, 4, 5, 6, 7, 8}, std::vector{Vec3(3, 4, 5)});
+  second.accumulate({3, 4, 5, 6, 7, 8, 9, 10}, std::vector{Vec3(1, 0, 9)});
   first.merge(second);
   EXPECT_EQ(first.reduce(), (Temperatures{2, 3, 4, 5, 6, 7, 8, 9}));
   stop_and_go_on(first, TemperatureStatistics());
   EXPECT_EQ(first.reduce(), (Temperatures{2, 3, 4, 5, 6, 7, 8, 9}));
+  EXPECT_EQ(first.speeds().mean, 3);
   expect_every_truncation_found(first);
   EXPECT_TRUE(std::isnan(TemperatureStatistics().reduce()[0]));
 }

@@ -103,7 +103,7 @@ TEST_F(ExportVerb, MakesTablesOfObservables) {
   EXPECT_EQ(exported({"--observable", "g2", "-o", out("g.csv")}).out, out("g.csv") + "\n");
   EXPECT_EQ(*read_file(out("g.csv")), "r_mm\n1\n");
   EXPECT_EQ(exported({"--observable", "summary", "--format", "csv", "-o", "-"}).out,
-            "name,value,sem,n_effective,steady\nn_rods,1,,,\nalpha,2,0.5,,\n");
+            "name,value,sem,n_effective,steady,over_s\nn_rods,1,,,,\nalpha,2,0.5,,,\n");
   const Outcome list = exported({"--list"});
   EXPECT_EQ(list.code, ExitCode::kOk);
   EXPECT_THAT(list.out, StartsWith("summary\ng2\n  g2/r_mm "));

@@ -203,6 +203,15 @@ TEST(Aggregated, AMeanIsOfTheRunsThatHaveAValueAndSaysHowMany) {
   EXPECT_EQ(field_text(rows[0], "measured.theta_m_deg.value"), "");
 }
 
+// The window of mean velocities, say, is no result: replicas have it in common.
+TEST(Aggregated, TheTimeThatANumberIsTakenOverIsThatOfItsRuns) {
+  std::vector<ResultRow> rows{row_with_verdict(1, true), row_with_verdict(2, true)};
+  for (ResultRow& row : rows) row.fields["measured.velocity_rms_mm_s.over_s"] = 0.4;
+  const ResultRow point = aggregated(rows)[0];
+  EXPECT_EQ(point.number("measured.velocity_rms_mm_s.over_s"), 0.4);
+  EXPECT_FALSE(point.fields.contains("measured.velocity_rms_mm_s.over_s:sem"));
+}
+
 // Points of a sweep that are the same run, such as those of a whole number drawn eight times of 1 and 2: the run is one
 // sample, however often it is listed.
 TEST(Aggregated, ARunThatIsListedTwiceCountsOnce) {

@@ -266,6 +266,8 @@ ErrorCase of_layers(const char* name, double share, int samples) {
            "temperature_horizontal_pJ",
            "temperature_along_pJ",
            "temperature_across_pJ",
+           "speed_rms_mm_s",
+           "speed_mean_mm_s",
            "largest_cluster",
            "cluster_size",
            "rods_alone",

@@ -530,18 +530,20 @@ TEST(SummaryCsv, HasALineForEachNumber) {
               "steady": true, "drift": {"value": 1, "sem": 2}},
     "defects": null,
     "measured": {"theta_m_deg": {"value": 30.5, "sem": null, "n_effective": 4, "steady": false},
+                 "velocity_rms_mm_s": {"value": 2.5, "over_s": 0.4},
                  "alpha": {"value": null, "reason": "too short"}}})");
   ASSERT_TRUE(table);
   EXPECT_EQ(*table,
-            "name,value,sem,n_effective,steady\n"
-            "n_rods,60,,,\n"
-            "collisions.rod_rod,7,,,\n"
-            "order,0.75,0.01,9.5,true\n"
-            "order.std,0.125,,,\n"
-            "order.tau_s,0.5,,,\n"
-            "order.t_steady_s,1,,,\n"
-            "theta_m_deg,30.5,,4,false\n"
-            "alpha,,,,\n");
+            "name,value,sem,n_effective,steady,over_s\n"
+            "n_rods,60,,,,\n"
+            "collisions.rod_rod,7,,,,\n"
+            "order,0.75,0.01,9.5,true,\n"
+            "order.std,0.125,,,,\n"
+            "order.tau_s,0.5,,,,\n"
+            "order.t_steady_s,1,,,,\n"
+            "theta_m_deg,30.5,,4,false,\n"
+            "velocity_rms_mm_s,2.5,,,,0.4\n"
+            "alpha,,,,,\n");
   EXPECT_FALSE(summary_csv("[1]"));
   EXPECT_FALSE(summary_csv("{"));
 }

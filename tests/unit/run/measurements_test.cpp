@@ -552,6 +552,8 @@ TEST(Measurements, AnAutomaticSteadyStateHoldsForCurvesAgainstLag) {
     EXPECT_NEAR(reduction.arrays.at("/rotation/c2")[k], std::cos(4 * lag), 1e-8);
   }
   EXPECT_NEAR(reduction.scalars.at("velocity_rms_mm_s").value, 30, 1e-8);
+  EXPECT_DOUBLE_EQ(reduction.scalars.at("velocity_rms_mm_s").over, 0.4);
+  EXPECT_TRUE(std::isnan(reduction.scalars.at("alpha_long").over));
   EXPECT_NEAR(reduction.scalars.at("alpha_long").value, 2, 1e-8);
   EXPECT_EQ(reduction.scalars.at("large_turns").value, 0);
   EXPECT_EQ(reduction.arrays.at("/rods/trace/time_s").front(), 0.0) << "they do not wait";

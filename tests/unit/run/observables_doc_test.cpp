@@ -45,7 +45,7 @@ TEST(ObservablesPage, ListsEveryNumber) {
     for (const Output& number : kind.numbers) {
       EXPECT_FALSE(number.meaning.empty()) << number.name;
       table << "| `" << kind.name << "` | `" << number.name << "` | " << unit_of_name(number.name) << " | "
-            << number.meaning << " |\n";
+            << kind.meaning(number) << " |\n";
     }
   }
   expect_generated(kPages + "observables.md", "numbers", table.str());
@@ -58,7 +58,7 @@ TEST(FilesPage, ListsEveryArray) {
     for (const Output& array : kind.arrays) {
       EXPECT_FALSE(array.meaning.empty()) << array.name;
       table << "| `/" << kind.name << "/" << array.name << "` | " << unit_of_name(array.name) << " |"
-            << (array.has_error ? " ± " : " ") << "| " << array.meaning << " |\n";
+            << (array.has_error ? " ± " : " ") << "| " << kind.meaning(array) << " |\n";
     }
   }
   expect_generated(kPages + "files.md", "arrays", table.str());
