@@ -56,11 +56,13 @@ std::optional<double> first_period(std::span<const double> r, std::span<const do
     }
   };
   leave_maximum();
-  for (lowest = i; i < smooth.size() && smooth[i] <= smooth[lowest] + prominence; ++i) {
-    if (smooth[i] < smooth[lowest]) lowest = i;
-  }
-  leave_maximum();
-  if (i >= smooth.size()) return std::nullopt;
+  do {
+    for (lowest = i; i < smooth.size() && smooth[i] <= smooth[lowest] + prominence; ++i) {
+      if (smooth[i] < smooth[lowest]) lowest = i;
+    }
+    leave_maximum();
+    if (i >= smooth.size()) return std::nullopt;
+  } while (centre[highest] < 2 * smoothing);
 
   const double floor = smooth[highest] - 0.3 * (smooth[highest] - smooth[lowest]);
   std::size_t first = highest, last = highest;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "analysis/jackknife.h"
@@ -14,6 +15,10 @@ namespace {
 constexpr double kSignificant = 3.0;
 /// Bins whose velocities differ by less than this many errors may stand in either order.
 constexpr double kAlike = 2.0;
+
+/// The least share of the samples with which a bin may be the fastest: the tail at the largest tilts is a few rods, and
+/// the largest of many bins is by chance one of those that know least.
+constexpr double kLeastShare = 0.01;
 
 /// A bin of n_z > 0 and its mirror image, from all rods in either.
 struct Folded {
@@ -75,11 +80,20 @@ std::vector<double> crossing(const TiltVelocity& part, double below, double sign
   return {folded.n_z[i] + share * (folded.n_z[next] - folded.n_z[i]), sum / density};
 }
 
+/// Whether each bin has enough of the samples to be the fastest.
+std::vector<bool> have_enough(const FoldedTilt& folded) {
+  const double all = std::accumulate(folded.density.begin(), folded.density.end(), 0.0);
+  std::vector<bool> enough;
+  for (const double density : folded.density) enough.push_back(density >= kLeastShare * all);
+  return enough;
+}
+
 /// The place of `largest` among bins that may be larger by chance.
-Estimate place_of(const FoldedTilt& folded, std::size_t largest, double width) {
+Estimate place_of(const FoldedTilt& folded, const std::vector<bool>& enough, std::size_t largest, double width) {
   const Estimate& v = folded.v_along[largest];
   double from = folded.n_z[largest], to = from;
   for (std::size_t i = 0; i < folded.n_z.size(); ++i) {
+    if (!enough[i]) continue;
     const Estimate& other = folded.v_along[i];
     const double less = std::abs(v.value) - (v.value > 0 ? other.value : -other.value);
     if (!(less < kAlike * std::hypot(v.sem, other.sem))) continue;
@@ -97,16 +111,17 @@ TiltSummary summarize_tilt(const TiltVelocity& empty, const std::vector<TiltVelo
   summary.folded = folded_curve(empty, blocks);
   const std::vector<double>& n_z = summary.folded.n_z;
   const std::vector<Estimate>& v = summary.folded.v_along;
+  const std::vector<bool> enough = have_enough(summary.folded);
   std::optional<std::size_t> largest;
   for (std::size_t i = 0; i < v.size(); ++i) {
-    if (!(std::abs(v[i].value) > kSignificant * v[i].sem)) continue;
+    if (!enough[i] || !(std::abs(v[i].value) > kSignificant * v[i].sem)) continue;
     if (!largest || std::abs(v[i].value) > std::abs(v[*largest].value)) largest = i;
   }
   if (!largest) return summary;
   const std::vector<double> centres = empty.means().n_z;
   summary.v_largest = v[*largest];
   summary.n_z_largest =
-      place_of(summary.folded, *largest, 2 * centres.back() / static_cast<double>(centres.size() - 1));
+      place_of(summary.folded, enough, *largest, 2 * centres.back() / static_cast<double>(centres.size() - 1));
 
   const double sign = v[*largest].value > 0 ? 1.0 : -1.0;
   for (std::size_t i = *largest; i + 1 < v.size(); ++i) {

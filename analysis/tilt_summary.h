@@ -21,9 +21,9 @@ struct FoldedTilt {
 /// What the curve of velocity against tilt comes down to.
 struct TiltSummary {
   FoldedTilt folded;
-  /// v_along where its magnitude is largest, over bins with n_z > 0 that differ from zero by more than three of their
-  /// errors [mm/s]; NaN without such a bin. Negative: rods move away from their raised end. The largest of several
-  /// alike is one that chance made larger, by about its error.
+  /// v_along where its magnitude is largest, over bins with n_z > 0 that have at least 1 % of the samples and differ
+  /// from zero by more than three of their errors [mm/s]; NaN without such a bin. Negative: rods move away from their
+  /// raised end. The largest of several alike is one that chance made larger, by about its error.
   Estimate v_largest;
   /// Its n_z: the bin. The error is the spread of all places from the first to the last bin whose velocity lies below
   /// by less than two errors of the difference, each of them as wide as the bin: that range over sqrt(12).

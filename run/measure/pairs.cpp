@@ -13,8 +13,8 @@ namespace {
 /// g and G2 in the frame of the director, and the wavelength of layers as G2 across it tells.
 class MeasuredPairs : public Measurement {
  public:
-  explicit MeasuredPairs(const analysis::PairMap::Shape& shape)
-      : strip_(shape.strip), pairs_(analysis::PairMap(shape)) {}
+  MeasuredPairs(const analysis::PairMap::Shape& shape, double rod_length)
+      : rod_length_(rod_length), pairs_(analysis::PairMap(shape)) {}
 
   void sample(const Sample& sample) override { pairs_.accumulate(sample->time, sample->position, sample->director); }
   void reduce(Reduction& result) const override {
@@ -36,11 +36,12 @@ class MeasuredPairs : public Measurement {
     for (std::size_t k = 0; k < std::size(cuts); ++k) {
       result.arrays[std::string("/pairs/cut/") + cuts[k] + "_sem"] = errors[k];
     }
-    // Rods side by side make a ripple of their own width: smoothed over the strip, which is as wide, it is gone.
+    // Rods side by side make ripples of their distances, and of multiples of these where they are crystalline. A layer
+    // is half a period: it is taken for one only where it is as wide as its rods are long.
     const auto wavelength = block_estimates(pairs_, result.t_steady, [&](const analysis::PairMap& pairs) {
       constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
       const analysis::PairCurves cut = pairs.reduce();
-      return std::vector<double>{analysis::first_period(cut.r, cut.g2_across, strip_).value_or(kNone)};
+      return std::vector<double>{analysis::first_period(cut.r, cut.g2_across, rod_length_).value_or(kNone)};
     });
     result.scalars["wavelength_g2_mm"] = wavelength[0];
   }
@@ -48,7 +49,7 @@ class MeasuredPairs : public Measurement {
   void restore(StateReader& reader) override { pairs_.restore(reader); }
 
  private:
-  double strip_;  ///< [mm]
+  double rod_length_;  ///< [mm]
   analysis::Blocked<analysis::PairMap> pairs_;
 };
 
@@ -62,9 +63,10 @@ MeasurementKind pairs_kind() {
         const scene::MeasurePairs& pairs = *context.plan.pairs;
         const Box box = context.plan.system.box();
         const double width = 2 * context.species.max_radius;
-        const double range = pairs.range_for(context.plan.system.rod.length, box.shorter());
+        const double length = context.plan.system.rod.length, range = pairs.range_for(length, box.shorter());
         return std::make_unique<MeasuredPairs>(analysis::PairMap::Shape{pairs.bins, std::min(range, box.shorter() / 2),
-                                                                        std::min(width, box.shorter() / 2), box});
+                                                                        std::min(width, box.shorter() / 2), box},
+                                               length);
       },
       .arrays =
           {
@@ -72,7 +74,7 @@ MeasurementKind pairs_kind() {
               {"across_mm", "(bins) bin centres across it"},
               {"g", "(bins · bins) g(x, y), row by row: `g.reshape(bins, bins)[across, along]`"},
               {"g2", "(bins · bins) G₂(x, y), in the same order"},
-              {"cut/r_mm", "bin centres of cuts through the maps"},
+              {"cut/r_mm", "bin centres of cuts through the maps, up to half the longer side of the box; NaN stands where images end"},
               {"cut/g_along", "g along the director", kWithError},
               {"cut/g_across", "g across it", kWithError},
               {"cut/g2_along", "G₂ along the director", kWithError},
@@ -80,7 +82,8 @@ MeasurementKind pairs_kind() {
           },
       .numbers =
           {
-              {"wavelength_g2_mm", "wavelength of layers: first period of G₂ across the director"},
+              {"wavelength_g2_mm",
+               "wavelength of layers: first period of G₂ across the director of at least two rod lengths"},
           },
   };
 }

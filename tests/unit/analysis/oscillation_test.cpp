@@ -49,6 +49,20 @@ TEST(FirstPeriod, OfANoisyOneWithARippleOfTheSmoothing) {
   EXPECT_NEAR(sum, kWavelength, 0.15);
 }
 
+// Rods of 4.5 mm side by side, 1.15 mm apart as in a crystal, in layers of a period of 14 mm: the period is that of the
+// layers, and without these there is none.
+TEST(FirstPeriod, IsNotTheDistanceOfRodsSideBySide) {
+  constexpr double kRodLength = 4.5;
+  for (const double apart : {0.83, 1.15, 2.3}) {
+    const auto ripple = [&](double r) { return 0.2 * std::exp(-r / 8) * std::cos(2 * kPi * r / apart); };
+    const Curve both = curve([&](double r) { return 0.5 + 0.1 * std::cos(2 * kPi * r / 14) + ripple(r); });
+    ASSERT_TRUE(first_period(both.r, both.y, kRodLength));
+    EXPECT_NEAR(*first_period(both.r, both.y, kRodLength), 14, 0.3) << apart;
+    const Curve crystal = curve([&](double r) { return 0.5 + 0.3 * std::exp(-r / 20) + ripple(r); });
+    EXPECT_FALSE(first_period(crystal.r, crystal.y, kRodLength)) << apart;
+  }
+}
+
 TEST(FirstPeriod, OfACurveWithoutOne) {
   Draw draw(132);
   const auto none = [](const Curve& c) { return !first_period(c.r, c.y, 1.0); };

@@ -109,6 +109,22 @@ TEST(TiltSummary, NoiseIsNoCrossing) {
   EXPECT_EQ(beyond_four, 0);
 }
 
+// One rod in two hundred is tilted farthest and goes ten times as fast: it is not what rods do.
+TEST(TiltSummary, TheFastestBinHasOneSampleInAHundred) {
+  for (const int among : {50, 200}) {
+    const TiltVelocity empty(5, 0.25);  // bins at -0.2, -0.1, 0, 0.1, 0.2
+    std::vector<TiltVelocity> blocks(10, empty);
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      const double wave = b % 2 == 0 ? 0.1 : -0.1;
+      for (int i = 1; i < among; ++i) add(blocks[b], 0.1, -1 + wave);
+      add(blocks[b], 0.2, -10 + wave);
+    }
+    const TiltSummary summary = summarize_tilt(empty, blocks);
+    EXPECT_NEAR(summary.v_largest.value, among < 100 ? -10 : -1, 1e-12);
+    EXPECT_NEAR(summary.n_z_largest.value, among < 100 ? 0.2 : 0.1, 1e-12);
+  }
+}
+
 TEST(TiltSummary, OfNothingIsUnknown) {
   const TiltVelocity empty(8, 0.4);
   EXPECT_TRUE(std::isnan(summarize_tilt(empty, {}).v_largest.value));
