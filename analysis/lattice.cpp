@@ -116,6 +116,8 @@ void LatticeOrder::accumulate(std::span<const Vec3> positions, std::span<const V
     sums_.psi_6 += std::abs(sum) / n_places;
     sums_.psi_6_local += local / n_places;
     sums_.psi_6_raw += std::abs(raw_sum) / n_places;
+  } else {
+    sums_.psi_6 = sums_.psi_6_local = sums_.psi_6_raw = std::numeric_limits<double>::quiet_NaN();
   }
 
   const double most = box.longer() / shape_.shortest, fewest = box.longer() / shape_.longest;

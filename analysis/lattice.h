@@ -35,7 +35,7 @@ struct LatticeMeans {
 /// left to chance, since every k-th rod of a lattice counted through makes a lattice of its own, with peaks at
 /// wavelengths that the rods do not have, and higher ones as those are longer. Neighbours are taken from all rods.
 /// Neighbours must be nearer than half the box: not so with fewer than some fifty rods. Fewer than seven rods have no
-/// psi_6, which counts as 0, and no rod counts as no sample.
+/// psi_6, which is NaN, and no rod counts as no sample.
 class LatticeOrder : public Summed<LatticeOrder> {
  public:
   struct Shape {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "analysis/msd.h"
 
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -11,9 +12,18 @@ namespace {
 constexpr double kTotal[] = {1, 1, 0, 0};
 constexpr double kAlong[] = {1, 0, 0, 0};
 constexpr double kAcross[] = {0, 1, 0, 0};
-constexpr double kRelativeTotal[] = {1, 1, -1, -1};
-constexpr double kRelativeAlong[] = {1, 0, -1, 0};
-constexpr double kRelativeAcross[] = {0, 1, 0, -1};
+
+/// Of motion relative to that of all rods, as if the mean of all took nothing away: with the factor N / (N - 1).
+class Relative {
+ public:
+  explicit Relative(std::size_t n_rods) : f_(static_cast<double>(n_rods) / (static_cast<double>(n_rods) - 1)) {}
+  std::array<double, 4> total() const { return {f_, f_, -f_, -f_}; }
+  std::array<double, 4> along() const { return {f_, 0, -f_, 0}; }
+  std::array<double, 4> across() const { return {0, f_, 0, -f_}; }
+
+ private:
+  double f_;
+};
 
 /// A mean square displacement over 2 d t.
 EstimateCurve diffusivity(const std::vector<double>& lags, const EstimateCurve& msd, double dimensions) {
@@ -65,13 +75,14 @@ void MeanSquareDisplacement::accumulate(double time, std::span<const Vec3> unwra
 
 MsdCurve MeanSquareDisplacement::reduce(double t_steady) const {
   const LagCurve curve = average_.after(t_steady);
+  const Relative relative(n_rods_);
   MsdCurve result{curve.lags(),
                   curve.combination(kTotal),
                   curve.combination(kAlong),
                   curve.combination(kAcross),
-                  curve.combination(kRelativeTotal),
-                  curve.combination(kRelativeAlong),
-                  curve.combination(kRelativeAcross),
+                  curve.combination(relative.total()),
+                  curve.combination(relative.along()),
+                  curve.combination(relative.across()),
                   local_exponent(curve, kTotal),
                   {},
                   {},
@@ -88,7 +99,7 @@ Diffusion MeanSquareDisplacement::diffusion(double t_steady) const {
   result.total = growth(curve, kTotal);
   result.along = growth(curve, kAlong);
   result.across = growth(curve, kAcross);
-  result.relative = growth(curve, kRelativeTotal);
+  result.relative = growth(curve, Relative(n_rods_).total());
   result.d_short = result.total.at_short.slope / 4;
   result.d_long = result.total.at_long.slope / 4;
   result.d_along = result.along.at_long.slope / 2;

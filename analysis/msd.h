@@ -31,8 +31,8 @@ struct MsdCurve {
   EstimateCurve total;      ///< = along + across
   EstimateCurve along;      ///< along the nematic director at the origin time
   EstimateCurve across;     ///< across it
-  /// The same of displacements less the mean displacement of all rods: without the drift of the whole. Of N independent
-  /// rods it is smaller by the factor 1 - 1/N; of one rod it is 0.
+  /// The same of displacements less the mean displacement of all N rods, times N / (N - 1): without the drift of the
+  /// whole, and of independent rods that do not drift the same as above. NaN of one rod.
   EstimateCurve relative_total, relative_along, relative_across;
   EstimateCurve exponent;  ///< d ln total / d ln lag (see local_exponent)
   /// MSD / (2 d t) of the above, d = 2 for the total and 1 along an axis [mm^2/s]: level where motion is diffusive. It
@@ -55,10 +55,10 @@ struct Diffusion {
 class MeanSquareDisplacement {
  public:
   /// `interval`: time between successive accumulate calls [s].
-  explicit MeanSquareDisplacement(double interval, int n_levels = 16) : average_(interval, n_levels) {}
+  MeanSquareDisplacement(double interval, std::size_t n_rods, int n_levels = 16)
+      : n_rods_(n_rods), average_(interval, n_levels) {}
 
-  /// At `time` [s]: unwrapped centres (n_rods) [mm], and the angle of the nematic director [rad]; n_rods is the same in
-  /// every call.
+  /// At `time` [s]: unwrapped centres (n_rods) [mm], and the angle of the nematic director [rad].
   void accumulate(double time, std::span<const Vec3> unwrapped, double director);
   /// Of the origins from `t_steady` [s] on.
   MsdCurve reduce(double t_steady = -std::numeric_limits<double>::max()) const;
@@ -68,6 +68,7 @@ class MeanSquareDisplacement {
   void restore(StateReader& reader) { average_.restore(reader); }
 
  private:
+  std::size_t n_rods_;
   LagAverage<DisplacementKernel> average_;
 };
 

@@ -16,6 +16,11 @@ double along(const PlaneTensor& tensor, double angle) {
   return c * c * tensor[0] + c * s * (tensor[1] + tensor[2]) + s * s * tensor[3];
 }
 
+/// Makes up for what the mean velocity of all rods takes of their fluctuations; unknown of a single one.
+double of_mean(std::size_t n_rods) {
+  return n_rods > 1 ? static_cast<double>(n_rods) / (static_cast<double>(n_rods) - 1) : std::nan("");
+}
+
 std::array<double, 2> along_and_across(const PlaneTensor& tensor, double director) {
   const double first = along(tensor, director);
   return {first, tensor[0] + tensor[3] - first};
@@ -52,10 +57,11 @@ void PressureSums::accumulate(double duration, const PlaneTensor& kinetic, const
   }
 }
 
-Pressure PressureSums::reduce() const {
-  return {.along = (kinetic_[0] + collisional_[0]) / time_,
-          .across = (kinetic_[1] + collisional_[1]) / time_,
-          .kinetic = (kinetic_[0] + kinetic_[1]) / 2 / time_,
+Pressure PressureSums::reduce(std::size_t n_rods) const {
+  const double along = of_mean(n_rods) * kinetic_[0], across = of_mean(n_rods) * kinetic_[1];
+  return {.along = (along + collisional_[0]) / time_,
+          .across = (across + collisional_[1]) / time_,
+          .kinetic = (along + across) / 2 / time_,
           .collisional = (collisional_[0] + collisional_[1]) / 2 / time_};
 }
 
@@ -78,6 +84,12 @@ void StressSeries::accumulate(double time, const StressTotals& totals, double ar
   last_virial_ = totals.virial;
 }
 
+std::vector<double> StressSeries::kinetic(std::size_t k) const {
+  std::vector<double> values = series_.column(k);
+  for (double& value : values) value *= of_mean(n_rods_);
+  return values;
+}
+
 void StressSeries::save(StateWriter& writer) const {
   writer.tag("StressSeries");
   writer.put(samples_);
@@ -90,7 +102,7 @@ void StressSeries::save(StateWriter& writer) const {
 
 void StressSeries::restore(StateReader& reader) {
   reader.tag("StressSeries");
-  StressSeries saved;
+  StressSeries saved(n_rods_);
   saved.samples_ = reader.integer(0, std::numeric_limits<std::int64_t>::max() / 2);
   saved.time_ = reader.real();
   for (PlaneTensor* tensor : {&saved.last_flux_, &saved.last_virial_}) {

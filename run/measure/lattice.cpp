@@ -7,6 +7,8 @@
 namespace shaken::run {
 namespace {
 
+constexpr std::string_view kNoSix = "fewer than seven rods, of which none has six neighbours, or no sample";
+
 /// Order of the places of the rods.
 class MeasuredLattice : public Measurement {
  public:
@@ -43,9 +45,10 @@ MeasurementKind lattice_kind() {
       },
       .numbers =
           {
-              {"psi_6", "\\|⟨ψ₆⟩\\| over the rods of an instant, in coordinates compressed along the director"},
-              {"psi_6_local", "⟨\\|ψ₆\\|⟩, without regard to the axes of other rods"},
-              {"psi_6_raw", "\\|⟨ψ₆⟩\\| in plain coordinates"},
+              {"psi_6", "\\|⟨ψ₆⟩\\| over the rods of an instant, in coordinates compressed along the director", false,
+               kNoSix},
+              {"psi_6_local", "⟨\\|ψ₆\\|⟩, without regard to the axes of other rods", false, kNoSix},
+              {"psi_6_raw", "\\|⟨ψ₆⟩\\| in plain coordinates", false, kNoSix},
               {"bragg_peak", "largest Bragg peak: 1 for a perfect lattice"},
           },
   };

@@ -18,7 +18,8 @@ Scalar read_off(const analysis::Estimate& estimate, const analysis::GrowthFit& f
 
 class MeasuredDisplacement : public Measurement {
  public:
-  MeasuredDisplacement(double interval, std::optional<double> steady) : steady_(steady), msd_(interval) {}
+  MeasuredDisplacement(double interval, std::optional<double> steady, int n_rods)
+      : steady_(steady), n_rods_(n_rods), msd_(interval, static_cast<std::size_t>(n_rods)) {}
 
   void sample(const Sample& sample) override {
     if (!analysis::is_steady(sample->time, steady_.value_or(0.0))) return;
@@ -44,7 +45,9 @@ class MeasuredDisplacement : public Measurement {
     result.scalars["diffusion_short_mm2_s"] = read_off(diffusion.d_short, total.at_short);
     result.scalars["diffusion_along_mm2_s"] = read_off(diffusion.d_along, along.at_long);
     result.scalars["diffusion_across_mm2_s"] = read_off(diffusion.d_across, across.at_long);
-    result.scalars["diffusion_relative_mm2_s"] = read_off(diffusion.d_relative, diffusion.relative.at_long);
+    result.scalars["diffusion_relative_mm2_s"] = n_rods_ > 1
+                                                     ? read_off(diffusion.d_relative, diffusion.relative.at_long)
+                                                     : Scalar{{}, "a single rod has no motion but that of all"};
     result.scalars["alpha_short"] = read_off(total.at_short.exponent, total.at_short);
     result.scalars["alpha_long"] = read_off(total.at_long.exponent, total.at_long);
     result.scalars["alpha_along_short"] = read_off(along.at_short.exponent, along.at_short);
@@ -61,6 +64,7 @@ class MeasuredDisplacement : public Measurement {
 
  private:
   std::optional<double> steady_;  ///< [s]; given, it leaves out what is before, or else the reduction does
+  int n_rods_;
   analysis::MeanSquareDisplacement msd_;
 };
 
@@ -71,7 +75,8 @@ MeasurementKind msd_kind() {
       .name = "msd",
       .sources = "msd, lag_fits, lag_average",
       .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
-        return std::make_unique<MeasuredDisplacement>(context.interval, context.plan.steady);
+        return std::make_unique<MeasuredDisplacement>(context.interval, context.plan.steady,
+                                                      context.plan.system.n_rods);
       },
       .arrays =
           {
@@ -79,7 +84,8 @@ MeasurementKind msd_kind() {
               {"total_mm2", "mean square displacement in the plane", kWithError},
               {"along_mm2", "along the director", kWithError},
               {"across_mm2", "across the director", kWithError},
-              {"relative_total_mm2", "in the plane, without the common drift of all rods", kWithError},
+              {"relative_total_mm2", "in the plane, without the common drift of all N rods, times N/(N − 1)",
+               kWithError},
               {"relative_along_mm2", "along the director, without that drift", kWithError},
               {"relative_across_mm2", "across the director, without that drift", kWithError},
               {"d_total_mm2_s", "MSD / (4 lag)", kWithError},

@@ -15,15 +15,16 @@ constexpr std::array kComponents{"xx", "xy", "yx", "yy"};
 
 class MeasuredStress : public Measurement {
  public:
-  MeasuredStress(std::optional<double> steady, double area) : steady_(steady), area_(area) {}
+  MeasuredStress(std::optional<double> steady, const scene::RunPlan& run)
+      : steady_(steady), area_(run.system.area()), n_rods_(static_cast<std::size_t>(run.system.n_all_rods())) {}
 
   void sample(const Sample& sample) override {
     series_.accumulate(sample->time, sample.totals().stress, area_, sample.order().director);
   }
   void reduce(Reduction& result) const override {
     const auto numbers =
-        block_estimates(series_.sums(), steady_.value_or(result.t_steady), [](const analysis::PressureSums& part) {
-          const analysis::Pressure p = part.reduce();
+        block_estimates(series_.sums(), steady_.value_or(result.t_steady), [&](const analysis::PressureSums& part) {
+          const analysis::Pressure p = part.reduce(n_rods_);
           return std::vector<double>{p.kinetic + p.collisional, p.collisional, p.along, p.across};
         });
     result.arrays["/stress/time_s"] = series_.times();
@@ -31,10 +32,11 @@ class MeasuredStress : public Measurement {
       result.arrays[std::string("/stress/kinetic_") + kComponents[k] + "_pJ_mm2"] = series_.kinetic(k);
       result.arrays[std::string("/stress/collisional_") + kComponents[k] + "_pJ_mm2"] = series_.collisional(k);
     }
-    result.scalars["pressure_pJ_mm2"] = numbers[0];
-    result.scalars["pressure_collisional_pJ_mm2"] = numbers[1];
-    result.scalars["pressure_along_pJ_mm2"] = numbers[2];
-    result.scalars["pressure_across_pJ_mm2"] = numbers[3];
+    const char* const names[] = {"pressure", "pressure_collisional", "pressure_along", "pressure_across"};
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+      Scalar& pressure = result.scalars[std::string(names[k]) + "_pJ_mm2"] = numbers[k];
+      if (n_rods_ == 1 && !is_known(pressure)) pressure.reason = "a single rod has no motion but that of all";
+    }
   }
   void save(StateWriter& writer) const override { series_.save(writer); }
   void restore(StateReader& reader) override { series_.restore(reader); }
@@ -42,7 +44,8 @@ class MeasuredStress : public Measurement {
  private:
   std::optional<double> steady_;  ///< [s]
   double area_;                   ///< [mm^2]
-  analysis::StressSeries series_;
+  std::size_t n_rods_;            ///< of all species
+  analysis::StressSeries series_{n_rods_};
 };
 
 }  // namespace
@@ -52,12 +55,12 @@ MeasurementKind stress_kind() {
       .name = "stress",
       .sources = "stress",
       .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
-        return std::make_unique<MeasuredStress>(context.plan.steady, context.plan.system.area());
+        return std::make_unique<MeasuredStress>(context.plan.steady, context.run);
       },
       .arrays =
           {
               {"time_s", "ends of the times from one sample to the next, over which the following are means"},
-              {"kinetic_xx_pJ_mm2", "kinetic part of the pressure tensor, m⟨δv δv⟩ per area"},
+              {"kinetic_xx_pJ_mm2", "kinetic part of the pressure tensor, N/(N − 1) Σ m δv δv per area"},
               {"kinetic_xy_pJ_mm2", "its component xy"},
               {"kinetic_yx_pJ_mm2", "the same"},
               {"kinetic_yy_pJ_mm2", "its component yy"},

@@ -154,9 +154,9 @@ TEST(Diffusion, OfRandomWalksWithItsError) {
       chi2 += std::pow((estimate.value - truth) / estimate.sem, 2);
     }
   };
-  Known along{0.5}, across{0.125}, plane{0.3125}, at_short{0.3125}, relative{0.3125 * 19 / 20}, exponent{1.0};
+  Known along{0.5}, across{0.125}, plane{0.3125}, at_short{0.3125}, relative{0.3125}, exponent{1.0};
   for (int repeat = 0; repeat < kRepeats; ++repeat) {
-    MeanSquareDisplacement msd(1.0);
+    MeanSquareDisplacement msd(1.0, 20);
     double time = 0;
     for (const std::vector<Vec3>& frame : walks(draw, 20, 1000, 0.7, 1.0, 0.5)) msd.accumulate(time++, frame, 0.7);
     const Diffusion diffusion = msd.diffusion();

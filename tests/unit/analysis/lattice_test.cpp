@@ -112,7 +112,7 @@ TEST(LatticeOrder, MergeSaveAndOddInput) {
   odd.accumulate({}, {});
   EXPECT_TRUE(std::isnan(odd.reduce().psi_6));
   odd.accumulate(std::vector<Vec3>{{1, 1, 0}}, std::vector<Vec3>{{0, 0, 1}});
-  EXPECT_EQ(odd.reduce().psi_6, 0.0);
+  EXPECT_TRUE(std::isnan(odd.reduce().psi_6)) << "without six neighbours";
   EXPECT_NEAR(odd.reduce().bragg_peak, 1.0, 1e-12);
   odd = LatticeOrder(shape);
   odd.accumulate(std::vector<Vec3>(8, Vec3(1, 1, 0)), std::vector<Vec3>(8, axis(0)));  // all in one place
