@@ -18,12 +18,16 @@ class Stepper {
  public:
   virtual ~Stepper() = default;
 
-  /// Steps to `target`, or stops after the tick at which trouble was met.
+  /// Steps to `target`, or stops after the tick at which trouble was met: rods and counters are those before it, so
+  /// that the balance closes.
   [[nodiscard]] std::optional<NumericalTrouble> advance_to(World& world, Tick target) {
     while (world.tick < target) {
+      const Counters before = world.counters;
       auto trouble = step(world, world.tick + 1);
       ++world.tick;
-      if (trouble) return trouble;
+      if (!trouble) continue;
+      world.counters = before;
+      return trouble;
     }
     return {};
   }

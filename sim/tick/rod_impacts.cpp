@@ -10,9 +10,10 @@
 namespace shaken {
 namespace {
 
-/// Gives both rods an impulse if their beads approach.
+/// Gives both rods an impulse if their beads approach, which overlap by `overlap` [mm].
 [[gnu::always_inline]] inline bool collide(const impact::Bead& i, const impact::Bead& j, const Vec3& normal,
-                                           const ContactParameters& contact, ImpulseFunction law, Ledger& ledger) {
+                                           double overlap, const ContactParameters& contact, ImpulseFunction law,
+                                           Ledger& ledger) {
   const Vec3 u = j.velocity() - i.velocity();
   if (!(u.dot(normal) < 0)) return false;
   impact::Impulse impulse;
@@ -28,7 +29,7 @@ namespace {
     i.apply_along_normal(-impulse.P);
   }
   ledger.lost_rod_rod.add(impulse.lost);
-  const Vec3 way = i.arm - j.arm;
+  const Vec3 way = i.arm - j.arm - overlap * normal;
   for (std::size_t k = 0; k < 4; ++k)
     ledger.virial[k].add(way[static_cast<Eigen::Index>(k / 2)] * impulse.P[static_cast<Eigen::Index>(k % 2)]);
   return true;
@@ -44,13 +45,13 @@ namespace {
   const double offset_j = species_j.bead_offset[beads.bead_j];
   const double radius_i = species_i.bead_radius[beads.bead_i];
   const double radius_j = species_j.bead_radius[beads.bead_j];
-  const auto collide_along = [&](const Vec3& normal) {
+  const auto collide_along = [&](const Vec3& normal, double overlap) {
     return collide({species_i, rod_i, offset_i, offset_i * rod_i.pose.director + radius_i * normal},
-                   {species_j, rod_j, offset_j, offset_j * rod_j.pose.director - radius_j * normal}, normal,
+                   {species_j, rod_j, offset_j, offset_j * rod_j.pose.director - radius_j * normal}, normal, overlap,
                    rules.rod_rod(contact.i, contact.j), rules.impulse, counters.ledger);
   };
   if (!rules.impacts_at_instant) {
-    if (collide_along(beads.normal)) ++counters.impulses_rod_rod;
+    if (collide_along(beads.normal, beads.overlap)) ++counters.impulses_rod_rod;
     return;
   }
   // from bead to bead as the rods are now: an impulse of the same tick may have displaced them since detection
@@ -69,7 +70,7 @@ namespace {
   if (const auto ago = impact::time_since_touch(overlap, speed, rules.dt)) {
     impact::fly(rod_i, -*ago, species_i, rules.gravity);
     impact::fly(rod_j, -*ago, species_j, rules.gravity);
-    const bool have_hit = collide_along(bead_to_bead().normalized());
+    const bool have_hit = collide_along(bead_to_bead().normalized(), 0);
     impact::fly(rod_i, *ago, species_i, rules.gravity);
     impact::fly(rod_j, *ago, species_j, rules.gravity);
     if (have_hit) {
@@ -79,7 +80,7 @@ namespace {
       return;
     }
   }
-  if (collide_along(normal)) ++counters.impulses_rod_rod;
+  if (collide_along(normal, overlap)) ++counters.impulses_rod_rod;
 }
 
 /// Trouble if the overlap of a contact is too deep.

@@ -134,5 +134,20 @@ TEST(Trouble, DeepOverlapStopsWithTickAndRods) {
   EXPECT_FALSE(trouble->what.empty());
 }
 
+// What the tick that fails has entered into the ledger is of motions that are never stored.
+TEST(Trouble, TheBalanceOfWhatWentBeforeCloses) {
+  for (const StepperKind stepper : {StepperKind::kReference, StepperKind::kScheduled}) {
+    System system = test::short_rods(74);
+    system.dt = 1e-3;
+    system.stepper = stepper;
+    auto simulation = Simulation::start(system);
+    ASSERT_TRUE(static_cast<bool>(simulation));
+    ASSERT_TRUE(simulation->advance_to(100000).has_value());
+    const Balance found = balance(simulation->world());
+    EXPECT_GT(found.energy_given_by_surfaces, 0) << "some ticks went well";
+    EXPECT_LT(found.energy_error(), 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace shaken
