@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 
 #include "base/core/check.h"
@@ -172,7 +173,10 @@ class ValueReader {
     if (!number) return report(node, given, number.error().message);
     if (!number->is_whole()) return report(node, given, fmt::format("{} is not a whole number", node.text));
     given.value = number->value();
-    if (number->value() < rule_.low || number->value() > rule_.high) {
+    const std::optional<std::int64_t> exact = digits_at(*number, 0);
+    constexpr std::int64_t kMostExact = std::int64_t{1} << 53;  // beyond, doubles are not the numbers themselves
+    const bool is_rounded = !exact || *exact > kMostExact || *exact < -kMostExact;
+    if (is_rounded || number->value() < rule_.low || number->value() > rule_.high) {
       report(node, given, fmt::format("{} is outside [{:.16g}, {:.16g}]", node.text, rule_.low, rule_.high));
     }
   }

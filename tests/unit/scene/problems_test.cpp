@@ -123,6 +123,12 @@ TEST(Problems, ValuesOutOfRangeComeWithTheRangeAndWhatMayHaveBeenMeant) {
             "run.json:1:42: /contacts/rod_rod/restitution: -0.1 is outside [0, 1]");
   EXPECT_EQ(problem_of(R"({"measure": {"g2": {"bins": 1}}})"),
             "run.json:1:29: /measure/g2/bins: 1 is outside [2, 10000]");
+  // a double would round it to a number that is allowed
+  for (const char* seed : {"9007199254740993", "9007199254740993.0", "900719925474099.3e1", "\"9007199254740993\""}) {
+    EXPECT_THAT(problem_of(R"({"time": {"seed": )" + std::string(seed) + "}}"),
+                testing::HasSubstr("is outside [0, 9007199254740992]"))
+        << seed;
+  }
   EXPECT_EQ(problem_of(R"({"time": {"seed": -1}})"), "run.json:1:19: /time/seed: -1 is outside [0, 9007199254740992]");
 }
 
@@ -284,6 +290,10 @@ TEST(Problems, TimesThatDoNotFitTogether) {
       "run.json:1:22: /time/measure: time.measure 1 us is shorter than time.step 4 us: nothing would be simulated");
   EXPECT_EQ(problem_of(R"({"plates": {"frequency": "20 kHz"}})"),
             "run.json:1:26: /plates/frequency: a step of 4 us is too long for plates at 20000 Hz: at most 2.5 us");
+  // twenty ticks in a period are just enough
+  EXPECT_EQ(plan_of(R"({"plates": {"frequency": 500}, "time": {"step": "100 us"}})").system.dt, 100e-6);
+  EXPECT_THAT(problem_of(R"({"plates": {"frequency": 501}, "time": {"step": "100 us"}})"),
+              testing::HasSubstr("a step of 100 us is too long for plates at 501 Hz"));
 }
 
 TEST(Problems, AreListedAllAtOnceInTheOrderOfTheText) {

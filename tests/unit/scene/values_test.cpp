@@ -81,6 +81,7 @@ TEST(Values, BadRangesSayWhy) {
   EXPECT_EQ(problem_with("\"1:2:-0.1\""), "the step leads away from the end of the range");
   EXPECT_EQ(problem_with("\"1 um:2 mm:0.1 mm\""), "a range in um and mm; write it in one unit");
   EXPECT_EQ(problem_with("\"0:1:1e-6\""), "a range of 1000001 values; at most 100000 are allowed");
+  EXPECT_EQ(problem_with("\"0:100000:1\""), "a range of 100001 values; at most 100000 are allowed");
   EXPECT_EQ(problem_with("\"0:1e17:1e-17\""), "the range has too many digits");
   EXPECT_EQ(problem_with("[]"), "no values to sweep over");
   EXPECT_EQ(problem_with(R"({"from": 1, "to": 2})"), "the range lacks \"step\"");
