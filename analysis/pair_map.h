@@ -20,7 +20,7 @@ struct PairCurves {
   std::vector<double> across;  ///< (bins) across it [mm]
   std::vector<double> g;   ///< (bins, bins) pair distribution, 1 in a gas however few rods there are; across slowest
   std::vector<double> g2;  ///< (bins, bins) mean of cos 2 (theta_i - theta_j)
-  std::vector<double> r;   ///< (cut bins) bin centres [mm], up to half the box
+  std::vector<double> r;   ///< (cut bins) bin centres [mm], up to half the longer side of the box
   std::vector<double> g_along, g_across;    ///< (cut bins) in a strip about each axis
   std::vector<double> g2_along, g2_across;  ///< (cut bins)
 };
@@ -30,8 +30,10 @@ struct PairCurves {
 /// which makes the maps even in (x, y) -> (-x, -y); nothing else is symmetrised, so that g(x, y) = g(x, -y) is a
 /// measurement. The displacement is that to the nearest periodic image. The box is not aligned with the director, so
 /// that a map is unbiased within r < L / 2 of its shorter side only: bins that reach further are NaN. The cuts have
-/// their own bins, as wide as those of the map, up to L / 2: along from pairs with |y| < strip / 2 at |x|, across the
-/// other way round. One sample costs at most 1024 n_rods pairs: of more than 1024 rods, every k-th is taken as i,
+/// their own bins, as wide as those of the map: along from pairs with |y| < strip / 2 at |x|, across the other way
+/// round. In a square box they end at L / 2. In a rectangle they end at half the longer side: a sample counts in those
+/// bins that the nearest images fill whatever the director of that sample, so that a cut along the longer side is known
+/// as far as that goes. One sample costs at most 1024 n_rods pairs: of more than 1024 rods, every k-th is taken as i,
 /// another set each time. Rods exactly upright are left out.
 class PairMap : public Summed<PairMap> {
  public:
@@ -60,10 +62,16 @@ class PairMap : public Summed<PairMap> {
  private:
   struct Bins {
     std::vector<std::int64_t> pairs;
-    std::vector<double> sums;  // of cos 2 (theta_i - theta_j)
-    explicit Bins(std::size_t n) : pairs(n), sums(n) {}
+    std::vector<double> sums;  // of cos 2 (theta_i - theta_j); behind them, in a cut of a rectangle, the partners_ of
+                               // samples in which a bin is the last that nearest images fill
+    explicit Bins(std::size_t n, bool counts_partners = false) : pairs(n), sums(counts_partners ? 2 * n : n) {}
     static constexpr auto fields() { return std::tuple(&Bins::pairs, &Bins::sums); }
   };
+  /// Bins of a cut in the direction `axis` that nearest images fill, all of them in a square box.
+  std::size_t filled_bins(const Vec2& axis, const Bins& cut) const;
+  /// (cut bins) partners_ of the samples that count in each bin of a cut.
+  std::vector<double> partners_in(const Bins& cut) const;
+
   Shape shape_;
   std::size_t bins_;        // each way
   double width_;            // of a bin [mm]

@@ -109,9 +109,10 @@ MeasureMemory of_rods(const Sizes& sizes) {
 
 MeasureMemory of_pairs(const Sizes& sizes) {
   const double bins = sizes.plan.pairs->bins;
-  const double side = sizes.plan.system.box().shorter();
+  const Box box = sizes.plan.system.box();
+  const double side = box.shorter();
   const double range = std::min(sizes.plan.pairs->range_for(sizes.plan.system.rod.length, side), side / 2);
-  const double cut = side / 2 / (2 * range / bins);
+  const double cut = box.longer() / 2 / (2 * range / bins);
   return {"", sizes.in_blocks(2 * kNumberBytes * (bins * bins + 2 * cut)), 0};
 }
 

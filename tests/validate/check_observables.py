@@ -532,11 +532,12 @@ def check_tilt(run, table):
     table.add("/tilt/folded/v_along_sem_mm_s", "numpy", run.arrays["/tilt/folded/v_along_sem_mm_s"], error,
               0.05 * error + doubt_v)
     fastest = fastest_sem = at = at_sem = reversal = reversal_sem = sigmas = np.nan
-    sure = np.flatnonzero(np.abs(value) > 3 * np.nan_to_num(error, nan=np.inf))
+    enough = weight >= 0.01 * weight.sum()
+    sure = np.flatnonzero(enough & (np.abs(value) > 3 * np.nan_to_num(error, nan=np.inf)))
     if sure.size:
         top = sure[np.argmax(np.abs(value[sure]))]
         fastest, fastest_sem, at, sign = value[top], error[top], x[top], np.sign(value[top])
-        alike = x[np.abs(fastest) - sign * value < 2 * np.hypot(fastest_sem, error)]
+        alike = x[enough & (np.abs(fastest) - sign * value < 2 * np.hypot(fastest_sem, error))]
         at_sem = (max(at, alike.max(initial=at)) - min(at, alike.min(initial=at)) + width) / np.sqrt(12)
         for i in range(top, len(x) - 1):
             if not (sign * value[i] > 0 and sign * value[i + 1] <= 0):
@@ -563,7 +564,7 @@ def check_tilt(run, table):
     scalar(run, table, "tilt_reversal_n_z", "numpy", reversal, None, allowed=0.02 * width)
     scalar(run, table, "tilt_reversal_sigmas", "numpy", sigmas, None, allowed=0.05 * abs(sigmas))
     for name, sem in (("tilt_fastest_mm_s", fastest_sem), ("tilt_reversal_n_z", reversal_sem)):
-        table.add("sem of " + name, "numpy", run.sem(name), sem, 0.05 * sem)
+        table.add("sem of " + name, "numpy", run.sem_if_steady(name), sem, 0.05 * sem)
 
 
 def check_polar(run, table):
@@ -651,7 +652,7 @@ def check_stress(run, table):
     frames = run.frames("stress")
     area = run.box[0] * run.box[1] if np.ndim(run.box) else run.box ** 2
     v = run.velocity[frames] - run.velocity[frames].mean(1, keepdims=True)
-    at_once = mass_of(run) * np.einsum("tna,tnb->tab", v[..., :2], v[..., :2]) / area
+    at_once = run.n / (run.n - 1) * mass_of(run) * np.einsum("tna,tnb->tab", v[..., :2], v[..., :2]) / area
     kinetic = (at_once[1:] + at_once[:-1]) / 2
     table.add("/stress/time_s", "trajectory", run.arrays["/stress/time_s"], run.time[frames[1:]])
     collisional = np.zeros_like(kinetic)
@@ -842,6 +843,17 @@ def check_pairs(run, table):
     reach = min(run.scene["measure"]["pairs"]["range"], run.shorter / 2)
     width, strip = 2 * reach / bins, min(run.width, run.shorter / 2)
     cut_bins = len(run.arrays["/pairs/cut/r_mm"])
+    half = run.box / 2 * np.ones(2)
+
+    def filled(frame):
+        """Bins of the cuts along and across that nearest images fill; in a square all."""
+        c, s = abs(np.cos(run.axis[frame])), abs(np.sin(run.axis[frame]))
+        if half[0] == half[1]:
+            return cut_bins, cut_bins
+        with np.errstate(divide="ignore"):
+            return tuple(min(cut_bins, int(min((half[0] - strip / 2 * b) / a, (half[1] - strip / 2 * a) / b) / width))
+                         for a, b in ((c, s), (s, c)))
+
     edges = np.linspace(-reach, reach, bins + 1)
 
     def visit(d, value, other, frame):
@@ -857,8 +869,8 @@ def check_pairs(run, table):
                                for some, weight in ((inside, np.ones(len(x))), (inside, value),
                                                     (inside & near, np.ones(len(x)))))
         cuts = []
-        for r, off in ((np.abs(x), np.abs(y)), (np.abs(y), np.abs(x))):
-            close = off < strip
+        for (r, off), n_filled in zip(((np.abs(x), np.abs(y)), (np.abs(y), np.abs(x))), filled(frame)):
+            close = (off < strip) & (r < n_filled * width)
             r, off, cosine = r[close], off[close], value[close]
             inside = off < strip / 2
             cuts.append(np.histogram(r[inside], cut_bins, (0, cut_bins * width))[0])
@@ -889,10 +901,13 @@ def check_pairs(run, table):
     table.add("/pairs/cut/r_mm", "definition", run.arrays["/pairs/cut/r_mm"], r)
     cuts = np.array([s[3] for s in sampled])
     total = cuts.sum(0)
-    expected = density.sum() * 2 * width * strip
+    in_bins = np.array([filled(frames[s]) for s in kept])[..., None] > np.arange(cut_bins)
+    expected = 2 * width * strip * density[:, None, None] * in_bins  # of each sample, along and across, in each bin
     for k, name in ((0, "along"), (3, "across")):
-        table.add(f"/pairs/cut/g_{name}", "numpy O(N^2)", run.arrays[f"/pairs/cut/g_{name}"], total[k] / expected,
-                  total[k + 2] / expected + 1e-9)
+        with np.errstate(invalid="ignore"):
+            known = expected.sum(0)[k // 3] / (expected.sum(0)[k // 3] > 0)
+        table.add(f"/pairs/cut/g_{name}", "numpy O(N^2)", run.arrays[f"/pairs/cut/g_{name}"], total[k] / known,
+                  total[k + 2] / known + 1e-9)
         table.add(f"/pairs/cut/g2_{name}", "numpy O(N^2)", run.arrays[f"/pairs/cut/g2_{name}"],
                   np.where(total[k] > 0, total[k + 1] / np.maximum(total[k], 1), np.nan),
                   2 * total[k + 2] / np.maximum(total[k], 1) + 1e-6)
@@ -902,13 +917,13 @@ def check_pairs(run, table):
     def wavelength(some):
         cut = cuts[[place_of[s] for s in some]].sum(0)
         with np.errstate(invalid="ignore"):
-            return [first_period(r, cut[4] / cut[3], strip)]
+            return [first_period(r, cut[4] / cut[3], run.scene["rods"]["length"])]
 
     def curves(some):
         chosen = [place_of[s] for s in some]
         cut = cuts[chosen].sum(0)
         with np.errstate(invalid="ignore", divide="ignore"):
-            return np.array([cut[0], cut[3]] / (density[chosen].sum() * 2 * width * strip)).tolist() + \
+            return np.array([cut[0], cut[3]] / expected[chosen].sum(0)).tolist() + \
                 [(cut[1] / cut[0]).tolist(), (cut[4] / cut[3]).tolist()]
 
     for name, sem in zip(("g_along", "g_across", "g2_along", "g2_across"), jackknife(parts, curves)[1]):
@@ -917,7 +932,7 @@ def check_pairs(run, table):
 
     value, sem = jackknife(parts, wavelength)
     scalar(run, table, "wavelength_g2_mm", "numpy polyfit", value[0], None, allowed=1e-3 * abs(value[0]))
-    table.add("sem of wavelength_g2_mm", "numpy polyfit", run.sem("wavelength_g2_mm"), sem[0], 0.05 * abs(sem[0]))
+    table.add("sem of wavelength_g2_mm", "numpy polyfit", run.sem_if_steady("wavelength_g2_mm"), sem[0], 0.05 * abs(sem[0]))
 
 
 def first_period(r, values, smoothing):
@@ -932,15 +947,16 @@ def first_period(r, values, smoothing):
     far = y[len(y) // 2:]
     step = max(6 * np.sqrt(np.mean(np.diff(far) ** 2 / 2) / window), 1e-9)
     # down from the first maximum, up from the minimum, down from the maximum that is looked for
-    extremes, start = [], 0
-    for sign in (1, -1, 1):
+    extremes, start, sign = [], 0, 1
+    while len(extremes) < 3 or sign > 0 or centre[extremes[-1]] < 2 * smoothing:
         rest = sign * smooth[start:]
         left = np.flatnonzero(rest < np.maximum.accumulate(rest) - step)
         if not left.size:
             return np.nan
         extremes.append(start + int(np.argmax(rest[:left[0]])))
         start += int(left[0])
-    _, lowest, highest = extremes
+        sign = -sign
+    *_, lowest, highest = extremes
     below = smooth <= smooth[highest] - 0.3 * (smooth[highest] - smooth[lowest])
     before, after = np.flatnonzero(below[:highest]), np.flatnonzero(below[highest:])
     first = before[-1] + 1 if before.size else 0
@@ -1254,12 +1270,13 @@ def check_msd(run, table):
         c, s = np.cos(axis[origins])[:, None], np.sin(axis[origins])[:, None]
         along, across = d[..., 0] * c + d[..., 1] * s, d[..., 1] * c - d[..., 0] * s
         return np.full(len(origins), float(n)), np.stack(
-            [np.sum(along ** 2, 1), np.sum(across ** 2, 1), n * along.mean(1) ** 2, n * across.mean(1) ** 2], axis=1)
+            [np.sum(along ** 2, 1), np.sum(across ** 2, 1), n * n / (n - 1) * along.var(1),
+                                                 n * n / (n - 1) * across.var(1)], axis=1)
 
     lags = Lags(run, run.time[frames], len(frames), kernel)
     table.add("/msd/lag_s", "definition", run.arrays["/msd/lag_s"], lags.lags)
-    weights = {"total": [1, 1, 0, 0], "along": [1, 0, 0, 0], "across": [0, 1, 0, 0], "relative_total": [1, 1, -1, -1],
-               "relative_along": [1, 0, -1, 0], "relative_across": [0, 1, 0, -1]}
+    weights = {"total": [1, 1, 0, 0], "along": [1, 0, 0, 0], "across": [0, 1, 0, 0], "relative_total": [0, 0, 1, 1],
+               "relative_along": [0, 0, 1, 0], "relative_across": [0, 0, 0, 1]}
     for name, w in weights.items():
         value, sem = lags.curve(w)
         table.add(f"/msd/{name}_mm2", "numpy O(T^2)", run.arrays[f"/msd/{name}_mm2"], value, RELATIVE * value + 1e-9)
@@ -1270,7 +1287,8 @@ def check_msd(run, table):
             table.add(f"/msd/d_{name}{sem}_mm2_s", "definition", run.arrays[f"/msd/d_{name}{sem}_mm2_s"],
                       run.arrays[f"/msd/{name}{sem}_mm2"] / (2 * dimensions * lags.lags))
     # every 2^k-th sample: MDAnalysis' windowed algorithm with that step
-    for name, moved in (("total", r), ("relative_total", r - r.mean(1, keepdims=True))):
+    for name, moved in (("total", r),
+                        ("relative_total", (r - r.mean(1, keepdims=True)) * np.sqrt(run.n / (run.n - 1)))):
         universe = universe_of(run, frames, moved - moved[:1], run.box)
         theirs = np.empty(len(lags.lags))
         for stride in sorted(set(lags.strides)):

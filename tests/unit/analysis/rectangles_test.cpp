@@ -72,6 +72,30 @@ TEST(Rectangles, PairsAreThoseOfTheSquare) {
   }
 }
 
+// A gas whose director wavers about the shorter side of 10 x 60 mm: the cut across it is known to nearly half the
+// longer side, and 1 all the way; the cut along it ends with the shorter one. Each expected number of pairs is that of
+// the samples that reach as far.
+TEST(Rectangles, CutsThroughPairsReachHalfOfEachSide) {
+  const Box box(10, 60);
+  PairMap map({20, 5, 1, box});
+  Draw draw(307);
+  for (int k = 0; k < 60; ++k) {
+    std::vector<Vec3> places;
+    for (int i = 0; i < 300; ++i) places.emplace_back(draw.uniform(0, 10), draw.uniform(0, 60), 0);
+    map.accumulate(places, std::vector<Vec3>(300, axis(k % 2 == 0 ? 0.0 : 0.3)));
+  }
+  const PairCurves curves = map.reduce();
+  ASSERT_EQ(curves.r.size(), 59u);  // of 0.5 mm, beyond 29.5 mm a corner of the strip is out
+  for (std::size_t bin = 0; bin < curves.r.size(); ++bin) {
+    const double far = curves.r[bin] + 0.25;
+    // askew, the strip of 1 mm leaves the box where r sin 0.3 + 0.5 cos 0.3 is 5 mm, at 15.3 mm
+    const double expected = 300 * 299 * (far < 15 ? 60.0 : 30.0) * 0.5 * 2 / 600;
+    EXPECT_NEAR(curves.g_across[bin], 1, 4.5 * std::sqrt(2 / expected)) << far;
+    EXPECT_NEAR(curves.g2_across[bin], 1, 1e-9) << far;
+    EXPECT_EQ(std::isnan(curves.g_along[bin]), far > 5.01) << far;
+  }
+}
+
 TEST(Rectangles, FlowIsThatOfTheSquare) {
   for (const bool wide : {true, false}) {
     const Tiled rods = three_boxes(wide, 200, 306);
