@@ -10,7 +10,7 @@ import pytest
 from shaken.estimate import Estimate, replica_mean
 from shaken.run import Arrays, Run
 from shaken.study import figures_motion, figures_order, late_lags, layer_checks, order_checks, rules, structure_checks
-from shaken.study.evidence import Evidence, Runs, crossing
+from shaken.study.evidence import Evidence, Runs, crossing, place_on
 from shaken.study.material import Material
 from shaken.study.order_checks import n_peaks
 from shaken.study.statements import STATEMENTS, judged
@@ -706,3 +706,16 @@ def test_the_phase_diagram_is_drawn_in_the_box_that_most_runs_have(evidence):
     assert sheet[1].has_picture == bool(order_checks.phase_diagram(evidence))
     melting = figures_motion.melting(Material(evidence, 183.0))
     assert bool(melting[0].drawn) == bool(order_checks.phase_diagram(evidence))
+
+
+@pytest.mark.parametrize("x, place", [(1.0, 0), (0.6, 0), (0.4, None), (1.9, 1), (3.4, 2), (3.6, None),
+                                      (math.nan, None)])
+def test_a_curve_says_nothing_of_places_beyond_its_ends(x, place):
+    assert place_on(np.array([1.0, 2.0, 3.0]), x) == place
+    assert place_on(np.array([]), x) is None
+
+
+@pytest.mark.parametrize("wavelength, is_known", [(5.0, True), (12.9, True), (14.0, False), (20.0, False)])
+def test_no_crest_is_read_where_the_cut_of_g2_has_ended(wavelength, is_known):
+    run, = layers(0.80, LAYERED | {"wavelength_mm": wavelength}, arrays=wave(0.1), n=1)
+    assert math.isfinite(layer_checks._crest(run).value) == is_known

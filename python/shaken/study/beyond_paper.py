@@ -11,7 +11,7 @@ from ..estimate import Estimate, derived
 from ..run import Run
 from . import late_lags
 from .evidence import (BEADS, END, FREQUENCY, GAMMA, LENGTH, PACKING, SIDE, Evidence, Runs, box_of, box_text,
-                       by, is_from_a_fluid, key_of, number_of)
+                       by, is_from_a_fluid, key_of, number_of, place_on)
 from .late_lags import long_time_diffusion
 from .layer_checks import layered, theta_m
 from .layer_wavelength import mean_wavelength
@@ -251,9 +251,11 @@ def wave_ratio(length: float, *, with_noise: bool = False) -> Callable[[Runs], s
     """Power of splay over that of bend, of the opposite waves whose length is nearest to this one [mm]; with_noise: as
     measured, before the noise level of uncorrelated rods is subtracted from both."""
     def of(here: Runs) -> str:
-        near = min(mean_waves(here), key=lambda wave: abs(2 * math.pi / wave.q - length), default=None)
-        if near is None:
+        waves = sorted(mean_waves(here), key=lambda wave: -wave.q)
+        place = place_on(np.array([2 * math.pi / wave.q for wave in waves]), length)
+        if place is None:
             return "–"
+        near = waves[place]
         return text((near.with_noise(here.number("frank_floor_mm2").value) if with_noise else near).ratio)
 
     return of

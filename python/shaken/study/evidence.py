@@ -256,6 +256,16 @@ class Evidence:
         return Runs(seen.values())
 
 
+def place_on(axis: np.ndarray, x: float) -> int | None:
+    """Index of the point of a rising axis that is nearest to x. None where x lies beyond an end of the axis by more
+    than half of the step there, or is not known: a curve says nothing of places that it does not reach."""
+    if not len(axis) or not math.isfinite(x):
+        return None
+    first, last = (abs(axis[1] - axis[0]), abs(axis[-1] - axis[-2])) if len(axis) > 1 else (0.0, 0.0)
+    within = axis[0] - first / 2 <= x <= axis[-1] + last / 2
+    return int(np.argmin(abs(axis - x))) if within else None
+
+
 def crossing(points: list[tuple[float, Estimate]], level: float) -> Estimate:
     """Where points pass a level from below for the first time, on the straight line between the neighbours."""
     for (x0, low), (x1, high) in zip(points, points[1:]):

@@ -10,9 +10,9 @@ import numpy as np
 from ..estimate import Estimate
 from ..plots import names
 from ..plots.sheet import Sheet
-from ..run import Run
+from ..run import Array, Run
 from .beyond_paper import swimming_defects
-from .evidence import FREQUENCY, LENGTH, PACKING, SIDE, Runs, key_of, number_of, points_of
+from .evidence import FREQUENCY, LENGTH, PACKING, SIDE, Runs, key_of, number_of, place_on, points_of
 from .late_lags import long_time_diffusion
 from .material import Material, angle_bar, draw_curves, draw_points, draw_rods, first_snapshot, packing_scale
 from .motion_checks import (FREE_OF_THE_WINDOW, VELOCITY_WINDOW, late_c2, late_velocity_correlation, long_rods,
@@ -76,6 +76,17 @@ def paths(material: Material) -> Sheet:
     return sheet
 
 
+def _half_slope(curve: Array, low: float, high: float, steady: bool | None) -> Estimate:
+    """Half of what a mean square rises by from one lag to another, over the time between: D in one direction."""
+    t, values, errors = np.asarray(curve.axis), np.asarray(curve), np.asarray(curve.error)
+    first, last = place_on(t, low), place_on(t, high)
+    if first is None or last is None or first == last:
+        return Estimate(reason="no short lags")
+    dt = t[last] - t[first]
+    return Estimate((values[last] - values[first]) / (2 * dt),
+                    float(np.hypot(errors[first], errors[last])) / (2 * dt), steady)
+
+
 def _short_limit(direction: str) -> Any:
     """D in one direction over the lags that are short for the run: those of D at short lags in the plane."""
     def of(run: Run) -> Estimate:
@@ -83,15 +94,7 @@ def _short_limit(direction: str) -> Any:
         if name not in run:
             return Estimate(reason="not measured")
         low, high = (number_of(run, f"diffusion_short_lag_{end}_s").value for end in ("from", "to"))
-        msd = run[name]
-        t, values, errors = np.asarray(msd.axis), np.asarray(msd), np.asarray(msd.error)
-        if not math.isfinite(low):
-            return Estimate(reason="no short lags")
-        first, last = int(np.argmin(abs(t - low))), int(np.argmin(abs(t - high)))
-        dt = t[last] - t[first]
-        return Estimate((values[last] - values[first]) / (2 * dt), float(np.hypot(errors[first],
-                                                                                  errors[last])) / (2 * dt),
-                        number_of(run, "diffusion_mm2_s").steady)
+        return _half_slope(run[name], low, high, number_of(run, "diffusion_mm2_s").steady)
 
     return of
 
@@ -195,16 +198,7 @@ def rotation(material: Material) -> Sheet:
 
     def short_limit(run: Run) -> Estimate:
         low, high = (number_of(run, f"rotation_short_lag_{end}_s").value for end in ("from", "to"))
-        msad = run["/rotation/msad_rad2"]
-        t, values = np.asarray(msad.axis), np.asarray(msad)
-        if not math.isfinite(low):
-            return Estimate(reason="no short lags")
-        first, last = int(np.argmin(abs(t - low))), int(np.argmin(abs(t - high)))
-        errors = np.asarray(msad.error)
-        dt = t[last] - t[first]
-        return Estimate((values[last] - values[first]) / (2 * dt), float(np.hypot(errors[first],
-                                                                                  errors[last])) / (2 * dt),
-                        number_of(run, "S").steady)
+        return _half_slope(run["/rotation/msad_rad2"], low, high, number_of(run, "S").steady)
 
     panel = sheet[2].titles(names.axis_title(PACKING), names.axis_title("rotational_diffusion_rad2_s"), "ℓ = 2.5 mm")
     panel.scale(y="log")

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..estimate import Estimate
 from ..run import Run
-from .evidence import Runs, number_of
+from .evidence import Runs, number_of, place_on
 
 #: The longest lag that is used, in measured times: a half, with room for the lags that runs have, such as 41 s of 80.
 LONGEST = 0.52
@@ -54,13 +54,13 @@ class Octave:
 
 def octave(run: Run, name: str, end: float) -> Octave | None:
     """The octave of a curve that ends at a lag [s]; None where the curve does not have it."""
-    if name not in run or not math.isfinite(end):
+    if name not in run:
         return None
     curve = run[name]
     lags, values = np.asarray(curve.axis), np.asarray(curve)
-    if not len(lags) or end > lags[-1] * 1.01:
+    first, last = place_on(lags, end / 2), place_on(lags, end)
+    if first is None or last is None or end > lags[-1] * 1.01:
         return None
-    first, last = int(np.argmin(abs(lags - end / 2))), int(np.argmin(abs(lags - end)))
     chosen = slice(first, last + 1)
     if not lags[first] > 0 or abs(lags[first] / lags[last] - 0.5) > 0.1 or not np.isfinite(values[chosen]).all():
         return None

@@ -12,7 +12,7 @@ from scipy.optimize import least_squares
 from ..estimate import Estimate, mean_of_samples, student_factor
 from ..run import Array, Run
 from .evidence import (END, GAP, LENGTH, PACKING, SIDE, Evidence, Runs, box_of, box_text, by, is_from_a_fluid, key_of,
-                       number_of, points_of)
+                       number_of, place_on, points_of)
 from .layer_wavelength import TWO_PEAKS, mean_wavelength, wavelength
 from .rules import (NOT_RUN, Answer, Finding, above, below, close_to, conclude, larger, listed, no, refutable, text,
                     trend, unknown, yes)
@@ -149,7 +149,11 @@ def _crest(run: Run) -> Estimate:
         return Estimate(reason="no layers")
     g2 = run["/pairs/cut/g2_across"]
     r, values, errors = np.asarray(g2.axis), np.asarray(g2), np.asarray(g2.error)
-    crest, trough = int(np.argmin(abs(r - lam))), int(np.argmin(abs(r - lam / 2)))
+    known = np.isfinite(values)
+    r, values, errors = r[known], values[known], errors[known]
+    crest, trough = place_on(r, lam), place_on(r, lam / 2)
+    if crest is None or trough is None:
+        return Estimate(reason="G₂ is not known a wavelength away")
     return Estimate(values[crest] - values[trough], math.hypot(errors[crest], errors[trough]),
                     number_of(run, "S").steady)
 
