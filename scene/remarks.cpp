@@ -91,11 +91,46 @@ std::optional<std::string> remark_on_posts(const System& system) {
       format_quantity(gap, Dimension::kLength));
 }
 
+/// That rods which pile up may sink into each other: contacts without restitution do not throw apart what one pass over
+/// them leaves approaching (docs/stability.md).
+std::optional<std::string> remark_on_piles(const System& system) {
+  if (system.solver_sweeps > 1 || !system.base || system.gravity == 0) return std::nullopt;
+  double thickest = 0, least = 1;
+  for (std::size_t number = 0; number < kMostSpecies; ++number) {
+    if (!system.has_species(number)) continue;
+    for (std::size_t other = 0; other < kMostSpecies; ++other) {
+      if (system.has_species(other)) least = std::min(least, system.rod_rod.of(number, other).restitution);
+    }
+  }
+  for (const Component& rods : components_of(system)) thickest = std::max(thickest, 2 * species_of(rods.shape).max_radius);
+  if (system.gap < 2 * thickest || least >= 0.1) return std::nullopt;
+  return fmt::format(
+      "box.gap {} leaves room for rods on top of each other, and rods have a restitution of {:.3g}: where they pile up "
+      "they may sink into each other until the run ends; take contacts.sweeps 4",
+      format_quantity(system.gap, Dimension::kLength), least);
+}
+
+/// That rods which climb over each other while the lid is up may be crushed when it comes down.
+std::optional<std::string> remark_on_closing(const System& system) {
+  if (!system.has_lid_motion() || !system.base) return std::nullopt;
+  double thinnest = INFINITY;
+  for (const Component& rods : components_of(system)) thinnest = std::min(thinnest, species_of(rods.shape).max_radius);
+  const double least = system.least_gap(), most = 2 * system.gap - least;
+  if (most - least <= thinnest) return std::nullopt;
+  return fmt::format(
+      "the lid closes the gap from {} to {}, by more than a rod's radius: rods that have climbed over each other may be "
+      "crushed, which ends the run; a shorter time.step helps, or contacts.sweeps 4",
+      format_quantity(most, Dimension::kLength), format_quantity(least, Dimension::kLength));
+}
+
 }  // namespace
 
 std::vector<std::string> remarks(const RunPlan& plan) {
   std::vector<std::string> list;
-  if (const auto remark = remark_on_posts(plan.system)) list.push_back(*remark);
+  for (const auto& remark :
+       {remark_on_posts(plan.system), remark_on_piles(plan.system), remark_on_closing(plan.system)}) {
+    if (remark) list.push_back(*remark);
+  }
   const double total = plan.total_time();
   const auto remark_one_frame = [&](const char* path, double every) {
     if (every <= total) return;

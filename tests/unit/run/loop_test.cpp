@@ -532,6 +532,7 @@ TEST(Run, NumericalTroubleIsReportedAndNeverRepaired) {
   const RunOutcome outcome = run_in(folder.path(), violent);
   EXPECT_EQ(outcome.state, RunState::kFailed);
   EXPECT_NE(outcome.message.find("numerical trouble at tick"), std::string::npos) << outcome.message;
+  EXPECT_NE(outcome.message.find("a shorter time.step helps"), std::string::npos) << outcome.message;
   const auto exit = summary_in(folder.path())["exit"];
   EXPECT_EQ(exit["state"], "failed");
   EXPECT_EQ(exit["reason"], outcome.message);

@@ -34,6 +34,19 @@ TEST(Remarks, AreOfWhatIsHardlyMeant) {
               IsEmpty());
 }
 
+TEST(Remarks, NameRodsThatMayPileUpOrBeCrushed) {
+  EXPECT_THAT(remarks(plan_of(R"({"box": {"gap": 9}, "contacts": {"rod_rod": {"restitution": 0}}})")),
+              ElementsAre("box.gap 9 mm leaves room for rods on top of each other, and rods have a restitution of 0: "
+                          "where they pile up they may sink into each other until the run ends; take contacts.sweeps "
+                          "4"));
+  for (const char* scene : {R"({"box": {"gap": 9}})", R"({"contacts": {"rod_rod": {"restitution": 0}}})",
+                            R"({"box": {"gap": 9}, "contacts": {"sweeps": 4, "rod_rod": {"restitution": 0}}})",
+                            R"({"plates": {"lid_motion": {"amplitude": 0.1}}})"})
+    EXPECT_THAT(remarks(plan_of(scene)), IsEmpty()) << scene;
+  EXPECT_THAT(remarks(plan_of(R"({"plates": {"lid_motion": {"amplitude": 0.35, "phase": 180}}})")),
+              ElementsAre(HasSubstr("by more than a rod's radius")));
+}
+
 // The angle of friction 0.01 is 0.573 degrees.
 TEST(Remarks, NameSlopesThatRodsMaySlideDown) {
   EXPECT_THAT(
