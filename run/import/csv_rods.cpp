@@ -24,58 +24,128 @@ constexpr double kUnitLength = 1e-3;  ///< by which the length of a director may
 constexpr double kUpright = 90;       ///< the most that a rod is tilted [degrees]
 constexpr double kMostAngle = 1e6;    ///< in the plane, also of rods that have turned round many times [degrees]
 
-/// What stands between two commas, without blanks.
+/// Angles that are no larger are likely radians, unless all rods lie along x [degrees].
+constexpr double kMostRadians = 3.2, kAlongX = 0.1;
+
+/// What stands between two separators, without blanks and quotes.
 struct CsvField {
-  std::string_view text;
-  int column;  ///< where it begins, from 1
+  std::string text;
+  int column;              ///< where it begins, from 1
+  bool is_quoted = false;  ///< separators in it are none
 };
 
-std::vector<CsvField> fields_of(std::string_view line) {
-  std::vector<CsvField> fields;
-  for (std::size_t begin = 0; begin <= line.size();) {
-    const std::size_t end = std::min(line.find(',', begin), line.size());
-    const std::size_t first = std::min(line.find_first_not_of(" \t", begin), end);
-    std::size_t last = end;
-    while (last > first && (line[last - 1] == ' ' || line[last - 1] == '\t')) --last;
-    fields.push_back({line.substr(first, last - first), static_cast<int>(first) + 1});
-    begin = end + 1;
+constexpr char kBlanks = ' ';  ///< the separator of fields with any number of blanks between them
+
+/// What separates the fields of a line: that of the following which it has, or blanks.
+char separator_of(std::string_view line) {
+  for (const char separator : {'\t', ';', ','}) {
+    if (line.find(separator) != std::string_view::npos) return separator;
   }
-  return fields;
+  return kBlanks;
 }
 
-/// None if `text` is no finite number.
-std::optional<double> number_in(std::string_view text) {
-  if (text.starts_with('+')) text.remove_prefix(1);
+/// A quote within quotes is doubled.
+std::vector<CsvField> fields_of(std::string_view line, char separator) {
+  const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
+  std::vector<CsvField> fields;
+  std::size_t i = 0;
+  const auto skip_blanks = [&] {
+    while (i < line.size() && is_blank(line[i]) && line[i] != separator) ++i;
+  };
+  const auto skip_to_field = [&] {
+    skip_blanks();
+    while (separator == kBlanks && i < line.size() && is_blank(line[i])) ++i;
+  };
+  for (skip_to_field();; skip_to_field()) {
+    CsvField field{"", static_cast<int>(i) + 1};
+    if (i < line.size() && line[i] == '"') {
+      field.is_quoted = true;
+      for (++i; i < line.size() && (line[i] != '"' || (i + 1 < line.size() && line[i + 1] == '"')); ++i) {
+        if (line[i] == '"') ++i;
+        field.text += line[i];
+      }
+      if (i < line.size()) ++i;
+    }
+    const std::size_t rest = i;
+    while (i < line.size() && line[i] != separator && !(separator == kBlanks && is_blank(line[i]))) ++i;
+    std::size_t end = i;
+    while (end > rest && is_blank(line[end - 1])) --end;
+    field.text += line.substr(rest, end - rest);
+    fields.push_back(std::move(field));
+    if (separator == kBlanks) skip_to_field();
+    if (i >= line.size()) return fields;
+    if (separator != kBlanks) ++i;
+    if (separator != kBlanks && i == line.size()) {  // nothing behind the last separator is a field too
+      fields.push_back({"", static_cast<int>(i) + 1});
+      return fields;
+    }
+  }
+}
+
+/// None if `text` is no finite number. A decimal comma is one where it separates nothing else.
+std::optional<double> number_in(std::string text) {
+  if (const std::size_t comma = text.find(','); comma != std::string::npos && text.find('.') == std::string::npos)
+    text[comma] = '.';
+  const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
   double number = 0;
-  const auto [end, trouble] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const auto [end, trouble] = std::from_chars(begin, text.data() + text.size(), number);
   if (trouble != std::errc{} || end != text.data() + text.size() || !std::isfinite(number)) return std::nullopt;
   return number;
 }
 
+bool is_column(const std::string& name) { return std::find(kColumns.begin(), kColumns.end(), name) != kColumns.end(); }
+
 class CsvRods {
  public:
-  CsvRods(const std::string& file, std::span<const std::string> species, std::vector<Problem>& problems)
-      : file_(file), species_(species), problems_(problems) {}
+  CsvRods(const std::string& file, std::span<const std::string> species, std::vector<Problem>& problems,
+          std::vector<std::string>& remarks)
+      : file_(file), species_(species), problems_(problems), remarks_(remarks) {}
 
   std::vector<ImportedRod> read(std::string_view text) {
+    if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
+      report(0, "the file is UTF-16: save it as UTF-8, or as plain CSV");
+      return {};
+    }
     if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // a mark that spreadsheets set
+    const char line_end = text.find('\n') == std::string_view::npos && text.find('\r') < text.size() ? '\r' : '\n';
     std::vector<ImportedRod> rods;
+    std::string_view comment;  // the last one before the first row that names columns
     bool has_header = false, is_usable = false;
     for (std::size_t begin = 0; begin < text.size();) {
-      const std::size_t end = std::min(text.find('\n', begin), text.size());
+      const std::size_t end = std::min(text.find(line_end, begin), text.size());
       std::string_view line = text.substr(begin, end - begin);
       begin = end + 1;
       ++line_;
       if (line.ends_with('\r')) line.remove_suffix(1);
-      if (line.find_first_not_of(" \t") == std::string_view::npos || line.starts_with('#')) continue;
-      if (!has_header) {
-        is_usable = read_header(line);
+      if (line.find_first_not_of(" \t") == std::string_view::npos) continue;
+      if (line.starts_with('#')) {
+        if (!has_header && names_columns(line.substr(1))) comment = line.substr(1);
+      } else if (line_ == 1 && line.size() == 5 && (line.starts_with("sep=") || line.starts_with("SEP="))) {
+        separator_ = line.back();  // as Excel takes it
+      } else if (!has_header) {
         has_header = true;
+        if (!has_numbers_only(line)) {
+          is_usable = read_header(line);
+        } else if (!comment.empty()) {  // as numpy.savetxt writes it
+          is_usable = read_header(comment);
+          if (fields_of(line, *separator_).size() != n_columns_) separator_ = separator_of(line);
+          if (is_usable) add_rod(line, rods);
+        } else {
+          report(1, fmt::format("the first line has numbers where the names of the columns should stand: put a line "
+                                "before it, such as {}",
+                                kExample));
+        }
       } else if (is_usable) {
-        if (const auto rod = read_rod(line)) rods.push_back(*rod);
+        add_rod(line, rods);
       }
     }
     if (!has_header) report(0, fmt::format("the file is empty: its first line names the columns, as {}", kExample));
+    if (has("angle") && rods.size() > 1 && largest_angle_ <= kMostRadians && largest_angle_ > kAlongX) {
+      remarks_.push_back(
+          fmt::format("no angle is larger than {:.3g}: they are taken as degrees; if they are radians, "
+                      "multiply them by 180/pi",
+                      largest_angle_));
+    }
     return rods;
   }
 
@@ -88,20 +158,50 @@ class CsvRods {
 
   bool has(const std::string& name) const { return place_.contains(name); }
 
+  std::vector<CsvField> fields(std::string_view line) const { return fields_of(line, *separator_); }
+
+  bool has_numbers_only(std::string_view line) const {
+    const std::vector<CsvField> all = fields_of(line, separator_.value_or(separator_of(line)));
+    return std::all_of(all.begin(), all.end(), [](const CsvField& field) { return number_in(field.text).has_value(); });
+  }
+  static bool names_columns(std::string_view comment) {
+    const std::vector<CsvField> names = fields_of(comment, separator_of(comment));
+    return std::all_of(names.begin(), names.end(), [](const CsvField& name) { return is_column(name.text); });
+  }
+
+  void add_rod(std::string_view line, std::vector<ImportedRod>& rods) {
+    if (const auto rod = read_rod(line)) rods.push_back(*rod);
+  }
+
   bool read_header(std::string_view line) {
     const std::size_t n_before = problems_.size();
-    const std::vector<CsvField> names = fields_of(line);
+    if (!separator_) separator_ = separator_of(line);
+    const std::vector<CsvField> names = fields(line);
     n_columns_ = names.size();
+    std::vector<std::string> unknown;
+    int first_unknown = 0;
     for (std::size_t k = 0; k < names.size(); ++k) {
-      const std::string name(names[k].text);
-      if (std::find(kColumns.begin(), kColumns.end(), name) == kColumns.end()) {
+      const std::string& name = names[k].text;
+      if (name.empty()) continue;  // numbers of rows, as R, pandas and ImageJ write them
+      if (!is_column(name)) {
         const std::vector<std::string> known(kColumns.begin(), kColumns.end());
-        report(names[k].column,
-               fmt::format("there is no column '{}'{}; remove it, or name it as one of {}", printable(name),
-                           keys::did_you_mean(keys::nearest(name, known)), fmt::join(kColumns, ", ")));
+        const std::string nearest = keys::nearest(name, known);
+        if (nearest.empty()) {
+          if (unknown.empty()) first_unknown = names[k].column;
+          unknown.push_back(fmt::format("'{}'", printable(name)));
+        } else {
+          report(names[k].column,
+                 fmt::format("there is no column '{}'{}", printable(name), keys::did_you_mean(nearest)));
+        }
       } else if (!place_.emplace(name, k).second) {
         report(names[k].column, fmt::format("column {} is there twice: remove one", name));
       }
+    }
+    if (!unknown.empty()) {
+      report(first_unknown, fmt::format("there {} {}: remove {}, or name {} as one of {}",
+                                        unknown.size() > 1 ? "are no columns" : "is no column",
+                                        fmt::join(unknown, ", "), unknown.size() > 1 ? "them" : "it",
+                                        unknown.size() > 1 ? "each" : "it", fmt::join(kColumns, ", ")));
     }
     for (const char* name : {"x", "y"}) {
       if (!has(name)) report(1, fmt::format("column {} is missing: the centre of each rod in mm", name));
@@ -125,9 +225,11 @@ class CsvRods {
 
   std::optional<ImportedRod> read_rod(std::string_view line) {
     const std::size_t n_before = problems_.size();
-    const std::vector<CsvField> fields = fields_of(line);
+    std::vector<CsvField> fields = this->fields(line);
+    // names of rows without one of their column, as R writes them
+    if (fields.size() == n_columns_ + 1 && fields.front().is_quoted) fields.erase(fields.begin());
     if (fields.size() != n_columns_) {
-      report(1, fmt::format("{} for {}: each has its own, between commas", counted(fields.size(), "field"),
+      report(1, fmt::format("{} for {}: each has its own", counted(fields.size(), "field"),
                             counted(n_columns_, "column")));
       return std::nullopt;
     }
@@ -145,6 +247,7 @@ class CsvRods {
     if (has("angle")) {
       const auto degrees = [&](const char* name, double most) {
         const double angle = value(name, 0);
+        largest_angle_ = std::max(largest_angle_, std::abs(angle));
         if (std::abs(angle) <= most) return angle * (kPi / 180);
         report(fields[place_[name]].column,
                fmt::format("{}: {} is outside of [-{}, {}] degrees", name, angle, most, most));
@@ -182,6 +285,9 @@ class CsvRods {
   const std::string& file_;
   std::span<const std::string> species_;
   std::vector<Problem>& problems_;
+  std::vector<std::string>& remarks_;
+  std::optional<char> separator_;
+  double largest_angle_ = 0;                  ///< of all, in the plane and out of it
   int line_ = 0;                              ///< that is being read, from 1
   std::size_t n_columns_ = 0;                 ///< of the first line
   std::map<std::string, std::size_t> place_;  ///< of each column
@@ -190,8 +296,9 @@ class CsvRods {
 }  // namespace
 
 std::vector<ImportedRod> read_csv_rods(std::string_view text, const std::string& file,
-                                       std::span<const std::string> species, std::vector<Problem>& problems) {
-  return CsvRods(file, species, problems).read(text);
+                                       std::span<const std::string> species, std::vector<Problem>& problems,
+                                       std::vector<std::string>& remarks) {
+  return CsvRods(file, species, problems, remarks).read(text);
 }
 
 }  // namespace shaken::run

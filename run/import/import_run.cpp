@@ -77,6 +77,7 @@ bool moves(const ImportedRod& rod) { return !rod.velocity.isZero(0) || !rod.angu
 struct Import {
   scene::RunPlan plan;
   PlacedRods rods;
+  std::vector<std::string> remarks;
 };
 keys::Loaded<Import> read_import(const ImportOptions& asked) {
   const std::string text = value_or_fail(read_input(asked.scene), ExitCode::kBadInput);
@@ -84,10 +85,12 @@ keys::Loaded<Import> read_import(const ImportOptions& asked) {
   std::vector<keys::Problem> problems = plan ? std::vector<keys::Problem>{} : plan.error();
   const bool is_table = !is_trajectory(asked.file);
   std::vector<ImportedRod> rods;
+  std::vector<std::string> remarks;
   if (is_table) {
     if (asked.frame) problems.push_back({asked.file, 0, 0, "", "a table has one frame: leave out --frame"});
     const std::string table = value_or_fail(read_input(asked.file, kMostBytes), ExitCode::kBadInput);
-    rods = read_csv_rods(table, asked.file, plan ? species_names(plan->system) : std::vector<std::string>{}, problems);
+    rods = read_csv_rods(table, asked.file, plan ? species_names(plan->system) : std::vector<std::string>{}, problems,
+                         remarks);
   } else if (plan) {
     auto recorded = read_recorded_rods(asked.file, asked.frame, plan->system);
     if (!recorded) problems.push_back({asked.file, 0, 0, "", without_name(recorded.error().message, asked.file)});
@@ -102,7 +105,7 @@ keys::Loaded<Import> read_import(const ImportOptions& asked) {
     draw_velocities(placed->world);
     placed->n_still = 0;
   }
-  return Import{without_start(*std::move(plan)), *std::move(placed)};
+  return Import{without_start(*std::move(plan)), *std::move(placed), std::move(remarks)};
 }
 
 /// A trajectory of one frame.
@@ -170,7 +173,7 @@ ExitCode import_rods(const ImportOptions& asked) {
     all.pop_back();  // the end of the last line
     throw Failure(ExitCode::kBadInput, fmt::format("{} is refused:\n{}", asked.file, all));
   }
-  auto& [plan, rods] = *read;
+  auto& [plan, rods, remarks] = *read;
   const Simulation simulation = Simulation::start_from(std::move(rods.world));
   const std::string id = import_id(plan, simulation);
   const RunDirectory directory{root / "runs" / id};
@@ -186,12 +189,14 @@ ExitCode import_rods(const ImportOptions& asked) {
     out["directory"] = directory.root.string();
     out["start"] = {{"run", id}, {"time", 0}};
     out["was_there"] = was_there;
+    out["remarks"] = remarks;
     std::cout << out.dump(2, ' ', false, OrderedJson::error_handler_t::replace) << "\n";
     return ExitCode::kOk;
   }
   std::cout << fmt::format("{} of {} {} run {}, in {}\n",
                            counted(static_cast<std::size_t>(plan.system.n_all_rods()), "rod"), printable(asked.file),
                            was_there ? "are already" : "are now", id, printable(directory.root.string()));
+  for (const std::string& remark : remarks) std::cout << remark << "\n";
   if (rods.n_resting > 0) std::cout << fmt::format("{} without a height: they rest on the base\n", rods.n_resting);
   if (rods.deepest > 0) {
     std::cout << fmt::format("deepest overlap {:.2g} um, as hits have them: accepted\n", rods.deepest * kMicrometres);

@@ -30,10 +30,12 @@ struct ImportedRod {
 };
 
 /// The rods of a table in CSV, whose first line names the columns (docs/files.md). Lines that are empty or begin with #
-/// are left out. `species`: names of the species that there may be; none where that is not known. What is wrong is
-/// added to `problems`, with its line; such lines give no rod.
+/// are left out, but for one before a first row of numbers that names columns. `species`: names of the species that
+/// there may be; none where that is not known. What is wrong is added to `problems`, with its line; such lines give no
+/// rod. What is hardly meant is added to `remarks`.
 std::vector<ImportedRod> read_csv_rods(std::string_view text, const std::string& file,
-                                       std::span<const std::string> species, std::vector<keys::Problem>& problems);
+                                       std::span<const std::string> species, std::vector<keys::Problem>& problems,
+                                       std::vector<std::string>& remarks);
 
 /// The rods of frame `frame`, from 0, or of the last one, of a trajectory.h5 or trajectory.part of a run of which
 /// `system` has the rods, the box and all that stands in it. Heights are those over the base as it was then. Files lack

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "base/text.h"
 #include "sim/close_up.h"
@@ -17,6 +19,7 @@ namespace {
 constexpr std::size_t kMostListed = 20;
 constexpr double kRounding = 1e-6;  ///< of what is 0 where all rods lie in one plane
 constexpr double kUmPerMm = 1000;
+constexpr double kCorner = 0.01;  ///< share of the box, along each side, in which all places are hardly meant to lie
 
 /// The lowest height over the base that a rod with such a director can have.
 double resting_height(const Species& species, const Vec3& director) {
@@ -54,7 +57,7 @@ class PlacingRods {
     if (are_lines_ && have_sizes()) return std::nullopt;
     check_numbers(rods);
     for (const ImportedRod& rod : rods) add(rod);
-    check_overlaps();
+    if (!is_in_other_units() && !is_crowded()) check_overlaps();
     if (problems_.size() > n_before) return std::nullopt;
     begin_flights();
     return std::move(placed_);
@@ -119,6 +122,43 @@ class PlacingRods {
     poses_.push_back({rod.position, rod.director});
     kinds_.push_back(rod.shape);
     rods_.push_back(rod);
+  }
+
+  /// Whether all places lie at the corner of the box.
+  bool is_in_other_units() {
+    if (poses_.size() < 2) return false;
+    Vec2 farthest = Vec2::Zero();
+    for (const Pose& pose : poses_) farthest = farthest.cwiseMax(pose.position.head<2>());
+    const Vec2 sides = system().box().sides();
+    if ((farthest.array() >= kCorner * sides.array()).any()) return false;
+    report(
+        fmt::format("all places lie within {:.3g} by {:.3g} mm at the corner of a box of {:.6g} by {:.6g} mm: places "
+                    "are in mm; are these in metres?",
+                    farthest.x(), farthest.y(), sides.x(), sides.y()));
+    return true;
+  }
+
+  /// Whether more rods have their centres in one place than can lie there: to list all their overlaps would take as
+  /// long as the square of their number.
+  bool is_crowded() {
+    double longest = 0, thinnest = INFINITY;
+    for (const Species& species : placed_.world.species) {
+      longest = std::max(longest, 2 * (species.half_length + species.end_radius));
+      thinnest = std::min(thinnest, 2 * species.max_radius);
+    }
+    const double layers = std::max(1.0, system().gap / thinnest);
+    const double most = 100 + 4 * layers * (longest / thinnest + 1) * 4;
+    std::map<std::pair<long, long>, std::size_t> found;
+    for (const Pose& pose : poses_) {
+      const std::pair cell{std::lround(pose.position.x() / longest), std::lround(pose.position.y() / longest)};
+      if (static_cast<double>(++found[cell]) <= most) continue;
+      report(fmt::format(
+          "more than {:.0f} rods have their centres within {:.3g} mm of ({:.3g}, {:.3g}) mm, where as many "
+          "cannot lie: are the places in another unit than mm?",
+          most, longest, static_cast<double>(cell.first) * longest, static_cast<double>(cell.second) * longest));
+      return true;
+    }
+    return false;
   }
 
   double accepted() const {

@@ -28,8 +28,8 @@ struct PlacedRods {
 
 /// The world of `system` at tick 0 with `rods`, those of each species in their order. `are_lines`: they come from lines
 /// of `file`, not from a trajectory. None if something is wrong, which is added to `problems`: rods too many or too
-/// few, outside of the box, in or above the plates, walls and posts, or in each other by more than is accepted; the
-/// deepest 20 overlaps are listed.
+/// few, outside of the box, in other units, in or above the plates, walls and posts, or in each other by more than is
+/// accepted; the deepest 20 overlaps are listed, or that too many rods are in one place.
 std::optional<PlacedRods> place_rods(const System& system, const std::vector<ImportedRod>& rods,
                                      const std::string& file, bool are_lines, std::vector<keys::Problem>& problems);
 

@@ -15,8 +15,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   system.box_side = 16;
   system.added[0] = AddedRods{.rod = {.length = 1.5, .n_beads = 5}, .count = 1};
   std::vector<keys::Problem> problems;
-  const std::vector<run::ImportedRod> rods = run::read_csv_rods(text, "rods.csv", run::species_names(system), problems);
-  const int n_lines = static_cast<int>(std::count(text.begin(), text.end(), '\n')) + 1;
+  std::vector<std::string> remarks;
+  const std::vector<run::ImportedRod> rods =
+      run::read_csv_rods(text, "rods.csv", run::species_names(system), problems, remarks);
+  const int n_lines =
+      static_cast<int>(std::count_if(text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; })) + 1;
   for (const keys::Problem& problem : problems) {
     fuzz::promise(problem.line >= 0 && problem.line <= n_lines, "a problem has a line of the text, or none");
     fuzz::promise(!problem.message.empty(), "a refusal says why");

@@ -29,7 +29,8 @@ const std::vector<std::string> kTwo{"rods", "rods_2"};
 /// Rods of a table that is right.
 std::vector<ImportedRod> rods_in(const std::string& text, const std::vector<std::string>& species = kOne) {
   std::vector<keys::Problem> problems;
-  const auto rods = read_csv_rods(text, "rods.csv", species, problems);
+  std::vector<std::string> remarks;
+  const auto rods = read_csv_rods(text, "rods.csv", species, problems, remarks);
   EXPECT_TRUE(problems.empty()) << keys::to_string(problems);
   return rods;
 }
@@ -43,7 +44,8 @@ std::vector<std::string> lines_of(const std::vector<keys::Problem>& problems) {
 /// What is said of one that is wrong.
 std::vector<std::string> problems_in(const std::string& text, const std::vector<std::string>& species = kOne) {
   std::vector<keys::Problem> problems;
-  read_csv_rods(text, "rods.csv", species, problems);
+  std::vector<std::string> remarks;
+  read_csv_rods(text, "rods.csv", species, problems, remarks);
   return lines_of(problems);
 }
 
@@ -108,6 +110,51 @@ TEST(CsvRods, ThatAreWrittenExactlyAreReadExactly) {
   }
 }
 
+// One rod at (1.5, 2.5) mm, 30 degrees from x, as it is written by ...
+TEST(CsvRods, MayBeWrittenByOtherPrograms) {
+  for (const char* text : {
+           "x,y,angle\n1.5,2.5,30\n",                                // Excel and LibreOffice, en_US
+           "\xef\xbb\xbfx;y;angle\r\n1,5;2,5;30\r\n",                // Excel, de_DE and fr_FR
+           "sep=;\r\nx;y;angle\r\n1,5;2,5;30,0\r\n",                 // Excel, with its own first line
+           "x,y,angle\r1.5,2.5,30\r",                                // Excel, CSV (Macintosh)
+           "x,y,angle\n\"1,5\",\"2,5\",30\n",                        // Google Sheets, de_DE
+           "x\ty\tangle\n1.5\t2.5\t30\n",                            // ImageJ, TrackMate
+           " ,x,y,angle\n1,1.5,2.5,30\n",                            // ImageJ with the numbers of rows
+           ",x,y,angle\n0,1.5,2.5,30.0\n",                           // pandas (trackpy)
+           "\"\",\"x\",\"y\",\"angle\"\n\"1\",1.5,2.5,30\n",         // R, write.csv
+           "\"\";\"x\";\"y\";\"angle\"\n\"1\";1,5;2,5;30\n",         // R, write.csv2
+           "\"x\" \"y\" \"angle\"\n\"1\" 1.5 2.5 30\n",              // R, write.table
+           "# x,y,angle\n1.500000000000000000e+00,2.5e+00,3e+01\n",  // numpy.savetxt, delimiter=","
+           "# x y angle\n1.5e+00 2.5e+00 3e+01\n",                   // numpy.savetxt
+           "# x,y,angle\n# tracked\n1.5 2.5 30\n",                   // the same with a header of another kind
+       }) {
+    const auto rods = rods_in(text);
+    ASSERT_EQ(rods.size(), 1U) << text;
+    EXPECT_EQ(rods[0].position.head<2>(), Vec2(1.5, 2.5)) << text;
+    EXPECT_NEAR(rods[0].director.y(), 0.5, 1e-15) << text;
+  }
+  EXPECT_THAT(problems_in("1.5,2.5,30\n3,4,50\n"),
+              ElementsAre(HasSubstr("rods.csv:1:1: the first line has numbers where the names of the columns should")));
+  EXPECT_THAT(problems_in(std::string("\xff\xfex\0,\0", 6)), ElementsAre(HasSubstr("the file is UTF-16")));
+  EXPECT_THAT(
+      problems_in(",y,x,mass,size,ecc,frame\n"),
+      ElementsAre(HasSubstr("there are no columns 'mass', 'size', 'ecc', 'frame': remove them, or name each as"),
+                  HasSubstr("column angle (or nx and ny) is missing")));
+  EXPECT_THAT(problems_in("x;y;angle\n1.234,5;2;30\n"), ElementsAre("rods.csv:2:1: x: '1.234,5' is not a number"));
+}
+
+TEST(CsvRods, WhoseAnglesAreSmallMayBeInRadians) {
+  const auto remarks_on = [](const std::string& text) {
+    std::vector<keys::Problem> problems;
+    std::vector<std::string> remarks;
+    read_csv_rods(text, "rods.csv", kOne, problems, remarks);
+    return remarks;
+  };
+  EXPECT_THAT(remarks_on("x,y,angle\n1,1,1.57\n2,2,-0.3\n"), ElementsAre(HasSubstr("no angle is larger than 1.57")));
+  EXPECT_THAT(remarks_on("x,y,angle\n1,1,0\n2,2,0\n"), ElementsAre());
+  EXPECT_THAT(remarks_on("x,y,angle\n1,1,1.57\n2,2,90\n"), ElementsAre());
+}
+
 TEST(CsvRods, TellEverythingThatIsWrongWithTheFirstLine) {
   EXPECT_THAT(
       problems_in("x,z,nx,vy,vy,angel\n1,2,3,4,5,6\n"),
@@ -156,7 +203,8 @@ struct Placed {
 };
 Placed placed(const System& system, const std::string& text) {
   std::vector<keys::Problem> problems;
-  const auto rods = read_csv_rods(text, "rods.csv", species_names(system), problems);
+  std::vector<std::string> remarks;
+  const auto rods = read_csv_rods(text, "rods.csv", species_names(system), problems, remarks);
   auto world = place_rods(system, rods, "rods.csv", true, problems);
   return {std::move(world), lines_of(problems)};
 }
@@ -254,6 +302,18 @@ TEST(PlacedRods, OfWhichManyOverlapAreListedUpToTwenty) {
   ASSERT_EQ(problems.size(), 21U);
   EXPECT_THAT(problems.front(), HasSubstr("by 790.0 um")) << "the deepest first";
   EXPECT_THAT(problems.back(), HasSubstr("28 overlaps deeper than 10.0 um, of which the deepest 20 are listed"));
+}
+
+// To gather all overlaps of 20,000 rods in one place would take minutes and gigabytes.
+TEST(PlacedRods, InOtherUnitsAreRefusedAtOnce) {
+  System system = test::short_rods(20000, 600);
+  std::string metres = "x,y,angle\n", one_place = metres;
+  for (int i = 0; i < 20000; ++i) {
+    metres += fmt::format("{},{},0\n", 0.004 * (i % 142), 0.004 * (i / 142));
+    one_place += "300,300,0\n";
+  }
+  EXPECT_THAT(placed(system, metres).problems, ElementsAre(HasSubstr("are these in metres?")));
+  EXPECT_THAT(placed(system, one_place).problems, ElementsAre(HasSubstr("rods have their centres within 2.5 mm of")));
 }
 
 TEST(PlacedRods, WithinWallsAndAmongPostsAreHeldAgainstThese) {
