@@ -60,27 +60,88 @@ struct Column {
   std::vector<double> values;
 };
 
-/// A map has two axes and a value for each pair of their points, along the director fastest (docs/files.md): then the
-/// axes are repeated so that each value has its place beside it.
-void spread_axes(std::vector<Column>& columns) {
-  const auto axis = [&](std::string_view name) {
-    return std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return last_word(c.path) == name; });
+/// The blocks whose arrays are maps, with the axes of these, the fastest first; python/shaken/run.py has them too.
+struct Maps {
+  std::string_view block;
+  std::vector<std::string_view> axes;
+};
+const std::vector<Maps>& all_maps() {
+  static const std::vector<Maps> all{{"pairs", {"along_mm", "across_mm"}},
+                                     {"scattering", {"lag_s", "q_per_mm"}},
+                                     {"van_hove", {"displacement_mm", "lag_s"}},
+                                     {"defect_maps", {"along_mm", "across_mm"}},
+                                     {"density", {"x_mm", "y_mm", "time_s"}}};
+  return all;
+}
+
+/// The maps that a path is of, and the folder of their axes, "/rods_2/pairs"; none if it is no map and no axis of one.
+struct MapFolder {
+  const Maps* maps = nullptr;
+  std::string folder;
+};
+MapFolder map_folder(const std::string& path) {
+  for (const Maps& maps : all_maps()) {
+    for (const std::string_view below : {"", "/plus", "/minus"}) {
+      const std::string folder = group_of(path), end = fmt::format("/{}{}", maps.block, below);
+      if (folder.ends_with(end)) return {&maps, folder.substr(0, folder.size() - below.size())};
+    }
+  }
+  return {};
+}
+
+/// Arrays of a group that has nothing but axes, as `defect_maps` has: those of its charges.
+void add_charges(const Observables& arrays, std::vector<std::string>& paths) {
+  const MapFolder of = paths.empty() ? MapFolder{} : map_folder(paths.front());
+  if (of.maps == nullptr || of.maps->block != "defect_maps" || paths.size() != of.maps->axes.size()) return;
+  for (const char* charge : {"/plus", "/minus"}) {
+    for (const auto& [path, values] : arrays) {
+      if (group_of(path) == of.folder + charge) paths.push_back(path);
+    }
+  }
+}
+
+/// If all columns are of one block of maps, and one of them is a map: each axis and each value in a line for each
+/// point, also of what depends on the faster axes only.
+void spread_axes(const Observables& arrays, std::vector<Column>& columns) {
+  const MapFolder of = columns.empty() ? MapFolder{} : map_folder(columns.front().path);
+  if (of.maps == nullptr) return;
+  std::vector<Column> axes;
+  for (const std::string_view name : of.maps->axes) {
+    const auto axis = arrays.find(fmt::format("{}/{}", of.folder, name));
+    if (axis == arrays.end() || axis->second.empty()) return;
+    axes.push_back({axis->first, axis->second});
+  }
+  // points of an axis, of which van_hove has some of its own for each lag
+  const auto points = [&](std::size_t k) {
+    const bool has_rows = axes[k].path.ends_with("/displacement_mm");
+    return axes[k].values.size() / (has_rows ? axes[1].values.size() : 1);
   };
-  const auto along = axis("along_mm");
-  const auto across = axis("across_mm");
-  if (along == columns.end() || across == columns.end() || columns.size() == 2) return;
-  const std::size_t n_points = along->values.size() * across->values.size();
-  for (auto column = columns.begin(); column != columns.end(); ++column) {
-    if (column != along && column != across && column->values.size() != n_points) return;
+  std::vector<std::size_t> sizes{1};  // of what depends on the first 0, 1, 2 ... axes
+  for (std::size_t k = 0; k < axes.size(); ++k) sizes.push_back(sizes.back() * points(k));
+  std::size_t n_axes = 0;
+  for (const Column& column : columns) {
+    if (map_folder(column.path).folder != of.folder) return;
+    const bool is_axis = std::any_of(axes.begin(), axes.end(), [&](const Column& a) { return a.path == column.path; });
+    if (is_axis) continue;
+    std::size_t depth = axes.size();
+    while (depth > 0 && sizes[depth] != column.values.size()) --depth;
+    if (depth == 0) return;
+    n_axes = std::max(n_axes, depth);
   }
-  const std::vector<double> x = along->values;
-  const std::vector<double> y = across->values;
-  along->values.resize(n_points);
-  across->values.resize(n_points);
-  for (std::size_t k = 0; k < n_points; ++k) {
-    along->values[k] = x[k % x.size()];
-    across->values[k] = y[k / x.size()];
+  if (n_axes < 2) return;
+  std::vector<Column> table;
+  for (std::size_t k = 0; k < n_axes; ++k) {
+    Column& axis = table.emplace_back(axes[k].path, std::vector<double>(sizes[n_axes]));
+    for (std::size_t row = 0; row < sizes[n_axes]; ++row)
+      axis.values[row] = axes[k].values[row / sizes[k] % axes[k].values.size()];
   }
+  for (const Column& column : columns) {
+    if (std::any_of(axes.begin(), axes.end(), [&](const Column& axis) { return axis.path == column.path; })) continue;
+    Column& spread = table.emplace_back(column.path, std::vector<double>(sizes[n_axes]));
+    for (std::size_t row = 0; row < sizes[n_axes]; ++row)
+      spread.values[row] = column.values[row % column.values.size()];
+  }
+  columns = std::move(table);
 }
 
 std::string number(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
@@ -129,7 +190,8 @@ Result<std::string> observables_csv(const Observables& arrays, const std::vector
   std::vector<std::string> paths;
   std::string problems;
   for (const std::string& name : names) {
-    const std::vector<std::string> found = arrays_of(arrays, name);
+    std::vector<std::string> found = arrays_of(arrays, name);
+    add_charges(arrays, found);
     if (found.empty()) problems += why_nothing_is_called(name, arrays, measurable) + "\n";
     for (const std::string& path : found) {
       if (std::find(paths.begin(), paths.end(), path) == paths.end()) paths.push_back(path);
@@ -139,7 +201,7 @@ Result<std::string> observables_csv(const Observables& arrays, const std::vector
   std::vector<Column> columns;
   columns.reserve(paths.size());
   for (const std::string& path : paths) columns.push_back({path, arrays.at(path)});
-  spread_axes(columns);
+  spread_axes(arrays, columns);
   const bool have_one_length = std::all_of(columns.begin(), columns.end(), [&](const Column& column) {
     return column.values.size() == columns.front().values.size();
   });
@@ -159,6 +221,8 @@ Result<std::string> observables_csv(const Observables& arrays, const std::vector
     std::transform(columns.begin(), columns.end(), fields.begin(), field_of);
     return fmt::format("{}\n", fmt::join(fields, ","));
   };
+  paths.clear();
+  for (const Column& column : columns) paths.push_back(column.path);
   const std::size_t begin = shared_folder(paths);
   std::string text = line_of([&](const Column& column) { return csv_field(column.path.substr(begin)); });
   for (std::size_t row = 0; row < columns.front().values.size(); ++row) {

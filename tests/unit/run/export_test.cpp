@@ -490,7 +490,37 @@ TEST(ObservablesCsv, SeveralNamesMakeOneTable) {
 TEST(ObservablesCsv, AMapHasALineForEachPoint) {
   EXPECT_EQ(*observables_csv(some_arrays(), {"pairs"}),
             "along_mm,across_mm,g\n10,-1,1\n20,-1,2\n30,-1,3\n10,1,4\n20,1,5\n30,1,6\n");
-  EXPECT_EQ(*observables_csv(some_arrays(), {"pairs/g"}), "g\n1\n2\n3\n4\n5\n6\n");
+  EXPECT_EQ(*observables_csv(some_arrays(), {"pairs/g"}), *observables_csv(some_arrays(), {"pairs"}));
+}
+
+TEST(ObservablesCsv, MapsOfAllKindsHaveTheirPlaces) {
+  const Observables arrays{{"/scattering/q_per_mm", {1, 2}},
+                           {"/scattering/lag_s", {10, 20}},
+                           {"/scattering/f", {1, 2, 3, 4}},
+                           {"/scattering/alpha_2", {7, 8}},
+                           {"/van_hove/lag_s", {5, 6}},
+                           {"/van_hove/displacement_mm", {0.1, 0.2, 0.3, 0.4, 0.6, 0.8}},
+                           {"/van_hove/along_per_mm", {1, 2, 3, 4, 5, 6}},
+                           {"/rods_2/density/time_s", {0, 1}},
+                           {"/rods_2/density/x_mm", {3}},
+                           {"/rods_2/density/y_mm", {4, 5}},
+                           {"/rods_2/density/area_fraction", {1, 2, 3, 4}},
+                           {"/rods_2/density/mean_area_fraction", {8, 9}},
+                           {"/rods_2/density/memory/lag_s", {1, 2}},
+                           {"/defect_maps/along_mm", {1, 2}},
+                           {"/defect_maps/across_mm", {3, 4}},
+                           {"/defect_maps/plus/density", {1, 2, 3, 4}},
+                           {"/defect_maps/minus/density", {5, 6, 7, 8}}};
+  const auto csv = [&](const char* name) { return *observables_csv(arrays, {name}); };
+  EXPECT_EQ(csv("scattering"), "lag_s,q_per_mm,alpha_2,f\n10,1,7,1\n20,1,8,2\n10,2,7,3\n20,2,8,4\n");
+  EXPECT_EQ(csv("scattering/alpha_2"), "alpha_2\n7\n8\n");
+  EXPECT_EQ(csv("van_hove/along_per_mm"),
+            "displacement_mm,lag_s,along_per_mm\n0.1,5,1\n0.2,5,2\n0.3,5,3\n0.4,6,4\n0.6,6,5\n0.8,6,6\n");
+  EXPECT_EQ(csv("rods_2/density"),
+            "x_mm,y_mm,time_s,area_fraction,mean_area_fraction\n3,4,0,1,8\n3,5,0,2,9\n3,4,1,3,8\n3,5,1,4,9\n");
+  EXPECT_EQ(csv("rods_2/density/mean_area_fraction"), "x_mm,y_mm,mean_area_fraction\n3,4,8\n3,5,9\n");
+  EXPECT_EQ(csv("defect_maps"), "along_mm,across_mm,plus/density,minus/density\n1,3,1,5\n2,3,2,6\n1,4,3,7\n2,4,4,8\n");
+  EXPECT_EQ(csv("defect_maps/minus"), "along_mm,across_mm,minus/density\n1,3,5\n2,3,6\n1,4,7\n2,4,8\n");
 }
 
 TEST(ObservablesCsv, RefusesEverythingAtOnce) {
