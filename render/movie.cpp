@@ -250,8 +250,12 @@ std::string movie_endings() {
 
 bool is_movie_name(const std::filesystem::path& file) { return format_of(file) != nullptr; }
 
-Result<void> check_movie_size(const std::filesystem::path& file, int width, int height) {
+Result<void> check_movie(const std::filesystem::path& file, int width, int height, double fps) {
   const Format* kind = format_of(file);
+  if (kind != nullptr && !(fps > 0 && fps <= kind->most_fps)) {
+    return Error{std::string("a movie as ") + kind->ending + " needs more than 0 and at most " +
+                 std::to_string(static_cast<int>(kind->most_fps)) + " frames per second"};
+  }
   const bool is_odd = width % 2 != 0 || height % 2 != 0;
   if (width >= 2 && height >= 2 && (!is_odd || kind == nullptr || kind->pixels == AV_PIX_FMT_PAL8)) return {};
   return Error{"a movie needs an even width and height, not " + std::to_string(width) + "x" + std::to_string(height)};
@@ -266,11 +270,7 @@ Result<MovieWriter> MovieWriter::create(const std::filesystem::path& file, int w
                                         const std::string& title, const Notes& notes, bool small) {
   const Format* kind = format_of(file);
   if (kind == nullptr) return Error{"a film is written as " + movie_endings() + ", not as " + file.string()};
-  if (auto done = check_movie_size(file, width, height); !done) return done.error();
-  if (!(fps > 0 && fps <= kind->most_fps)) {
-    return Error{std::string("a movie as ") + kind->ending + " needs more than 0 and at most " +
-                 std::to_string(static_cast<int>(kind->most_fps)) + " frames per second"};
-  }
+  if (auto done = check_movie(file, width, height, fps); !done) return done.error();
   av_log_set_level(AV_LOG_QUIET);  // errors come back as codes
   auto impl = std::make_unique<Impl>();
   impl->file = file;

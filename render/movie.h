@@ -15,8 +15,9 @@ namespace shaken::render {
 std::string movie_endings();
 /// Whether `file` has one of them.
 bool is_movie_name(const std::filesystem::path& file);
-/// Whether a film called `file` can have pictures of this size: all but .gif need even numbers.
-Result<void> check_movie_size(const std::filesystem::path& file, int width, int height);
+/// Whether a film called `file` can have pictures of this size, all but .gif needing even numbers, and so many in a
+/// second.
+Result<void> check_movie(const std::filesystem::path& file, int width, int height, double fps);
 
 /// Encodes pictures as a film, in the format that the file's ending names:
 ///   .mp4   plays everywhere: H.264 (x264 veryfast, crf 20, or 30 if `small`), yuv420p in BT.709, index at the front

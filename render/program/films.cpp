@@ -119,7 +119,7 @@ void make_film(const Options& options) {
   style = style_of(options, style);
   const std::string out = runs.out_or("movie.mp4");
   done_or_fail(check_movie_name(out), ExitCode::kBadInput);
-  done_or_fail(check_movie_size(out, style.width, style.height), ExitCode::kBadInput);
+  done_or_fail(check_movie(out, style.width, style.height, style.fps), ExitCode::kBadInput);
   if (style.small && std::filesystem::path(out).extension() == ".gif") {
     throw Failure(ExitCode::kBadInput, "--small is of .mp4 and .webm: a .gif has one kind of compression");
   }
