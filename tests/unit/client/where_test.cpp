@@ -165,6 +165,9 @@ TEST(Where, EveryMistakeIsToldInWords) {
 TEST(Where, DepthHasALimitThatIsToldOnce) {
   const auto nested = [](std::size_t n) { return std::string(n, '(') + "state=done" + std::string(n, ')'); };
   EXPECT_TRUE(holds(nested(100)));
+  std::string side_by_side = "(state=done)";
+  for (int i = 0; i < 200; ++i) side_by_side += " and (state=done)";
+  EXPECT_TRUE(holds(side_by_side)) << "none is in another";
   for (const std::string& text : {nested(101), nested(200'000), std::string(200'000, '(')}) {
     const auto where = Where::parse(text);
     ASSERT_FALSE(where);

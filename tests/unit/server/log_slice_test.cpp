@@ -37,6 +37,9 @@ TEST_F(LogSliceTest, NoSliceEndsInsideACharacter) {
   write_text(file_, "ab\u20ac");
   for (const std::int64_t limit : {2, 3, 4}) EXPECT_EQ(read_slice(file_, 0, limit).text, "ab");
   EXPECT_EQ(read_slice(file_, 0, 5).text, "ab\u20ac");
+  write_text(file_, "ab\U0001F600");
+  for (const std::int64_t limit : {3, 4, 5}) EXPECT_EQ(read_slice(file_, 0, limit).text, "ab") << limit;
+  EXPECT_EQ(read_slice(file_, 0, 6).text, "ab\U0001F600");
 }
 
 TEST_F(LogSliceTest, BytesThatAreNotTextDoNotStopTheReader) {
