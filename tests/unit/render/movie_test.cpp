@@ -152,6 +152,8 @@ TEST(Movie, AnUnfinishedMovieLeavesNothingAndTheOldOneStays) {
 
 TEST(Movie, RefusesOddSizesOddRatesAndOtherFrames) {
   const ScratchFolder folder;
+  EXPECT_TRUE(check_movie("m.gif", 127, 95, 50));
+  EXPECT_FALSE(check_movie("m.gif", 128, 96, 51)) << "before a run is opened";
   EXPECT_FALSE(MovieWriter::create(folder / "m.mp4", 127, 96, 30));
   EXPECT_FALSE(MovieWriter::create(folder / "m.mp4", 128, 95, 30));
   EXPECT_FALSE(MovieWriter::create(folder / "m.mp4", 128, 96, 0));
