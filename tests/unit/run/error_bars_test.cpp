@@ -317,7 +317,7 @@ TEST(ErrorBars, OfWavesOfCorrelatedSamples) { expect_honest_errors(of_waves("cor
 ErrorCase of_pairs(const char* name, double share, int samples) {
   scene::RunPlan p = plan();
   p.pairs = scene::MeasurePairs{kEvery, 41, 0};
-  p.system.rod.length = 2.4;  // a layer is no narrower
+  p.system.rod.length = 2;  // a layer is no narrower
   return {name, p, made_of<Redrawn>(share, Redrawn::Rod(layered)), samples, {"wavelength_g2_mm"}};
 }
 TEST(ErrorBars, OfPairsOfIndependentSamples) { expect_honest_errors(of_pairs("pairs", 1.0, 200)); }
