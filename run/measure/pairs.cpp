@@ -74,7 +74,9 @@ MeasurementKind pairs_kind() {
               {"across_mm", "(bins) bin centres across it"},
               {"g", "(bins · bins) g(x, y), row by row: `g.reshape(bins, bins)[across, along]`"},
               {"g2", "(bins · bins) G₂(x, y), in the same order"},
-              {"cut/r_mm", "bin centres of cuts through the maps, up to half the longer side of the box; NaN stands where images end"},
+              {"cut/r_mm",
+               "bin centres of cuts through the maps, up to half the longer side of the box; NaN stands where images "
+               "end"},
               {"cut/g_along", "g along the director", kWithError},
               {"cut/g_across", "g across it", kWithError},
               {"cut/g2_along", "G₂ along the director", kWithError},

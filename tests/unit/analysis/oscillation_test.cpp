@@ -53,11 +53,12 @@ TEST(FirstPeriod, OfANoisyOneWithARippleOfTheSmoothing) {
 // layers, and without these there is none.
 TEST(FirstPeriod, IsNotTheDistanceOfRodsSideBySide) {
   constexpr double kRodLength = 4.5;
-  for (const double apart : {0.83, 1.15, 2.3}) {
+  for (const double apart : {0.83, 1.15, 2.3, 2.9}) {  // of 2.9 mm the average leaves a fifth
     const auto ripple = [&](double r) { return 0.2 * std::exp(-r / 8) * std::cos(2 * kPi * r / apart); };
     const Curve both = curve([&](double r) { return 0.5 + 0.1 * std::cos(2 * kPi * r / 14) + ripple(r); });
     ASSERT_TRUE(first_period(both.r, both.y, kRodLength));
-    EXPECT_NEAR(*first_period(both.r, both.y, kRodLength), 14, 0.3) << apart;
+    EXPECT_NEAR(*first_period(both.r, both.y, kRodLength), 14, apart < 2.5 ? 0.3 : 1) << apart;
+    if (apart > 2.5) continue;
     const Curve crystal = curve([&](double r) { return 0.5 + 0.3 * std::exp(-r / 20) + ripple(r); });
     EXPECT_FALSE(first_period(crystal.r, crystal.y, kRodLength)) << apart;
   }
