@@ -41,7 +41,8 @@ Result<void> ask_for_threads() {
   const std::shared_future<void> released = release.get_future().share();
   Result<void> done;
   try {
-    for (int n = static_cast<int>(std::thread::hardware_concurrency()) + 2; n > 0; --n) threads.emplace_back([released] { released.wait(); });
+    for (int n = static_cast<int>(std::thread::hardware_concurrency()) + 2; n > 0; --n)
+      threads.emplace_back([released] { released.wait(); });
   } catch (const std::system_error& problem) {
     done = Error{std::string("the system has no threads to draw with: ") + problem.what(), problem.code().value()};
   }

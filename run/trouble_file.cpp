@@ -18,9 +18,10 @@ OrderedJson vector_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 }  // namespace
 
 std::string describe(const NumericalTrouble& trouble, double dt) {
-  return fmt::format("numerical trouble at tick {} ({:.6f} s), rods {}: {}; a shorter time.step helps, or, where rods "
-                     "pile up, contacts.sweeps 4",
-                     trouble.tick, static_cast<double>(trouble.tick) * dt, fmt::join(trouble.rods, ", "), trouble.what);
+  return fmt::format(
+      "numerical trouble at tick {} ({:.6f} s), rods {}: {}; a shorter time.step helps, or, where rods "
+      "pile up, contacts.sweeps 4",
+      trouble.tick, static_cast<double>(trouble.tick) * dt, fmt::join(trouble.rods, ", "), trouble.what);
 }
 
 OrderedJson to_json(const CloseUp& close_up) {

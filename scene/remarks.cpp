@@ -102,7 +102,8 @@ std::optional<std::string> remark_on_piles(const System& system) {
       if (system.has_species(other)) least = std::min(least, system.rod_rod.of(number, other).restitution);
     }
   }
-  for (const Component& rods : components_of(system)) thickest = std::max(thickest, 2 * species_of(rods.shape).max_radius);
+  for (const Component& rods : components_of(system))
+    thickest = std::max(thickest, 2 * species_of(rods.shape).max_radius);
   if (system.gap < 2 * thickest || least >= 0.1) return std::nullopt;
   return fmt::format(
       "box.gap {} leaves room for rods on top of each other, and rods have a restitution of {:.3g}: where they pile up "
@@ -118,7 +119,8 @@ std::optional<std::string> remark_on_closing(const System& system) {
   const double least = system.least_gap(), most = 2 * system.gap - least;
   if (most - least <= thinnest) return std::nullopt;
   return fmt::format(
-      "the lid closes the gap from {} to {}, by more than a rod's radius: rods that have climbed over each other may be "
+      "the lid closes the gap from {} to {}, by more than a rod's radius: rods that have climbed over each other may "
+      "be "
       "crushed, which ends the run; a shorter time.step helps, or contacts.sweeps 4",
       format_quantity(most, Dimension::kLength), format_quantity(least, Dimension::kLength));
 }

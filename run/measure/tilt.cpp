@@ -82,7 +82,8 @@ MeasurementKind tilt_kind() {
           {
               {"n_z_switching_time_s", "mean time for which a rod stays tilted to one side"},
               {"tilt_fastest_mm_s",
-               "folded mean of velocities of instants along the rod where its magnitude is largest, over bins with 1 % of the samples at least; negative: away "
+               "folded mean of velocities of instants along the rod where its magnitude is largest, over bins with 1 % "
+               "of the samples at least; negative: away "
                "from the "
                "raised end",
                false, "no mean velocity differs from 0 by three of its errors"},
