@@ -38,7 +38,7 @@ TEST(Equipartition, OfElasticRodsBetweenPlatesAtRest) {
   analysis::TemperatureStatistics mean;
   for (Tick k = step; k <= 15 * settle; k += step) {
     ASSERT_FALSE(simulation->advance_to(k).has_value());
-    if (k > settle) mean.accumulate(temperatures());
+    if (k > settle) mean.accumulate(temperatures(), simulation->snapshot().velocity);
   }
   const analysis::Temperatures found = mean.reduce();
   for (std::size_t k = 0; k < analysis::kFreedoms; ++k) std::printf("%zu: %.2f -> %.2f pJ\n", k, start[k], found[k]);
