@@ -20,6 +20,7 @@
 #include "base/failure.h"
 #include "base/files.h"
 #include "base/http/http_server.h"
+#include "base/memory_reserve.h"
 #include "base/process.h"
 #include "base/slurm_conf.h"
 #include "base/standard_streams.h"
@@ -362,9 +363,10 @@ void run_daemon(const DaemonConfig& asked_for) {
     keep_going("runs in Slurm", [&] { slurm_supervisor.step(); });
     keep_going("requests", [&] { control.check(); });
     if (web) keep_going("the page", [&] { web->check(); });
-    for (const FileAsOpened& file : {queue_file, lock_as_opened}) {
-      if (lost.empty() && file.is_gone()) lost = file.path().string() + " was removed or replaced";
+    for (const FileAsOpened* file : {&queue_file, &lock_as_opened}) {
+      if (lost.empty() && file->is_gone()) lost = file->path().string() + " was removed or replaced";
     }
+    keep_memory_in_reserve();
   } while (lost.empty() && !signals.wait(kRound));
 
   if (!lost.empty()) {

@@ -13,6 +13,7 @@
 
 #include "base/failure.h"
 #include "base/interrupt.h"
+#include "base/memory_reserve.h"
 #include "base/paths.h"
 #include "web/guard.h"
 #include "web/served_page.h"
@@ -77,6 +78,7 @@ void serve(const std::filesystem::path& root, int port, const std::string& lcm_u
   std::vector<std::unique_ptr<http::HttpServer>> former;  // which may have to answer still
   std::string last_failure;
   while (!interrupt.interrupted()) {
+    keep_memory_in_reserve();
     interrupt.sleep_for(std::chrono::seconds(1));
     std::erase_if(former, [](const auto& one) { return one->ended_within(std::chrono::milliseconds(0)); });
     if (server && !server->has_failed()) continue;

@@ -306,9 +306,14 @@ int remove(const char* path) noexcept {
 
 }  // extern "C"
 
-/// C++'s memory: what a library in C does without it is its own affair.
+/// C++'s memory: what a library in C does without it is its own affair. A refusal is what it is in libstdc++: the
+/// handler is asked first, and then it is tried again.
 void* operator new(size_t size) {
-  if (call_fails("memory", allocations)) throw std::bad_alloc();
+  if (call_fails("memory", allocations)) {
+    const std::new_handler handler = std::get_new_handler();
+    if (handler == nullptr) throw std::bad_alloc();
+    handler();
+  }
   if (void* memory = malloc(size == 0 ? 1 : size)) return memory;
   throw std::bad_alloc();
 }

@@ -200,8 +200,8 @@ class Reported(unittest.TestCase):
         self.start_daemon()
         self.type("shaken submit long.json --name victim && shaken submit long.json -s time.seed=52 --name s01")
         self.assertIn("sweep s2 (s01): 1 job", self.type("shaken cancel s01"))
-        states = {row["sweep"]: row["state"] for row in json.loads(self.type("shaken results --json"))["rows"]}
-        self.assertNotIn(states["s1"], ("cancelled", "stopping"))
+        state = json.loads(self.type("shaken status s1 --json"))["jobs"][0]["state"]
+        self.assertNotIn(state, ("cancelled", "stopping"))
         for name in ("s1", "0123456789abcdef"):
             self.assertIn("could be mistaken for", self.type(f"shaken submit long.json --name {name}", 2))
         # every verb looks in one order: a name before a shortened id (30)
@@ -246,7 +246,7 @@ class Reported(unittest.TestCase):
             said = [self.type(f"shaken submit tiny.json {term} {trial}", 2) for trial in ("--dry-run --no-probe", "")]
             self.assertEqual(*said)
         self.type("shaken submit tiny.json --dry-run --no-probe --at-once 1")
-        self.assertEqual(json.loads(self.type("shaken results --json"))["rows"], [])
+        self.assertIn("nothing has been submitted yet", self.type("shaken results", 2))
 
     def test_73_a_relative_root_of_the_environment_is_ignored(self):
         for setting in ("XDG_DATA_HOME=rel", "HOME=$PWD XDG_DATA_HOME="):
@@ -271,16 +271,14 @@ class Reported(unittest.TestCase):
     def test_files_of_strangers_end_no_reader(self):
         self.run_one()
         (self.folder / "r/summary.json").unlink()  # nothing vouches for the files any more
-        whole = (self.folder / "r/trajectory.h5").read_bytes()
-        ended = 0
-        for at in range(len(whole) // 40, len(whole), len(whole) // 12):
-            broken = bytearray(whole)
-            broken[at:at + 64] = os.urandom(64)
-            (self.folder / "r/trajectory.h5").write_bytes(broken)
-            for command in ("picture r -o x.png --size 160x120", "export r -o x.extxyz"):
-                output = self.type(f"shaken {command}", (0, 1, 2), 90)
-                ended += "ended its reader" in output
-        print(f"{ended} readers of their own were ended")
+        broken = bytearray((self.folder / "r/trajectory.h5").read_bytes())
+        heap = broken.index(b"GCOL")  # of the file's texts
+        broken[heap + 29:heap + 31] = b"\x7f\x7f"  # the first is longer than all memory: HDF5 1.10 is ended by that
+        (self.folder / "r/trajectory.h5").write_bytes(broken)
+        for command in ("picture r -o x.png", "movie r -o x.mp4", "export r -o x.extxyz",
+                        "import r/trajectory.h5 --scene r.json"):
+            output = self.type(f"shaken {command}", (1, 2))
+            self.assertIn("ended its reader (signal 11), as damaged files do", output)
 
     def test_equal_runs_have_equal_files(self):
         self.run_one(name="a")

@@ -144,7 +144,7 @@ TEST(NoDaemon, WithoutAnyRootIsRefusedOnlyWhereOneIsNeeded) {
   const Outcome status = run_client({"status"}), completion = run_client({"completion", "bash"});
   if (given != nullptr) setenv("HOME", home.c_str(), 1);
   EXPECT_EQ(status.code, ExitCode::kBadInput);
-  EXPECT_THAT(status.err, HasSubstr("no root directory: set --root, SHAKEN_ROOT or HOME"));
+  EXPECT_THAT(status.err, HasSubstr("no root directory: set --root, SHAKEN_ROOT, or HOME to an absolute path"));
   EXPECT_EQ(completion.code, ExitCode::kOk);
 }
 

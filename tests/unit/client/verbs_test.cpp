@@ -304,11 +304,18 @@ TEST_F(Verbs, SubmitOfABadSceneNeverReachesTheDaemon) {
 TEST_F(Verbs, SubmitDryRunQueuesNothing) {
   const std::string file = (root_.path() / "scene.json").string();
   std::ofstream(file) << R"({"box": {"side": 30}})";
+  daemon_.on("POST /v1/sweeps", "{}");
   const Outcome outcome = run({"submit", file, "--dry-run", "--no-probe", "-s", "rods.count=100,200,300"});
   EXPECT_EQ(outcome.code, ExitCode::kOk) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("3 points, nothing queued"));
   EXPECT_THAT(outcome.out, HasSubstr("  300  "));
-  EXPECT_TRUE(daemon_.requests().empty());
+  ASSERT_EQ(daemon_.requests().size(), 1u);
+  EXPECT_EQ(Json::parse(daemon_.requests()[0].body)["dry_run"], true) << "whether it would be taken is asked";
+
+  daemon_.on("POST /v1/sweeps", {{400, R"({"error": "at_most: 0 is less than 1"})"}});
+  const Outcome refused = run({"submit", file, "--dry-run", "--no-probe", "--at-once", "0"});
+  EXPECT_EQ(refused.code, ExitCode::kBadInput);
+  EXPECT_EQ(refused.out, "");
 }
 
 TEST_F(Verbs, WaitEndsWhenAllAreDone) {

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace shaken {
+
+/// Keeps some memory for the moment in which the system has no more: the first request that it refuses is then granted
+/// from this, once, in whatever thread. Without it a program that stays up for months ends by the first refusal in a
+/// place that cannot fail, such as a destructor of JSON. To be called again and again, as it is gone once it was used.
+void keep_memory_in_reserve();
+
+}  // namespace shaken
