@@ -80,8 +80,7 @@ class Submit : public Verb {
     if (!stop_if_.empty()) request["stop_if"] = stop_if_;
     if (dry_run_) {
       request["dry_run"] = true;
-      check_with_daemon(context, request);
-      show_dry_run(sweep, context.console);
+      show_dry_run(sweep, why_not_checked(context, request), context.console);
       return ExitCode::kOk;
     }
     ApiClient session(context.root());
@@ -98,17 +97,18 @@ class Submit : public Verb {
   }
 
  private:
-  /// What the daemon would refuse, it refuses now. Points and costs need no daemon.
-  static void check_with_daemon(const Context& context, const Json& request) {
+  /// What the daemon would refuse, it refuses now. Points and costs need no daemon: why it was not asked; "" if it was.
+  static std::string why_not_checked(const Context& context, const Json& request) {
     try {
       ApiClient(context.root()).post("/v1/sweeps", request);
+      return "";
     } catch (const Failure& failure) {
       if (failure.code != ExitCode::kNoDaemon) throw;
-      context.console.err << "shaken: whether the daemon would take it is not known: " << failure.what() << '\n';
+      return failure.what();
     }
   }
 
-  void show_dry_run(const scene::Sweep& sweep, Console& console) const {
+  void show_dry_run(const scene::Sweep& sweep, const std::string& not_checked, Console& console) const {
     Json list = Json::array();
     Table table({{"JOB"}, {"N", Align::kRight}, {"SIM s", Align::kRight}, {"POINT"}});
     for (const scene::SweepPoint& point : sweep.points) {
@@ -122,6 +122,10 @@ class Submit : public Verb {
                      number_text(point.plan.total_time()), point.label});
     }
     Json json{{"points", list}};
+    if (!not_checked.empty()) json["not_checked"] = not_checked;
+    if (!json_ && !not_checked.empty()) {
+      console.err << "shaken: whether the daemon would take it is not known: " << not_checked << '\n';
+    }
     if (!json_) {
       console.out << fmt::format("{}: {} points, nothing queued\n{}", sweep.name, sweep.points.size(),
                                  table.text(console.width))
