@@ -131,13 +131,13 @@ void spread_axes(const Observables& arrays, std::vector<Column>& columns) {
   if (n_axes < 2) return;
   std::vector<Column> table;
   for (std::size_t k = 0; k < n_axes; ++k) {
-    Column& axis = table.emplace_back(axes[k].path, std::vector<double>(sizes[n_axes]));
+    Column& axis = table.emplace_back(Column{axes[k].path, std::vector<double>(sizes[n_axes])});
     for (std::size_t row = 0; row < sizes[n_axes]; ++row)
       axis.values[row] = axes[k].values[row / sizes[k] % axes[k].values.size()];
   }
   for (const Column& column : columns) {
     if (std::any_of(axes.begin(), axes.end(), [&](const Column& axis) { return axis.path == column.path; })) continue;
-    Column& spread = table.emplace_back(column.path, std::vector<double>(sizes[n_axes]));
+    Column& spread = table.emplace_back(Column{column.path, std::vector<double>(sizes[n_axes])});
     for (std::size_t row = 0; row < sizes[n_axes]; ++row)
       spread.values[row] = column.values[row % column.values.size()];
   }

@@ -31,7 +31,8 @@ Result<void> read_frames(const TrajectoryReader& frames) {
 }  // namespace
 
 Result<void> try_to_read(const std::filesystem::path& file) {
-  if (has_hash(file) || is_frame_log(file)) return {};
+  if (has_hash(file)) return {};
+  if (const Result<bool> is_log = is_frame_log(file); !is_log || *is_log) return {};
   const std::vector<std::string> command{sibling_program("shaken-worker").string(), "read", file.string()};
   const Captured read = run_captured(command, CaptureLimits{.time = kLimit});
   constexpr int kSignalled = 128;                                  // and what is above it

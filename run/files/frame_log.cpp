@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string_view>
@@ -188,6 +189,8 @@ class LoggedFrames final : public RecordedFrames {
     TrajectoryHeader header;
     try {
       header = header_of(Json::parse(text->substr(0, length)));
+    } catch (const std::bad_alloc&) {
+      throw;  // the header may be whole
     } catch (const std::exception& problem) {
       return refuse(std::string("has a header that cannot be read: ") + problem.what());
     }
@@ -314,10 +317,14 @@ Result<std::unique_ptr<RecordedFrames>> open_frame_log(const std::filesystem::pa
   return std::unique_ptr<RecordedFrames>(std::move(frames).value());
 }
 
-bool is_frame_log(const std::filesystem::path& file) {
+Result<bool> is_frame_log(const std::filesystem::path& file) {
   const Descriptor opened(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
-  if (!opened) return false;
+  if (!opened) {
+    const Error error = system_error("cannot open " + file.string());
+    return may_pass(error) ? Result<bool>(error) : false;
+  }
   const Result<std::string> begin = read_at(opened.value(), 0, kFramesMagic.size());
+  if (!begin && may_pass(begin.error())) return Error{file.string() + ": " + begin.error().message, begin.error().code};
   return begin && *begin == kFramesMagic;
 }
 

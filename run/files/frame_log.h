@@ -48,7 +48,7 @@ class FrameLog {
 std::size_t frame_bytes(std::size_t n_rods);
 /// Reads trajectory.part, also while it grows: as many frames as were whole when it was opened.
 Result<std::unique_ptr<RecordedFrames>> open_frame_log(const std::filesystem::path& file);
-/// Whether the file says that it is one.
-bool is_frame_log(const std::filesystem::path& file);
+/// Whether the file says that it is one; the error where it cannot be read at the moment.
+Result<bool> is_frame_log(const std::filesystem::path& file);
 
 }  // namespace shaken::run

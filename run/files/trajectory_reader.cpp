@@ -120,7 +120,9 @@ class Hdf5Frames final : public RecordedFrames {
 }  // namespace
 
 Result<TrajectoryReader> TrajectoryReader::open(const std::filesystem::path& file) {
-  if (is_frame_log(file)) {
+  const Result<bool> is_log = is_frame_log(file);
+  if (!is_log) return is_log.error();
+  if (*is_log) {
     auto frames = open_frame_log(file);
     if (!frames) return frames.error();
     return TrajectoryReader(file, std::move(frames).value());

@@ -50,7 +50,8 @@ struct ImportOptions {
 /// What is in the file is not a table.
 bool is_trajectory(const std::string& file) {
   const Result<std::string> head = read_part(file, 0, 8);
-  return is_frame_log(file) || (head && *head == "\x89HDF\r\n\x1a\n");
+  const Result<bool> is_log = is_frame_log(file);
+  return (is_log && *is_log) || (head && *head == "\x89HDF\r\n\x1a\n");
 }
 
 /// "FILE: what" and "FILE what" without the name of the file, which stands before every problem.
