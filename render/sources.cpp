@@ -54,7 +54,7 @@ Result<void> check_sizes(const std::string& who, const RodPicture& picture, cons
 }
 
 /// What a run says of itself, beside whose recorded `file` its summary is.
-Notes notes_of(const std::filesystem::path& file, const run::Provenance& run) {
+Result<Notes> notes_of(const std::filesystem::path& file, const run::Provenance& run) {
   Notes notes{{"Software", fmt::format("Shaken {}", run::version())}};
   if (!run.run_id.empty()) {
     notes.emplace_back("Run id", run.run_id);
@@ -62,6 +62,7 @@ Notes notes_of(const std::filesystem::path& file, const run::Provenance& run) {
   }
   // The versions that the run was made with, which need not be those of this program.
   const Result<std::string> text = read_file(file.parent_path() / "summary.json");
+  if (!text && may_pass(text.error())) return text.error();  // else the picture would not say where it comes from
   const Json summary = text ? Json::parse(*text, nullptr, false) : Json();
   const Json versions = summary.is_object() ? summary.value("versions", Json::object()) : Json::object();
   if (versions.is_object() && versions.contains("shaken") && versions["shaken"].is_string()) {
@@ -93,7 +94,9 @@ Result<TrajectorySource> TrajectorySource::open(const std::filesystem::path& run
     source.plan_ = std::move(*plan);
     source.plates_ = PlateMotion(source.plan_->system);
   }
-  source.notes_ = notes_of(file, source.reader_.header().provenance);
+  Result<Notes> notes = notes_of(file, source.reader_.header().provenance);
+  if (!notes) return notes.error();
+  source.notes_ = *std::move(notes);
   return source;
 }
 
