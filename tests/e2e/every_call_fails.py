@@ -247,7 +247,7 @@ def main():
     n_lost = 0
     for kind in programs:
         folder = Path(tempfile.mkdtemp(prefix="shaken-calls-"))
-        one = kind(folder)
+        one, n_met = kind(folder), 0
         for call in CALLS:
             counted = one(environment(call, 0, kind.program))
             n = int(counted.rsplit(f"{call}: ", 1)[1].split()[0]) if f"{call}: " in counted else 0
@@ -261,6 +261,10 @@ def main():
                     print(f"LOST {kind.program}, {call} {k} of {n}: {loss}", flush=True)
                     shutil.rmtree(folder / "faulty", ignore_errors=True)
             print(f"{kind.program:14} {call:8} {n:6} calls, {tried:5} of them failed one by one, {met:5} met", flush=True)
+            n_met += met
+        if n_met == 0:
+            n_lost += 1
+            print(f"LOST {kind.program}: no call has failed: is {LIBRARY} loaded?", flush=True)
         shutil.rmtree(folder)
     return 1 if n_lost else 0
 
