@@ -120,8 +120,7 @@ std::optional<std::string> remark_on_closing(const System& system) {
   if (most - least <= thinnest) return std::nullopt;
   return fmt::format(
       "the lid closes the gap from {} to {}, by more than a rod's radius: rods that have climbed over each other may "
-      "be "
-      "crushed, which ends the run; a shorter time.step helps, or contacts.sweeps 4",
+      "be crushed, which ends the run; a shorter time.step helps, or contacts.sweeps 4",
       format_quantity(most, Dimension::kLength), format_quantity(least, Dimension::kLength));
 }
 
