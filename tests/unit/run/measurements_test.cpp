@@ -375,7 +375,7 @@ TEST(Measurements, ParallelRodsHaveOrderOneAndNoDefects) {
 TEST(Measurements, FindPlantedLayers) {
   constexpr double kThetaM = 15 * kPi / 180, kWavelength = 5;
   scene::RunPlan p = plan();
-  p.system.rod.length = 2.4;  // a layer is no narrower
+  p.system.rod.length = 2;  // a layer is wider
   p.angles->bins = 180;
   p.pairs->bins = 41;
   Measurements measurements(p);
