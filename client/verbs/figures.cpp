@@ -18,8 +18,8 @@ namespace {
 std::vector<std::string> figures() {
   return split(
       "2 3 4 5 6 7 8 9 10 11 12 13 14 start order order-statistics g2 g2-map distances layers "
-      "diffusion tilt paths memory rotation defects layer-trends larger-box ends gap steady shaking "
-      "size elasticity diffusion-more melting fluctuations equilibrium model movies accuracy",
+      "diffusion tilt paths memory rotation defects layer-trends larger-box ends gap taper steady "
+      "shaking scaling elasticity diffusion-more melting fluctuations equilibrium model movies accuracy",
       ' ');
 }
 

@@ -9,14 +9,13 @@ import numpy as np
 
 from ..estimate import Estimate, derived
 from ..run import Run
-from . import late_lags
+from . import late_lags, scaling
 from .evidence import (BEADS, END, FREQUENCY, GAMMA, LENGTH, PACKING, SIDE, Evidence, Runs, box_of, box_text,
                        by, is_from_a_fluid, key_of, number_of, place_on)
 from .late_lags import long_time_diffusion
 from .layer_checks import layered, theta_m
 from .layer_wavelength import mean_wavelength
 from .motion_checks import late_velocity_correlation, papers_diffusion, speed_between
-from .order_checks import power_of_size
 from .rules import text
 from .structure_checks import mean_waves, ordered_in_large_boxes
 
@@ -270,17 +269,19 @@ def elastic(evidence: Evidence) -> str:
 
 
 def sizes(evidence: Evidence) -> str:
-    """Order of rods of 4.5 mm against the side of the box, near the transition and above it."""
-    everything = evidence.joined("long-rods", "size", "dilute", "long-range").at(4.5)
-    runs = Runs(run for run in everything if len(everything.at(packing=key_of(run, PACKING)).values(SIDE)) > 1)
+    """Order of rods of 4.5 mm against the side of the box, and its power as three readings have it."""
+    runs = scaling.boxes(evidence)
 
     def power(here: Runs) -> str:
         alike = runs.at(packing=key_of(here[0], PACKING))
         narrower = [side for side in alike.values(SIDE) if side < key_of(here[0], SIDE) - 1]
-        return text(power_of_size(Runs([*alike.at(side=narrower[-1]), *here]))) if narrower else "–"
+        return text(scaling.power(Runs([*alike.at(side=narrower[-1]), *here]))) if narrower else "–"
 
     return table(by(runs, PACKING, SIDE), [
-        PACKED, BOX, SEEDS, number("S", "S"), ("x of S ~ Lˣ, from the box before", power)])
+        PACKED, BOX, SEEDS, number("S", "S"), ("x of S ~ Lˣ, from the box before", power),
+        ("−1/(π√(K₁K₃))", lambda here: text(scaling.predicted(here))),
+        number("half the power of G₂", scaling.half_power_of_g2),
+        ("√(K₁K₃)", lambda here: text(scaling.stiffness(here))), number("χ² per point", "frank_chi2")])
 
 
 def blunt(evidence: Evidence) -> str:

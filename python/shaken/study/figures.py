@@ -44,7 +44,8 @@ class Figure:
 
 
 FIGURES: tuple[Figure, ...] = (
-    Figure("2", "start", "Rods as they lie, and S(t) from the aligned start", ("long-rods",), figures_order.start),
+    Figure("2", "start", "Rods as they lie, and S(t) from the aligned start", ("long-rods", "forgetting"),
+           figures_order.start),
     Figure("3", "order", "Mean order against area fraction, and the phase diagram",
            ("long-rods", "short-rods", "crossings", "phases", "layers", "layer-trends"), figures_order.order),
     Figure("4", "order-statistics", "Fluctuations of the order: P[S], standard deviation, Binder cumulant",
@@ -76,10 +77,12 @@ FIGURES: tuple[Figure, ...] = (
            figures_structure.ends),
     Figure("", "gap", "The gap between the plates: crystal, layers, no layers", ("gaps", "layers"),
            figures_structure.gap),
+    Figure("", "taper", "Tapered and untapered rods, from a fluid", ("strip", "layers", "taper"),
+           figures_structure.taper),
     Figure("", "steady", "The axis along which rods of 3.5 mm order", ("layer-trends", "turned"), figures_order.steady),
     Figure("", "shaking", "Order and motion against the strength of shaking", ("shaking",), figures_order.shaking),
-    Figure("", "size", "Order against the size of the box", ("long-rods", "size", "dilute", "long-range"),
-           figures_order.size),
+    Figure("", "scaling", "Order against the size of the box, and what the director's waves predict of it",
+           ("long-rods", "size", "dilute", "elasticity", "long-range"), figures_order.scaling_with_size),
     Figure("", "elasticity", "Director fluctuations: bend against splay", ("elasticity", "size", "long-range"),
            figures_structure.elasticity),
     Figure("", "diffusion-more", "Whether MSD/t levels off, and exponents",

@@ -6,8 +6,9 @@ import numpy as np
 
 from ..plots import names
 from ..plots.sheet import Sheet
+from . import scaling
+from .evidence import GAMMA, LENGTH, PACKING, SIDE, Runs, by, key_of, points_of
 from .layer_checks import two_peaks
-from .evidence import GAMMA, LENGTH, PACKING, SIDE, Runs, key_of, points_of
 from .late_lags import long_time_diffusion
 from .material import (Material, angle_bar, draw_curves, draw_points, draw_rods, first_snapshot, packing_scale)
 from .order_checks import ORDERED, phase_diagram, pooled_density, transition
@@ -146,10 +147,11 @@ def shaking(material: Material) -> Sheet:
     return sheet
 
 
-def size(material: Material) -> Sheet:
-    """Order against the size of the box: the crossing of S = 0.5, Binder cumulants, S and G2 far away."""
-    runs = material.evidence.joined("long-rods", "size", "dilute", "long-range").at(4.5)
-    sheet = material.sheet(4, columns=2)
+def scaling_with_size(material: Material) -> Sheet:
+    """Order against the size of the box: the crossing of S = 0.5, Binder cumulants, S, its power and the stiffness of
+    the director that predicts it, and G2 far away."""
+    runs = scaling.boxes(material.evidence)
+    sheet = material.sheet(6)
     panel = sheet[0].titles(names.axis_title(PACKING), names.axis_title("S"), "order in several boxes")
     other = sheet[1].titles(names.axis_title(PACKING), names.axis_title("binder"), "Binder cumulant")
     for k, side in enumerate(runs.values(SIDE)):
@@ -159,16 +161,33 @@ def size(material: Material) -> Sheet:
             draw_points(other, here.points(PACKING, "binder"), names.value_label(SIDE, side), k)
     panel.range(y=(0, 1)).reference(y=ORDERED, label="0.5")
     material.stamp(panel, "transition-size")
-    panel = sheet[2].titles(names.axis_title(SIDE), names.axis_title("S"), "order against the box").scale("log", "log")
-    far = sheet[3].titles(names.axis_title(SIDE), "G₂ at half the box", "far away")
-    for k, packing in enumerate((0.45, 0.55, 0.60, 0.70)):
-        here = runs.at(packing=packing)
-        if len(here.values(SIDE)) > 1:
-            draw_points(panel, here.points(SIDE, "S"), names.value_label(PACKING, packing), k)
-            draw_points(far, [(side, far_g2(here.at(side=side))) for side in here.values(SIDE)],
-                        names.value_label(PACKING, packing), k)
+
+    panel = sheet[2].titles(names.axis_title(SIDE), names.axis_title("S"), "lines: by the waves").scale("log", "log")
+    far = sheet[5].titles(names.axis_title(SIDE), "G₂ at half the box", "far away")
+    stiff = sheet[4].titles(names.axis_title(SIDE), "√(K₁K₃)", "stiffness of the director").scale("log", "log")
+    for k, packing in enumerate(runs.values(PACKING)):
+        here, label = runs.at(packing=packing), names.value_label(PACKING, packing)
+        order = here.points(SIDE, "S")
+        draw_points(panel, order, label, k)
+        draw_points(far, [(side, far_g2(here.at(side=side))) for side in here.values(SIDE)], label, k)
+        if packing < 0.54:
+            continue  # no director
+        draw_points(stiff, [(side, scaling.stiffness(here.at(side=side))) for side in here.values(SIDE)], label, k)
+        (first, s), x = order[0], scaling.predicted(here.largest(SIDE)).value
+        sides = np.array([side for side, _ in order])
+        panel.curve(sides, s.value * (sides / first) ** x, colour=k)
+    stiff.reference(y=scaling.LEAST_STIFFNESS, label="8/π")
     material.stamp(panel, "long-range", "disordered")
     far.zero()
+
+    panel = sheet[3].titles(names.axis_title(PACKING), "x of S ~ Lˣ", "three readings of the power")
+    ordered = [here for here in by(runs, PACKING) if key_of(here[0], PACKING) > 0.54]
+    readings = (("S(L)", scaling.power), ("−1/(π√(K₁K₃))", lambda here: scaling.predicted(here.largest(SIDE))),
+                ("half the power of G₂", scaling.reading_of_g2))
+    for k, (label, of) in enumerate(readings):
+        points = [(key_of(here[0], PACKING), of(here)) for here in ordered]
+        draw_points(panel, [(at, x) for at, x in points if x.is_known], label, k)
+    panel.reference(y=scaling.STEEPEST, label="−1/8").zero()
     return sheet
 
 

@@ -245,6 +245,20 @@ def ends(material: Material) -> Sheet:
     return sheet
 
 
+def taper(material: Material) -> Sheet:
+    """Rods of 4.5 mm with and without a taper at 0.80: the last rods, and P(theta) of both."""
+    tapered, plain = material.evidence["layers"].at(4.5, 0.80), material.evidence["taper"].at(4.5, 0.80)
+    sheet = material.sheet(3, height=58)
+    for panel, runs, title in zip(sheet, (tapered, plain), ("tapered", "untapered")):
+        snapshot = first_snapshot(runs)
+        if snapshot:
+            draw_rods(panel, snapshot, runs[0].scene, f"{title}, φ = 0.80")
+    angle_bar(sheet, sheet.panels[:2])
+    _angles(sheet[2], Runs([*tapered, *plain]), END, "P(θ)")
+    material.stamp(sheet[2], "taper")
+    return sheet
+
+
 def gap(material: Material) -> Sheet:
     """The gap between the plates: G2 across the director and its maps, P(theta), g(r), crystalline order."""
     runs = Runs([*material.evidence["gaps"], *material.evidence["layers"].at(4.5, 0.80)])

@@ -14,8 +14,8 @@ from ..run import Array, Run
 from .evidence import (END, GAP, LENGTH, PACKING, SIDE, Evidence, Runs, box_of, box_text, by, is_from_a_fluid, key_of,
                        number_of, place_on, points_of)
 from .layer_wavelength import TWO_PEAKS, mean_wavelength, wavelength
-from .rules import (NOT_RUN, Answer, Finding, above, below, close_to, conclude, larger, listed, no, refutable, text,
-                    trend, unknown, yes)
+from .rules import (AGREES, CONSISTENT, NOT_RUN, Answer, Finding, above, below, close_to, conclude, larger, listed, no,
+                    refutable, text, trend, unknown, yes)
 
 #: Change of the dip from one half of the time to the other below which layers count as formed.
 STILL = 0.1
@@ -159,16 +159,24 @@ def _crest(run: Run) -> Estimate:
 
 
 def g2_oscillates(evidence: Evidence) -> Finding:
-    answers, found = [], []
+    answers, found, short = [], [], []
     for name in ("layers", "strip"):
         for packing in (0.80, 0.85):
-            runs = layered(evidence[name].at(4.5, packing))
-            if runs:
-                rise = runs.of(_crest)
-                answers.append(above(rise, 0).placed(f"{packing:g} in {box_text(runs[0])}"))
-                found.append(f"{text(rise)} at φ = {packing:g} in {box_text(runs[0])}")
-    return conclude(answers,
-                    "G₂ across the director, a wavelength away less half a wavelength away: " + "; ".join(found))
+            # where layers still form or melt G2 is asked for all the same: they need not have their last depth for it
+            runs = Runs(run for run in evidence[name].at(4.5, packing) if number_of(run, "dip").value < TWO_PEAKS)
+            if not runs:
+                continue
+            rise, where = runs.of(_crest), f"{packing:g} in {box_text(runs[0])}"
+            if not rise.is_known:
+                short.append(where)
+                continue
+            answers.append(above(rise, 0).placed(where))
+            found.append(f"{text(rise)} at φ = {where}")
+    finding = conclude(answers or [unknown("G₂ ends before a wavelength").placed(where) for where in short],
+                       "G₂ across the director, a wavelength away less half a wavelength away: " + "; ".join(found))
+    if answers and short:
+        finding.why += ("; " if finding.why else "") + f"not asked at {', '.join(short)}: G₂ ends before a wavelength"
+    return finding
 
 
 def no_layers_at_wide_gaps(evidence: Evidence) -> Finding:
@@ -190,6 +198,30 @@ def no_layers_at_wide_gaps(evidence: Evidence) -> Finding:
     return conclude(answers, "; ".join(found))
 
 
+def ordered_at_a_wider_gap(evidence: Evidence) -> Finding:
+    runs = evidence["gaps"].at(gap=1.4)
+    s = runs.number("S")
+    return conclude([above(s, 0.5)] if runs else [], f"S = {text(s)} at w = 1.4 mm")
+
+
+def taper_makes_layers(evidence: Evidence) -> Finding:
+    """Whether untapered rods have no layers where tapered ones do."""
+    answers, found = [], []
+    for packing in (0.80, 0.85):
+        plain = evidence["taper"].at(4.5, packing)
+        tapered = _widest(evidence.joined("layers", "strip").at(4.5, packing))
+        if not plain or not tapered:
+            continue
+        answer = two_peaks(plain).negated()
+        if answer.word and not _goes_far(plain):
+            answer = unknown("untapered rods are frozen")
+        answers.append((answer if two_peaks(tapered).word else unknown("tapered rods have no layers")).placed(
+            f"{packing:g}"))
+        found.append(f"φ = {packing:g}: untapered {_angle_text(plain)}, S = {text(plain.number('S'))}; tapered "
+                     f"{_angle_text(tapered)}")
+    return conclude(answers, "; ".join(found))
+
+
 def crystal_at_a_narrow_gap(evidence: Evidence) -> Finding:
     reference, narrow = evidence["layers"].at(4.5, 0.80), evidence["gaps"].at(gap=0.9)
     if not reference or not narrow:
@@ -204,26 +236,40 @@ def crystal_at_a_narrow_gap(evidence: Evidence) -> Finding:
     return refutable(yes(), found, f"its Bragg peak is {ratio:.1f} times that of the layers, and P(θ) has one peak")
 
 
+def _goes_far(runs: Runs) -> bool:
+    """Whether rods go two of their lengths along the director while they are measured, as in a fluid; what is frozen
+    does not."""
+    measured = min(float(run.summary["sim_seconds"]) - float(run.summary.get("t_steady_s") or 0) for run in runs)
+    way = math.sqrt(max(2 * runs.number("diffusion_along_mm2_s").value * measured, 0))
+    return not way < 2 * key_of(runs[0], LENGTH)
+
+
 def _trend(series: list[tuple[Runs, str]], of: Callable[[Runs], Estimate], rising: bool, unit: str) -> Finding:
-    """A trend of the layers in series of one key each. It is one question: a series that cannot tell does not count
-    beside one that can, and is named."""
+    """A trend of the layers in series of one key each. It is one question of steady states: a series that cannot tell,
+    or that compares a fluid with what is frozen, is named beside those that can, and leaves no more than
+    consistency."""
     symbols = {PACKING: "φ", LENGTH: "ℓ", END: "d"}
     answers, found = [], []
     for runs, key in series:
-        points = points_of(layered(runs), key, of)
+        formed = layered(runs)
+        points = points_of(formed, key, of)
         if len(runs.values(key)) < 2:
             continue
         where = ", ".join(f"{symbols[other]} = {key_of(runs[0], other):g}" for other in (LENGTH, PACKING)
                           if other != key)
         where += f", {box_text(runs[0])}{_start_text(runs)}"
-        answers.append((trend(points, rising) if len(points) > 1 else unknown("layers at fewer than two points"))
-                       .placed(where))
+        if len({_goes_far(formed.where(key, value)) for value, _ in points}) > 1:
+            answer = unknown("a fluid against a frozen state")
+        else:
+            answer = trend(points, rising) if len(points) > 1 else unknown("layers at fewer than two points")
+        answers.append(answer.placed(where))
         found.append(f"{where}: " + (listed(points, symbols[key], unit) or "no layers"))
     able = [answer for answer in answers if answer.word is not None]
     finding = conclude(able or answers, ". ".join(found))
     unable = "; ".join(f"{answer.at} ({answer.why})" for answer in answers if answer.word is None)
     if able and unable:
-        finding.why += ("; " if finding.why else "") + f"cannot tell: {unable}"
+        finding = replace(finding, verdict=CONSISTENT if finding.verdict == AGREES else finding.verdict,
+                          why=finding.why + ("; " if finding.why else "") + f"cannot tell: {unable}", answers=answers)
     return finding
 
 

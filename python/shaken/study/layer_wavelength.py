@@ -22,6 +22,8 @@ WIDE = 96.0
 PEAK_WIDTHS = (0.1, 0.35)
 #: By how much a peak must raise the logarithm of the likelihood: of spectra without one three in a hundred do so.
 LEAST_GAIN = 4.0
+#: What a width of the peak near an end of those does to its place [mm].
+OF_THE_WIDTH = 1.0
 #: Waves that are looked at [mm], and those that layers can have.
 WAVES, OF_LAYERS = (5.0, 63.0), (8.0, 32.0)
 
@@ -101,11 +103,14 @@ def mean_wavelength(runs: Runs) -> Estimate:
     """The wavelength of the layers [mm] of the runs of a state point.
 
     The waves that fit into a box are L/n, L being its side across the rods, so that in a narrow one what lies between
-    two of them is not seen: a uniform error over that step is added to that of the mean, for the replicas share it.
+    two of them is not seen: a uniform error over that step is added to that of the mean, for the replicas share it. In
+    a wide one it is what an unlucky width of the peak does to the fit.
     """
     found = runs.of(wavelength)
-    if not found.is_known or all(_is_wide(run) for run in runs):
+    if not found.is_known:
         return found
+    if all(_is_wide(run) for run in runs):
+        return found.with_further_error(OF_THE_WIDTH)
     _, across = box_of(runs[0])
     n = max(round(across / found.value), 1)
     step = across / max(n - 0.5, 0.5) - across / (n + 0.5)

@@ -9,13 +9,15 @@ import numpy as np
 from ..estimate import Estimate
 from ..run import Run
 from . import late_lags
-from .evidence import PACKING, SIDE, Evidence, Runs, key_of, mean_of_places, number_of, points_of
+from .evidence import LENGTH, PACKING, SIDE, Evidence, Runs, by, key_of, mean_of_places, number_of, points_of
 from .late_lags import long_time_diffusion
-from .rules import (Answer, Finding, above, below, close_to, conclude, doubt, larger, listed, no, text, trend, unknown,
-                    yes)
+from .rules import (Answer, Finding, above, all_of, below, close_to, conclude, doubt, larger, listed, no, refutable,
+                    text, trend, unknown, yes)
 
 #: Change of the slope of the MSD from one octave of lags to the next, as a part of it, below which motion is diffusive.
 SAME_SLOPE = 0.1
+#: The least C2 at late times that counts as near 1: it is the square of S there, whose least "about 1" is 0.85.
+NEAR_ONE = 0.85 ** 2
 #: Change of C2 from one octave of lags to the next below which it has levelled off.
 LEVEL = 0.05
 
@@ -55,17 +57,36 @@ def tilt_and_velocity(evidence: Evidence) -> Finding:
     runs = evidence["mechanism"].at(packing=0.60)
     if not runs:
         return Finding()
-    speed, beyond = runs.number("tilt_fastest_mm_s"), runs.of(lambda run: speed_between(run, 0.31, 0.40))
+    speed = runs.number("tilt_fastest_mm_s")
 
     def place_in(run: Run) -> Estimate:
         return Estimate(abs(number_of(run, "tilt_fastest_n_z").value), 0.0, True)
 
     n_z = np.asarray(runs[0]["/tilt/folded/n_z"])
     place = runs.of(place_in).with_further_error(float(n_z[1] - n_z[0]))  # to a bin, which all runs have in common
-    return conclude([below(speed, 0).placed("against the tilt"), close_to(place, 0.2, 0.06).placed("fastest near 0.2"),
-                     above(beyond, 0).placed("reversed beyond 0.3")],
-                    f"fastest at n_z = ±{text(place)}, {text(speed)} mm/s along the tilt; beyond ±0.31 "
-                    f"{text(beyond)} mm/s")
+    return conclude([below(speed, 0).placed("against the tilt"), close_to(place, 0.2, 0.06).placed("fastest near 0.2")],
+                    f"fastest at n_z = ±{text(place)}, {text(speed)} mm/s along the tilt")
+
+
+def velocity_reverses(evidence: Evidence) -> Finding:
+    runs = evidence["mechanism"].at(packing=0.60)
+    beyond = runs.of(lambda run: speed_between(run, 0.31, 0.40))
+    return conclude([above(beyond, 0)] if runs else [], f"{text(beyond)} mm/s along the tilt beyond ±0.31")
+
+
+def no_velocity_without_tilt(evidence: Evidence) -> Finding:
+    runs = evidence["mechanism"].at(packing=0.60)
+    if not runs:
+        return Finding()
+
+    def at_rest(run: Run) -> Estimate:
+        v = run["/tilt/v_along_mm_s"]
+        inner = np.argsort(abs(np.asarray(v.axis)))[:2]  # the bins on either side of 0
+        return mean_of_places(np.asarray(v)[inner], np.asarray(v.error)[inner], run)
+
+    speed, fastest = runs.of(at_rest), abs(runs.number("tilt_fastest_mm_s").value)
+    return conclude([close_to(speed, 0, 0.1 * fastest)],
+                    f"{text(speed)} mm/s at n_z = 0, where the fastest is {fastest:.2f} mm/s")
 
 
 def no_motion_sideways(evidence: Evidence) -> Finding:
@@ -98,6 +119,27 @@ def tilt_switches(evidence: Evidence) -> Finding:
                     f"n_z keeps its sign for {listed(points, 'φ', ' s')}")
 
 
+def forgets_the_start(evidence: Evidence) -> Finding:
+    """Whether the kinetic temperature in the plane is, within a tenth, what it is in the end, from one to three periods
+    of the plates after the start."""
+    answers, found = [], []
+
+    def over_the_end(run: Run, name: str) -> Estimate:
+        t = run[name]
+        time, values = np.asarray(t.axis), np.asarray(t)
+        first = values[(time >= 0.005) & (time < 0.015)]
+        late = values[time >= time[-1] / 2]
+        return Estimate(float(first.mean() / late.mean()), steady=True) if len(first) else Estimate(reason="too rare")
+
+    for runs in by(evidence["forgetting"], LENGTH, PACKING):
+        plane, vertical = (runs.of(lambda run, name=name: over_the_end(run, f"/temperatures/{name}_pJ"))
+                           for name in ("horizontal", "vertical"))
+        where = f"ℓ = {key_of(runs[0], LENGTH):g} mm, φ = {key_of(runs[0], PACKING):g}"
+        answers.append(close_to(plane, 1, 0.1).placed(where))
+        found.append(f"{text(plane)} in the plane and {text(vertical)} across it at {where}")
+    return conclude(answers, "kinetic temperature over that of the end: " + "; ".join(found))
+
+
 def persists_when_dense(evidence: Evidence) -> Finding:
     answers, found = [], []
     for name, unit in (("persistence_time_s", " s"), ("persistence_length_mm", " mm")):
@@ -108,21 +150,47 @@ def persists_when_dense(evidence: Evidence) -> Finding:
     return conclude(answers, ". ".join(found))
 
 
+def persists_for_want_of_noise(evidence: Evidence) -> Finding:
+    """Whether ways could persist because rods turn less: not if they persist longer than directions are kept, 1/D_r."""
+    turning = dict(points_of(evidence["short-rods"], PACKING, lambda here: here.number("rotational_diffusion_rad2_s")))
+    ways = dict(evidence["mechanism"].points(PACKING, "persistence_time_s"))
+    answers, found = [], []
+    for at in (0.65, 0.85):
+        if at in turning and at in ways:
+            answers.append(below(turning[at] * ways[at].value, 1).placed(f"{at:g}"))
+            found.append(f"ways persist for {text(ways[at])} s, 1/D_r = {1 / turning[at].value:.2g} s at φ = {at:g}")
+    if len(answers) == 2:
+        answers.append(larger(turning[0.65], turning[0.85]).placed("less noise when denser"))
+    return refutable(all_of(answers), "; ".join(found), "rods keep their direction for longer than their way") \
+        if answers else Finding()
+
+
 def diffusion_rises(evidence: Evidence) -> Finding:
-    everything = points_of(short_rods(evidence), PACKING, long_time_diffusion)
-    points = [(at, e) for at, e in everything if at > 0.64]
-    if len(points) < 2:
-        return Finding()
-    below_it = [(at, e) for at, e in everything if at < 0.66]
-    falls = f"; below 0.65 it falls: {listed(below_it, 'φ')}" if len(below_it) > 1 else ""
-    return conclude([trend(points, rising=True)], f"D = {listed(points, 'φ')} mm²/s{falls}")
+    points = points_of(short_rods(evidence), PACKING, long_time_diffusion)
+    parts = [(where, [(at, e) for at, e in points if low < at < high])
+             for where, low, high in (("up to 0.65", 0, 0.66), ("from 0.65 on", 0.64, 1))]
+    return conclude([trend(part, rising=True).placed(where) for where, part in parts if len(part) > 1],
+                    f"D = {listed(points, 'φ')} mm²/s")
+
+
+def diffusion_level(evidence: Evidence) -> Finding:
+    runs = short_rods(evidence).at(packing=0.65)
+    d = long_time_diffusion(runs)
+    return conclude([close_to(d, papers_diffusion(0.65), 0.2 * papers_diffusion(0.65))] if runs else [],
+                    f"D = {text(d)} mm²/s (the paper's fit: {papers_diffusion(0.65):.1f})")
 
 
 def diffusion_law(evidence: Evidence) -> Finding:
-    points = [(at, e) for at, e in points_of(short_rods(evidence), PACKING, long_time_diffusion) if at > 0.64]
-    answers = [close_to(e, papers_diffusion(at), 0.2 * papers_diffusion(at)).placed(f"{at:g}") for at, e in points]
-    found = "; ".join(f"{text(e)} ({papers_diffusion(at):.1f}) at {at:g}" for at, e in points)
-    return conclude(answers, f"D in mm²/s (the paper's fit): {found}")
+    points = [(at, e) for at, e in points_of(short_rods(evidence), PACKING, long_time_diffusion) if at > 0.66]
+
+    def holds(d: Estimate, at: float) -> Answer:
+        return close_to(d, papers_diffusion(at), 0.2 * papers_diffusion(at)).placed(f"{at:g}")
+
+    printed = [f"{at:g}" for at, e in points if holds(e * 2, at).word]
+    found = "; ".join(f"{text(e)} or {text(e * 2)} ({papers_diffusion(at):.1f}) at {at:g}" for at, e in points)
+    return conclude([holds(e, at) for at, e in points],
+                    f"D in mm²/s from MSD = 4Dt, or from MSD = 2Dt as printed (the paper's fit): {found}; as printed "
+                    f"it holds at {', '.join(printed) or 'none of them'}")
 
 
 def _grows_linearly(runs: Runs, curve: str, exponent: str) -> tuple[Answer, str]:
@@ -149,6 +217,25 @@ def diffusion_is_normal(evidence: Evidence) -> Finding:
     if late:
         found.append("at long times, as exponent or as slope over that at half the lag: " + "; ".join(late))
     return conclude(answers, ". ".join(found))
+
+
+def normal_in_both_phases(evidence: Evidence) -> Finding:
+    answers, found = [], []
+    for phase, name, disordered in (("disorder", "total", True), ("along the director", "along", False),
+                                    ("across it", "across", False)):
+        late = []
+        runs = Runs(run for run in long_rods(evidence) if (key_of(run, PACKING) < 0.52) == disordered)
+        own = "alpha_long" if disordered else f"alpha_{name}_long"
+        for packing in runs.values(PACKING):
+            if 0.52 < packing < 0.59:
+                continue  # at the transition
+            answer, numbers = _grows_linearly(runs.at(packing=packing), f"/msd/{name}_mm2", own)
+            if numbers:
+                answers.append(answer.placed(f"{phase}, {packing:g}"))
+                late.append(f"{numbers} at φ = {packing:g}")
+        if late:
+            found.append(f"{phase}: {'; '.join(late)}")
+    return conclude(answers, "at long times, as exponent or as slope over that at half the lag, " + ". ".join(found))
 
 
 def diffusion_along_the_director(evidence: Evidence) -> Finding:
@@ -182,8 +269,7 @@ def no_superdiffusion_across(evidence: Evidence) -> Finding:
         answers += [below(e, 1.05).placed(f"{when} times, {at:g}") for at, e in points]
         if points:
             found.append(f"{when}: {listed(points, 'φ')}")
-    if short:
-        answers.append(trend(short, rising=False).placed("falls with packing"))
+    answers += [below(e, 1).placed(f"sub-diffusive at {at:g}") for at, e in short if at > 0.69]
     return conclude(answers, "exponents across at times that are " + "; ".join(found))
 
 
@@ -211,9 +297,15 @@ def c2_levels_off(evidence: Evidence) -> Finding:
     changes = runs.points(PACKING, late_lags.change_of_level("/rotation/c2"))
     return conclude([trend(points, rising=True).placed("grows with packing"),
                      *(close_to(e, 0, LEVEL).placed(f"level at {at:g}") for at, e in changes),
-                     *(close_to(e, 1, 0.15).placed(f"near 1 at {at:g}") for at, e in points if at > 0.79)],
+                     *(above(e, NEAR_ONE).placed(f"near 1 at {at:g}") for at, e in points if at > 0.79)],
                     f"{listed(points, 'φ')}" + (f"; over the last octave of lags it changes by {listed(changes, 'φ')}"
                                                 if changes else ""))
+
+
+def c2_forgets(evidence: Evidence) -> Finding:
+    points = points_of(short_rods(evidence), PACKING, late_c2)
+    return conclude([close_to(e, 0, LEVEL).placed(f"{at:g}") for at, e in points],
+                    f"C₂ at the longest lags: {listed(points, 'φ')}")
 
 
 #: Over which velocities are averaged, as in the paper [s]. Where rods have no memory beyond it, correlations
@@ -259,6 +351,17 @@ def rotation_subdiffusive(evidence: Evidence) -> Finding:
         return Finding()
     return conclude([trend(points, rising=False).placed("falls with packing"),
                      *(below(e, 1).placed(f"{at:g}") for at, e in points)], f"exponent {listed(points, 'φ')}")
+
+
+def turning_diffuses(evidence: Evidence) -> Finding:
+    answers, found = [], []
+    runs = short_rods(evidence)
+    for packing in runs.values(PACKING):
+        answer, numbers = _grows_linearly(runs.at(packing=packing), "/rotation/msad_rad2", "alpha_rotation_long")
+        if numbers:
+            answers.append(answer.placed(f"{packing:g}"))
+            found.append(f"{numbers} at φ = {packing:g}")
+    return conclude(answers, "at long times: " + "; ".join(found))
 
 
 def turning_saturates(evidence: Evidence) -> Finding:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Sequence
 
 from .figures import FIGURES, Figure
-from .statements import Statement, Verdict, as_table
+from .statements import CALIBRATES, Statement, Verdict, as_table
 
 
 @dataclass(frozen=True)
@@ -30,10 +30,11 @@ class Page:
 
 
 PAGES: tuple[Page, ...] = (
-    Page("figure-2", ("2",)), Page("figure-3", ("3", "size", "steady")), Page("figure-4", ("4",)),
+    Page("figure-2", ("2",)), Page("figure-3", ("3", "scaling", "steady")), Page("figure-4", ("4",)),
     Page("figure-5", ("5",)), Page("figure-6", ("6", "elasticity")), Page("figure-7", ("7",)),
-    Page("figure-8", ("8", "layer-trends", "larger-box", "ends", "gap")), Page("figure-9", ("9", "diffusion-more")),
-    Page("figure-10", ("10",)), Page("figure-11", ("11",)), Page("figure-12", ("12",)), Page("figure-13", ("13",)),
+    Page("figure-8", ("8", "layer-trends", "larger-box", "ends", "gap", "taper")),
+    Page("figure-9", ("9", "diffusion-more")), Page("figure-10", ("10",)), Page("figure-11", ("11",)),
+    Page("figure-12", ("12",)), Page("figure-13", ("13",)),
     Page("figure-14", ("14", "melting")), Page("shaking", ("shaking",)))
 
 
@@ -50,7 +51,8 @@ def index(found: Sequence[Verdict], folder: str) -> str:
     """The pages, what they show, and the verdicts on their statements; a table of Markdown."""
     lines = ["| page | shows | statements |", "|---|---|---|"]
     for page in PAGES:
-        words = [v.finding.verdict for v in found if page.has(v.statement)]
+        words = [CALIBRATES if v.statement.role == CALIBRATES else v.finding.verdict
+                 for v in found if page.has(v.statement)]
         counted = ", ".join(f"{words.count(word)} {word}" for word in dict.fromkeys(words))
         shows = "; ".join(figure.title for figure in page.drawn)
         lines.append(f"| [{page.name.replace('-', ' ')}]({folder}/{page.name}.md) | {shows} | {counted} |")

@@ -15,8 +15,9 @@ from .evidence import Evidence
 from .figures import FIGURES, Figure
 from .next_runs import open_questions, open_statements
 from .pages import PAGES, content, index, page_of
+from .rules import AGREES, CONSISTENT, CONTRADICTS, DISAGREES, IN_PART, NO_DATA, OPEN
 from .sets import ORDER
-from .statements import STATEMENTS, Statement, Verdict, as_table, judged
+from .statements import CALIBRATES, HARDLY_FAILS, STATEMENTS, Statement, Verdict, as_table, judged
 from .time_step import differences, prices
 
 
@@ -54,15 +55,24 @@ def tally(evidence: Evidence) -> str:
 
 
 def _tally(found: list[Verdict]) -> str:
-    counts = Counter(verdict.finding.verdict for verdict in found)
-    words = {"agrees": ("agrees", "agree"),
-             "consistent": ("is consistent with the runs, which refute it nowhere",
-                            "are consistent with the runs, which refute them nowhere"),
-             "in part": ("agrees in part", "agree in part"), "disagrees": ("disagrees", "disagree"),
-             "contradicts itself": ("contradicts itself", "contradict themselves"), "open": ("is open", "are open"),
-             "no data": ("has no runs yet", "have no runs yet")}
-    listed = [f"{counts[verdict]} {said[counts[verdict] > 1]}" for verdict, said in words.items() if counts[verdict]]
-    return _wrapped(f"Of the paper's {len(STATEMENTS)} statements {', '.join(listed)}.").rstrip() + "\n"
+    calibrating = [verdict for verdict in found if verdict.statement.role == CALIBRATES]
+    counted = [verdict for verdict in found if verdict.statement.role != CALIBRATES]
+    counts = Counter(verdict.finding.verdict for verdict in counted)
+    easy = sum(verdict.statement.role == HARDLY_FAILS and verdict.finding.verdict == AGREES for verdict in counted)
+    words = {AGREES: ("agrees", "agree"), CONSISTENT: ("is consistent with the runs", "are consistent with the runs"),
+             IN_PART: ("agrees in part", "agree in part"), DISAGREES: ("disagrees", "disagree"),
+             CONTRADICTS: ("contradicts itself", "contradict themselves"), OPEN: ("is open", "are open"),
+             NO_DATA: ("has no runs yet", "have no runs yet")}
+    listed = [f"{counts[verdict]} {said[counts[verdict] > 1]}" +
+              (f" ({easy} of them could hardly fail)" if verdict == AGREES and easy else "")
+              for verdict, said in words.items() if counts[verdict]]
+    were = "was" if len(calibrating) == 1 else "were"
+    return _wrapped(f"Of the paper's {len(found)} statements {len(calibrating)} {were} used to choose the model; of "
+                    f"the other {len(counted)}, {_and(listed)}.").rstrip() + "\n"
+
+
+def _and(words: list[str]) -> str:
+    return " and ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
 
 
 def questions(found: list[Verdict]) -> str:

@@ -141,6 +141,11 @@ def trend(points: Sequence[tuple[float, Estimate]], rising: bool) -> Answer:
     return larger(deciding[-1], deciding[0])
 
 
+def all_of(answers: Sequence[Answer]) -> Answer:
+    """One answer for several questions of which each must be yes: no where one is, else open where one is."""
+    return min(answers, key=lambda answer: (False, None, True).index(answer.word))
+
+
 @dataclass
 class Finding:
     """What the runs say to a statement.

@@ -24,6 +24,8 @@ class Statement:
     says:   the sentence, in short
     check:  what the runs say to it
     note:   how it is read, or why it can only be refuted
+    role:   how far its verdict is evidence: CALIBRATES the model, and so stands outside of the tally, or HARDLY_FAILS;
+            empty where it is evidence as all others are
     """
 
     id: str
@@ -31,7 +33,13 @@ class Statement:
     says: str
     check: Callable[[Evidence], Finding]
     note: str = ""
+    role: str = ""
 
+
+#: The model was chosen so that it holds.
+CALIBRATES = "used for calibration"
+#: It holds by symmetry, by construction, or by a factor of hundreds.
+HARDLY_FAILS = "could hardly fail"
 
 STATEMENTS: tuple[Statement, ...] = (
     Statement("steady-state", "2", "Rods start aligned, S(0) = 1, and are steady after 400 to 600 s (ℓ = 4.5 mm)",
@@ -49,10 +57,13 @@ STATEMENTS: tuple[Statement, ...] = (
     Statement("saturates", "3", "⟨S⟩ of rods longer than 3.5 mm rises with packing to about 1", order_checks.saturates,
               "whether it rises continuously takes runs from disorder too, which these are not; the box is narrower "
               "than the paper's"),
-    Statement("transition-size", "size", "The area fraction at which order sets in rises with the box",
+    Statement("longer-order", "3", "At the same area fraction rods order when they are made longer",
+              order_checks.longer_rods_order, "the box is narrower than the paper's"),
+    Statement("transition-size", "scaling", "The area fraction at which order sets in rises with the box",
               order_checks.transition_rises_with_size),
-    Statement("long-range", "size", "The order is long-range", order_checks.long_range,
-              "finite boxes can refute it, not prove it: quasi-long-range order is a small power of L as well"),
+    Statement("long-range", "scaling", "The order is long-range", order_checks.long_range,
+              "S(L) against what the waves of the director make of it without a free parameter. That S falls so in "
+              "these boxes does not show that it never levels off in wider ones"),
     Statement("unimodal", "4", "P[S] has one peak at every packing (ℓ = 4.5 mm)", order_checks.one_peak,
               "independent samples of all replicas are added up; 50 are asked for"),
     Statement("broadest", "4", "S fluctuates most near the transition", order_checks.broadest_at_the_transition),
@@ -61,11 +72,16 @@ STATEMENTS: tuple[Statement, ...] = (
               "side stay along it, so that none is seen to come about"),
     Statement("activity", "shaking", "Γ is a measure of the activity, and at Γ = 0 there is none",
               order_checks.activity,
-              "at Γ = 0: that the plates give no energy and what the rods had at the start falls; rolling rods go on"),
+              "at Γ = 0: that the plates give no energy and what the rods had at the start falls; rolling rods go on",
+              HARDLY_FAILS),
+    Statement("forgetting", "2", "Velocities forget the start within about a period of the plates",
+              motion_checks.forgets_the_start,
+              "asked of the velocities in the plane, from one to three periods after the start"),
     Statement("g2", "5", "G₂(r) decays to 0 for ℓ = 2.5 mm at every packing, and levels off for ℓ = 4.5 mm when dense",
               structure_checks.g2_decays_or_levels),
     Statement("isotropic", "6", "G₂ is isotropic at 0.45 (ℓ = 4.5 mm)", structure_checks.g2_isotropic_when_dilute,
-              "asked of its contour at 0.2"),
+              "asked of its contour at 0.2, in the frame of the director of the same rods, which finds some order in "
+              "any number of them: the ratio less 1 goes as S, and its value at S = 0 counts"),
     Statement("anisotropy", "6", "G₂ falls faster across the director than along it", structure_checks.g2_anisotropic),
     Statement("g-flattens", "7", "g(r) flattens sooner along the director than across it", structure_checks.g_flattens,
               "the sentence says the contrary in its second half"),
@@ -80,6 +96,10 @@ STATEMENTS: tuple[Statement, ...] = (
               layer_checks.g2_oscillates),
     Statement("gap", "gap", "No layers at gaps of 1.4 and 1.6 mm", layer_checks.no_layers_at_wide_gaps,
               "asked of P(θ): whether it has one peak, and is less flat there than at 1.2 mm"),
+    Statement("gap-order", "gap", "At a gap of 1.4 mm the system is ordered still", layer_checks.ordered_at_a_wider_gap,
+              "in a box narrower than the paper's"),
+    Statement("taper", "taper", "The layers are due to the tapered shape", layer_checks.taper_makes_layers,
+              "asked of untapered rods, which start as a fluid: whether they have none"),
     Statement("crystal", "gap", "At a gap of 0.9 mm a crystal, without layers", layer_checks.crystal_at_a_narrow_gap,
               "all runs start as a crystal: one that melts would refute it"),
     Statement("angle-packing", "layer-trends", "θ_m grows with packing", layer_checks.angle_grows_with_packing),
@@ -95,33 +115,51 @@ STATEMENTS: tuple[Statement, ...] = (
               layer_checks.wavelength_grows_with_end),
     Statement("larger-box", "larger-box", "In a larger box the wavelength is larger and θ_m smaller",
               layer_checks.larger_box),
-    Statement("tilt", "10", "Rods swim against their tilt, fastest near n_z = ±0.2, the other way beyond 0.3",
-              motion_checks.tilt_and_velocity, "the reversal is one of the reasons for which 200 Hz is assumed"),
-    Statement("sideways", "10", "Across the rod ⟨v⟩ = 0 at every tilt", motion_checks.no_motion_sideways),
-    Statement("switching", "10", "The tilt of a rod switches from one sign to the other", motion_checks.tilt_switches),
+    Statement("tilt", "10", "Rods swim against their tilt, fastest near n_z = ±0.2", motion_checks.tilt_and_velocity),
+    Statement("reversal", "10", "Beyond n_z = ±0.3 they swim the other way", motion_checks.velocity_reverses,
+              "one of the two reasons for which 200 Hz is assumed", CALIBRATES),
+    Statement("no-tilt", "10", "A rod without tilt does not swim", motion_checks.no_velocity_without_tilt,
+              "by symmetry", HARDLY_FAILS),
+    Statement("sideways", "10", "Across the rod ⟨v⟩ = 0 at every tilt", motion_checks.no_motion_sideways,
+              "by symmetry", HARDLY_FAILS),
+    Statement("switching", "10", "The tilt of a rod switches from one sign to the other", motion_checks.tilt_switches,
+              "the paper follows rods for 30 s, hundreds of times as long", HARDLY_FAILS),
     Statement("persistence", "11", "Ways of single rods persist longer at 0.85 than at 0.65",
               motion_checks.persists_when_dense,
               "0.2 s below φ = 0.70 is half the window of 400 ms over which velocities are averaged: no memory is seen "
               "there"),
+    Statement("persistence-noise", "11", "They persist because rotational noise is less",
+              motion_checks.persists_for_want_of_noise,
+              "refuted if a way lasted longer than a direction is kept. That neighbours move together is another "
+              "cause"),
+    Statement("diffusion-both", "9", "Rods diffuse normally in both the disordered and the ordered phase (ℓ = 4.5 mm)",
+              motion_checks.normal_in_both_phases,
+              "that C_v stays above 0 for seconds, as the paper's figure 12 has it at 0.85, is an exponent above 1"),
     Statement("diffusion-rises", "9", "Short rods diffuse faster when denser", motion_checks.diffusion_rises,
-              "asked from 0.65 on: the paper's own fit has its minimum at 0.64, and here D falls up to there"),
+              "the paper's own fit has its minimum at 0.64"),
+    Statement("diffusion-level", "9", "At 0.65 D is what the paper's fit has there, 1.7 mm²/s (ℓ = 2.5 mm)",
+              motion_checks.diffusion_level,
+              "the other reason for which 200 Hz, and MSD = 4Dt, are assumed", CALIBRATES),
     Statement("diffusion-law", "9", "D = 1.7 + 480 (φ − 0.64)² mm²/s for ℓ = 2.5 mm", motion_checks.diffusion_law,
-              "the paper prints MSD = 2Dt; read here as 4Dt in the plane, which fits at 0.65; that it does is one of "
-              "the reasons for which 200 Hz is assumed"),
+              "from 0.70 on. The paper prints MSD = 2Dt; the verdict is for 4Dt, which is D in the plane"),
     Statement("diffusion-normal", "9", "Short rods diffuse normally at short and at long times",
-              motion_checks.diffusion_is_normal),
+              motion_checks.diffusion_is_normal,
+              "the paper contradicts itself: C_v above 0 beyond its averaging window is an exponent above 1"),
     Statement("diffusion-along", "9",
               "Along the director D rises up to 0.80, then falls; across it D falls, and is smaller (ℓ = 4.5 mm)",
               motion_checks.diffusion_along_the_director,
               "along it D is half the slope of the MSD, which is not linear: it depends on the lag, and so does "
               "whether it falls beyond 0.80"),
     Statement("diffusion-across", "9",
-              "Across the director nothing is super-diffusive, and the exponent at short times falls",
+              "Across the director nothing is super-diffusive, and dense rods are sub-diffusive at short times",
               motion_checks.no_superdiffusion_across),
     Statement("memory", "12", "C₂ and C_v decay more slowly when denser (ℓ = 2.5 mm)",
               motion_checks.slower_when_denser,
               "C_v from 0.65 on: below, its decay is that of the averaging window"),
-    Statement("c2-plateau", "12", "C₂ of long rods levels off, near 1 when dense", motion_checks.c2_levels_off),
+    Statement("c2-decay", "12", "C₂ of short rods decays to 0 (ℓ = 2.5 mm)", motion_checks.c2_forgets),
+    Statement("c2-plateau", "12", "C₂ of long rods levels off, near 1 when dense", motion_checks.c2_levels_off,
+              "whatever the dynamics C₂ is S² at late times: near 1 is from the square of 0.85 on, the least S that is "
+              "about 1"),
     Statement("velocity-along", "12", "C_v along the director grows with packing up to 0.80 (ℓ = 4.5 mm)",
               motion_checks.velocity_along_grows,
               "of lags beyond the 400 ms over which velocities are averaged, from which the paper concludes D; C_v(0), "
@@ -130,6 +168,8 @@ STATEMENTS: tuple[Statement, ...] = (
               motion_checks.rotation_slows),
     Statement("rotation-short", "13", "At short times rotation is sub-diffusive, the more so the denser",
               motion_checks.rotation_subdiffusive),
+    Statement("rotation-normal", "13", "At long times rotation is diffusive (ℓ = 2.5 mm)",
+              motion_checks.turning_diffuses),
     Statement("rotation-saturates", "13",
               "The angle turned levels off in the nematic and grows linearly in disorder (ℓ = 4.5 mm)",
               motion_checks.turning_saturates),
@@ -202,6 +242,8 @@ class Verdict:
     def words(self) -> str:
         """The verdict and its reason, for a table of Markdown."""
         word = f"**{self.finding.verdict}**" if self.finding.verdict == "disagrees" else self.finding.verdict
+        if self.statement.role:
+            word += f" ({self.statement.role})"
         return f"{word}: {self.finding.why}" if self.finding.why else word
 
 
@@ -218,6 +260,7 @@ def judged(evidence: Evidence, statements: Iterable[Statement] = STATEMENTS) -> 
 def as_json(found: Iterable[Verdict]) -> list[dict[str, Any]]:
     return [{"statement": v.statement.id, "figure": v.statement.figure, "says": v.statement.says,
              "verdict": v.finding.verdict, "found": v.finding.found, "why": v.finding.why, "note": v.statement.note,
+             "role": v.statement.role,
              "independent_samples": v.basis.samples, "seeds": v.basis.seeds, "boxes": v.basis.boxes,
              "sim_seconds": v.basis.seconds} for v in found]
 

@@ -103,12 +103,23 @@ def g2_decays_or_levels(evidence: Evidence) -> Finding:
 
 
 def g2_isotropic_when_dilute(evidence: Evidence) -> Finding:
-    runs = evidence["dilute"].at(packing=0.45)
-    if not runs:
-        return Finding()
-    ratio = runs.of(contour_ratio)
-    return conclude([close_to(ratio, 1, ROUND)], f"at φ = 0.45 G₂ falls to {CONTOUR:g} at distances along and across "
-                                                 f"the director whose ratio is {text(ratio)}")
+    runs = evidence.joined("dilute", "long-rods").at(4.5, 0.45)
+    boxes = [(side, here.number("S"), here.of(contour_ratio)) for side in runs.values(SIDE)
+             for here in [runs.at(side=side)]]
+    known = [(side, s, ratio) for side, s, ratio in boxes if ratio.is_known]
+    if not known:
+        return Finding() if not runs else conclude([unknown(f"G₂ does not fall to {CONTOUR:g}")], "")
+    ratios = "; ".join(f"{text(ratio)} in {side:.3g} mm, where S = {text(s)}" for side, s, ratio in known)
+    found = f"at φ = 0.45 G₂ falls to {CONTOUR:g} at distances along and across the director whose ratio is {ratios}"
+    round_ = known[-1][2]
+    if len(known) > 1:
+        # The director is that of the same few rods, along which they are correlated by choice: the more, the higher S.
+        (_, s0, r0), (_, s1, r1) = known[0], known[-1]
+        slope = (r0.value - r1.value) / (s0.value - s1.value)
+        round_ = derived(r1.value - slope * s1.value, [(1 + s1.value / (s0.value - s1.value), r1),
+                                                       (-s1.value / (s0.value - s1.value), r0)])
+        found += f"; {text(round_)} at S = 0, on the straight line"
+    return conclude([close_to(round_, 1, ROUND)], found)
 
 
 def g2_anisotropic(evidence: Evidence) -> Finding:
@@ -182,9 +193,11 @@ def mean_waves(runs: Runs) -> list[OppositeWaves]:
 
 
 def ordered_in_large_boxes(evidence: Evidence) -> Runs:
-    """Runs of rods of 4.5 mm that have a director, in boxes whose spectrum has a measured noise level."""
-    return Runs(run for run in evidence.joined("size", "elasticity", "long-range").at(length=4.5)
-                if 0.54 < key_of(run, PACKING) < 0.71 and 60 < key_of(run, SIDE) < 70)
+    """Runs of rods of 4.5 mm that have a director, in boxes whose spectrum has a measured noise level; of each packing
+    those in the largest box."""
+    runs = Runs(run for run in evidence.joined("size", "elasticity", "long-range").at(length=4.5)
+                if 0.54 < key_of(run, PACKING) < 0.71 and key_of(run, SIDE) > 60)
+    return Runs(run for packing in runs.values(PACKING) for run in runs.at(packing=packing).largest(SIDE))
 
 
 def splay_stiffer_than_bend(evidence: Evidence) -> Finding:
