@@ -45,33 +45,35 @@ QUESTIONS: dict[str, tuple[str, Batch]] = {
     "elastic constants": ("0.55 in twice the box, two seeds", Batch(4.5, 0.55, 133.968, 300, 2)),
 }
 
-#: Rods that freeze, each seed into layers of its own.
-BLUNT = ("six seeds with ends of 0.5 mm in the strip: the set `strip`", (Batch(4.0, 0.85, STRIP, 310, 3),))
+#: Rods with blunt ends where they may still be a fluid: at 0.85 they freeze.
+BLUNT = ("ends of 0.5 and 0.6 mm at 0.80, from a fluid, three seeds: the set `fluid-start`",
+         (Batch(4.0, 0.80, 41.865, 430, 6),))
 
 #: What would decide each statement that is open or may be, by its id.
 DECIDING: dict[str, tuple[str, tuple[Batch, ...]]] = {
     "oblique": ("three seeds that start turned by 30°: the set `turned`", (Batch(3.5, 0.85, 41.865, 400, 3),)),
-    "long-range": ("boxes of 33, 67 and 134 mm: the set `long-range`",
-                   (Batch(4.5, 0.70, 33.492, 400, 2), Batch(4.5, 0.70, 66.984, 400, 2),
-                    Batch(4.5, 0.70, 133.968, 400, 1))),
+    "long-range": ("0.55, 0.60 and 0.65 in a box of 134 mm, two seeds: the set `long-range`",
+                   (Batch(4.5, 0.55, 133.968, 400, 2), Batch(4.5, 0.60, 133.968, 400, 2),
+                    Batch(4.5, 0.65, 133.968, 400, 2))),
+    "taper": ("untapered rods at 0.80 and 0.85, three seeds: the set `taper`",
+              (Batch(4.5, 0.80, 41.865, 430, 3), Batch(4.5, 0.85, 41.865, 430, 3))),
     "larger-box": ("two seeds in a box of 84 mm: the set `larger-box`", (Batch(4.0, 0.85, 83.73, 400, 2),)),
     "defects": ("a run in the paper's box: the first of the set `no-order`", (Batch(3.0, 0.85, 83.73, 400, 1),)),
     "isotropic": ("twenty seeds: the set `dilute`", (Batch(4.5, 0.45, 66.984, 100, 11),)),
     "layers": ("eight seeds at 0.75, and six at 0.80 in the strip: the sets `layers` and `strip`",
                (Batch(4.5, 0.75, 41.865, 400, 4), Batch(4.5, 0.80, STRIP, 280, 2))),
-    "g2-oscillates": ("eight seeds at 0.80 in the square: the set `layers`", (Batch(4.5, 0.80, 41.865, 400, 4),)),
+    "g2-oscillates": ("the seeds from the seventh on in the strip: the set `strip`",
+                      (Batch(4.5, 0.80, STRIP, 280, 3), Batch(4.5, 0.85, STRIP, 310, 6))),
     "crystal": ("five seeds at a gap of 0.9 mm: the set `gaps`", (Batch(4.5, 0.80, 41.865, 400, 3),)),
     "rotation-saturates": ("eight seeds at 0.80 and 0.85: the set `diffusion-along`",
                            (Batch(4.5, 0.80, 33.492, 480, 4), Batch(4.5, 0.85, 33.492, 480, 4))),
     "angle-end": BLUNT,
-    "peaks-end": ("rows of 0.5 and 0.6 mm for the paper's 110 min, three seeds each: whether they melt",
-                  (Batch(4.0, 0.85, 41.865, 6600, 6),)),
+    "peaks-end": BLUNT,
     "angle-packing": ("three seeds of 4.0 mm at 0.825 in the strip: the set `strip`",
                       (Batch(4.0, 0.825, STRIP, 310, 3),)),
-    "wavelength-packing": ("some 12 seeds at 0.85 in the strip, if the means stay where they are",
-                           (Batch(4.5, 0.85, STRIP, 310, 6),)),
-    "wavelength-length": ("six seeds of 3.5 and 4.5 mm in the strip",
-                          (Batch(3.5, 0.85, STRIP, 310, 3), Batch(4.5, 0.85, STRIP, 310, 3))),
+    "wavelength-packing": ("12 seeds at 0.85 in the strip: the set `strip`", (Batch(4.5, 0.85, STRIP, 310, 6),)),
+    "wavelength-length": ("six seeds of 3.5 mm and twelve of 4.5 mm in the strip: the set `strip`",
+                          (Batch(3.5, 0.85, STRIP, 310, 3), Batch(4.5, 0.85, STRIP, 310, 6))),
     "wavelength-end": BLUNT,
 }
 
