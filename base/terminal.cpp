@@ -8,7 +8,7 @@ namespace shaken {
 std::optional<TerminalSize> terminal_size(int descriptor) {
   winsize size{};
   if (ioctl(descriptor, TIOCGWINSZ, &size) != 0 || size.ws_col == 0 || size.ws_row == 0) return std::nullopt;
-  return TerminalSize{size.ws_col, size.ws_row, size.ws_xpixel, size.ws_ypixel};
+  return TerminalSize{size.ws_col, size.ws_row};
 }
 
 }  // namespace shaken

@@ -8,8 +8,6 @@ namespace shaken {
 struct TerminalSize {
   int columns = 0;
   int lines = 0;
-  int width = 0;   ///< in pixels; 0 where the terminal does not tell
-  int height = 0;  ///< likewise
 };
 
 /// Of the terminal that `descriptor` writes to; nothing if it is none, or does not know its size.

@@ -31,7 +31,6 @@ std::string examples_text() {
       "  shaken watch s3 --for 1min    leaves after a minute; the jobs go on\n"
       "  shaken watch s3 | tee log     a line per second and job, where stdout is no terminal\n"
       "  shaken watch --every 1min > log   a line per minute\n"
-      "  shaken watch --graphics sixel   images by sixels, on a terminal that is not asked\n"
       "  NO_COLOR=1 shaken watch       in dots, without colours\n"
       "\nKeys, on a terminal:";
   for (const char* line : kWatchKeys) text += std::string("\n  ") + line;
@@ -50,8 +49,6 @@ class Watch : public Verb {
     arguments.optional("ID", id_, "A sweep (id or name) or a job; all that runs if left out", Names::kId);
     arguments.option("--for", for_, "TIME", "Leave after this time");
     arguments.option("--every", every_, "TIME", "Between lines, where stdout is no terminal; 1 s if left out");
-    arguments.option("--graphics", graphics_, kGraphicsNames,
-                     "Rods as characters, or as images where the terminal shows them; auto asks it");
     arguments.option("--lcm-url", lcm_url_, "URL", "The bus; the daemon's if left out");
   }
 
@@ -59,11 +56,6 @@ class Watch : public Verb {
     Console& console = context.console;
     if (!every_.empty()) line_every_ = duration_option("--every", every_);
     if (!for_.empty()) longest_ = duration_option("--for", for_);
-    std::optional<Graphics> graphics = graphics_named(graphics_);
-    if (!graphics) {
-      throw Failure(ExitCode::kBadInput,
-                    fmt::format("--graphics takes one of {}, not \"{}\"", kGraphicsNames, printable(graphics_)));
-    }
     ApiClient session(context.root());
     std::vector<Target> targets;
     if (!id_.empty()) {
@@ -84,11 +76,7 @@ class Watch : public Verb {
       if (console.interactive) {
         console.out.flush();
         const ColourDepth depth = console.colour ? colour_depth(std::getenv) : ColourDepth::kNone;
-        if (graphics == Graphics::kAuto && (depth == ColourDepth::kNone || is_in_multiplexer(std::getenv))) {
-          graphics = Graphics::kBlocks;
-        }
-        screen.emplace(ScreenSettings{
-            .depth = depth, .is_remote = std::getenv("SSH_CONNECTION") != nullptr, .graphics = *graphics});
+        screen.emplace(ScreenSettings{.depth = depth, .is_remote = std::getenv("SSH_CONNECTION") != nullptr});
       }
       if (bus) listen(*bus.value(), jobs, screen ? &screen->rods() : nullptr, state_has_changed);
       follow(session, targets, jobs, bus, state_has_changed, guard, screen ? &*screen : nullptr, console);
@@ -233,7 +221,6 @@ class Watch : public Verb {
   std::string every_;
   std::optional<double> longest_;  ///< [s]
   double line_every_ = 1;          ///< [s]
-  std::string graphics_ = "auto";
   std::string lcm_url_;
 };
 

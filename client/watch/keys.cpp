@@ -8,34 +8,17 @@ namespace {
 
 constexpr char kEscapeByte = '\x1b';
 constexpr std::size_t kLongestSequence = 32;
-constexpr std::size_t kLongestAnswer = 512;
-constexpr std::string_view kStringEnd = "\x1b\\";  // ST
-
-/// The length of an answer by the graphics protocol of kitty, the only strings that a terminal sends.
-std::optional<std::size_t> string_size(std::string_view bytes) {
-  if (bytes.size() > 2 && bytes[2] != 'G') return 1;  // Alt and _
-  const std::size_t end = bytes.substr(0, kLongestAnswer).find(kStringEnd, 2);
-  if (end != std::string_view::npos) return end + kStringEnd.size();
-  return bytes.size() < kLongestAnswer ? std::nullopt : std::optional(kLongestAnswer);
-}
 
 /// The length of the escape sequence (ECMA-48, 5.4 and 5.6) that `bytes` begins with; nothing if its end has not come.
 std::optional<std::size_t> sequence_size(std::string_view bytes) {
   if (bytes.size() < 2) return std::nullopt;
   if (bytes[1] == 'O') return bytes.size() < 3 ? std::nullopt : std::optional<std::size_t>(3);
-  if (bytes[1] == '_') return string_size(bytes);
   if (bytes[1] != '[') return 1;  // Esc, and a key of its own
   for (std::size_t i = 2; i < bytes.size(); ++i) {
     if (bytes[i] >= 0x40 && bytes[i] <= 0x7E) return i + 1;
     if (i >= kLongestSequence) return i + 1;
   }
   return std::nullopt;
-}
-
-/// Whether it is the answer to a question for attributes (DA1) or sizes (XTWINOPS), or one of kitty's.
-bool is_answer(std::string_view sequence) {
-  return sequence.starts_with("\x1b_G") || (sequence.starts_with("\x1b[?") && sequence.ends_with('c')) ||
-         (sequence.starts_with("\x1b[") && sequence.ends_with('t'));
 }
 
 std::optional<Key::Kind> kind_of(std::string_view sequence) {
@@ -67,12 +50,7 @@ std::vector<Key> KeyReader::add(std::string_view bytes) {
       const std::optional<std::size_t> whole = sequence_size(rest_);
       if (!whole) break;
       size = *whole;
-      const std::string_view sequence = std::string_view(rest_).substr(0, size);
-      if (is_answer(sequence)) {
-        answers_.emplace_back(sequence);
-      } else if (const auto kind = kind_of(sequence)) {
-        keys.push_back({*kind});
-      }
+      if (const auto kind = kind_of(std::string_view(rest_).substr(0, size))) keys.push_back({*kind});
     } else if (static_cast<unsigned char>(rest_.front()) < 0x7F) {
       keys.push_back({Key::Kind::kCharacter, rest_.front()});
     }

@@ -10,8 +10,6 @@
 #include "base/terminal.h"
 #include "client/live/live.h"
 #include "client/live/live_rods.h"
-#include "client/watch/graphics.h"
-#include "client/watch/image_writer.h"
 #include "client/watch/keys.h"
 #include "client/watch/screen.h"
 #include "client/watch/screen_writer.h"
@@ -24,20 +22,16 @@ namespace shaken::client {
 /// than 1.5 MB per second, or 150 kB where the terminal is on another machine.
 std::chrono::milliseconds pause_after(std::size_t bytes, bool is_remote);
 
-/// What is known of a terminal before it is asked.
+/// What is known of a terminal.
 struct ScreenSettings {
   ColourDepth depth = ColourDepth::kTrue;
   bool is_remote = false;
-  Graphics graphics = Graphics::kAuto;  ///< kAuto: the terminal is asked
 };
 
 /// The terminal of `shaken watch`: rods, numbers and keys, from its making to its end.
 class LiveScreen {
  public:
-  explicit LiveScreen(const ScreenSettings& settings);
-  LiveScreen(const LiveScreen&) = delete;
-  LiveScreen& operator=(const LiveScreen&) = delete;
-  ~LiveScreen();
+  explicit LiveScreen(const ScreenSettings& settings) : settings_(settings), writer_(settings.depth) {}
 
   /// Frames from the bus go here.
   LiveRods& rods() { return rods_; }
@@ -54,24 +48,10 @@ class LiveScreen {
   using Clock = std::chrono::steady_clock;
 
   void obey(const std::vector<Key>& keys, const LiveJobs& jobs);
-  /// Asks the terminal what must be known of it for images; keys are obeyed meanwhile.
-  void ask();
-  void take_answers();
-  void await_answers();
-  Graphics graphics() const;
-  /// The size of a character, where images can be shown.
-  std::optional<PixelSize> cell(TerminalSize size) const;
-  /// The bytes of an image, or of its removal, that `content` wants beside the cells of `grid`.
-  std::string image_bytes(const WatchContent& content, const CellGrid& grid);
 
   ScreenSettings settings_;
-  TerminalAnswers answers_;
-  int n_asked_ = 0;
-  Clock::time_point asked_at_{};
-  TerminalSize asked_size_;
   Clock::time_point typed_at_{};
   ScreenWriter writer_;
-  ImageWriter image_;
   LiveRods rods_;
   KeyReader keys_;
   Steering steering_;

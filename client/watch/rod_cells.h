@@ -11,7 +11,7 @@ namespace shaken::client {
 
 /// What a cell is filled with.
 enum class Grain {
-  kAuto,     ///< an image where the terminal shows them, half blocks where it has colours, dots where it has none
+  kAuto,     ///< half blocks where the terminal has colours, dots where it has none
   kBlocks,   ///< two coloured halves, each mixed from 2 x 2 samples
   kBraille,  ///< 2 x 4 dots of one colour: finer
 };

@@ -85,22 +85,13 @@ int put_tones(CellGrid& grid, int column, int line, std::initializer_list<Tone> 
   return column;
 }
 
-/// Whether the rods of a run are drawn as an image. The help stands in front of them, which images do not allow.
-bool has_image(const WatchContent& content) {
-  return content.cell && content.rods != nullptr && content.steering.grain == Grain::kAuto && !content.steering.help;
-}
-
 /// Whether the director is drawn in place of rods, which would be too thin to be told apart.
 bool has_director(const WatchContent& content, const Area& picture) {
-  return !has_image(content) &&
-         draws_director(*content.rods, content.steering.view, content.steering.shown_colouring(), picture);
+  return draws_director(*content.rods, content.steering.view, content.steering.shown_colouring(), picture);
 }
 
 double columns_per_mm(const WatchContent& content, const Area& picture) {
-  const RodView& view = content.steering.view;
-  if (!has_image(content)) return samples_per_mm(*content.rods, view, 2 * picture.columns, 4 * picture.lines) / 2;
-  const PixelSize size = image_size(*content.cell, picture);
-  return samples_per_mm(*content.rods, view, size.width, size.height) / content.cell->width;
+  return samples_per_mm(*content.rods, content.steering.view, 2 * picture.columns, 4 * picture.lines) / 2;
 }
 
 void put_legend(const WatchContent& content, const Area& area, const Area& picture, CellGrid& grid) {
@@ -224,7 +215,7 @@ void put_picture(const WatchContent& content, const LiveJob* job, const WatchLay
   }
   if (has_director(content, area)) {
     draw_director(*content.rods, content.defects, content.steering.view, rod_style(content), area, grid);
-  } else if (!has_image(content)) {
+  } else {
     draw_rods(*content.rods, content.defects, content.steering.view, rod_style(content), area, grid);
   }
   put_legend(content, layout.legend, area, grid);
@@ -325,12 +316,6 @@ std::string job_to_show(const std::string& job, const LiveJobs& jobs) {
   });
   const std::string& next = moving == others.end() ? others.front() : *moving;
   return present == nullptr || job_in(jobs, next)->is_running() ? next : job;
-}
-
-std::optional<Area> image_area(const WatchContent& content, int columns, int lines) {
-  const std::optional<WatchLayout> layout = watch_layout(columns, lines);
-  if (!layout || content.steering.numbers || !has_image(content)) return std::nullopt;
-  return layout->picture;
 }
 
 CellGrid watch_cells(const WatchContent& content, int columns, int lines) {

@@ -8,7 +8,6 @@
 #include "client/live/live.h"
 #include "client/watch/cells.h"
 #include "client/watch/rod_cells.h"
-#include "client/watch/rod_image.h"
 #include "client/watch/screen_writer.h"
 #include "client/watch/steering.h"
 
@@ -23,15 +22,11 @@ struct WatchContent {
   std::string title;
   std::string note;  ///< where the numbers come from
   ColourDepth depth = ColourDepth::kTrue;
-  std::optional<PixelSize> cell{};  ///< where the terminal shows images; nothing elsewhere
 };
 
 /// The screen of one run, with its rods, numbers and S(t); that of all runs, if asked for; or what it would need, with
 /// as many numbers as fit, if the terminal is too small.
 CellGrid watch_cells(const WatchContent& content, int columns, int lines);
-
-/// Where the rods are to be drawn as an image, which watch_cells leaves blank; nothing where they are cells, or hidden.
-std::optional<Area> image_area(const WatchContent& content, int columns, int lines);
 
 /// The runs that keys switch between: those that run, or all if none does.
 std::vector<std::string> choices(const LiveJobs& jobs);

@@ -122,7 +122,7 @@ bool ScreenWriter::draws_whole(const CellGrid& grid) const {
   return !last_ || last_->columns() != grid.columns() || last_->lines() != grid.lines();
 }
 
-std::string ScreenWriter::update(const CellGrid& grid, const std::string& image) {
+std::string ScreenWriter::update(const CellGrid& grid) {
   const bool is_whole = draws_whole(grid);
   std::string text;
   ScreenCell style;  // what the terminal writes with
@@ -156,7 +156,6 @@ std::string ScreenWriter::update(const CellGrid& grid, const std::string& image)
   last_ = grid;
   if (is_whole) text = "\x1b[0m\x1b[2J" + text;
   if (!text.empty()) text += "\x1b[0m";
-  text += image;
   return text.empty() ? text : kBeginUpdate + text + kEndUpdate;
 }
 

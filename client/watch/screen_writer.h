@@ -28,15 +28,14 @@ class ScreenWriter {
   explicit ScreenWriter(ColourDepth depth) : depth_(depth) {}
 
   /// The bytes that turn the last screen into `grid`; none if they are equal. A screen of another size is drawn whole.
-  /// They are marked as one update (mode 2026), so that terminals which know that do not show half of it. `image`, the
-  /// bytes of one, follows the cells as part of it.
-  std::string update(const CellGrid& grid, const std::string& image = {});
-  /// Whether `grid` will be drawn whole, over whatever is on the terminal.
-  bool draws_whole(const CellGrid& grid) const;
+  /// They are marked as one update (mode 2026), so that terminals which know that do not show half of it.
+  std::string update(const CellGrid& grid);
   /// The next screen is drawn whole: something else has written on the terminal.
   void forget() { last_.reset(); }
 
  private:
+  /// Whether `grid` will be drawn whole, over whatever is on the terminal.
+  bool draws_whole(const CellGrid& grid) const;
   std::string style_text(const ScreenCell& cell) const;
 
   ColourDepth depth_;

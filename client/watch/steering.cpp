@@ -35,11 +35,6 @@ std::string neighbour(const std::string& job, std::span<const std::string> jobs,
   return jobs[static_cast<std::size_t>((place - jobs.begin() + steps + n) % n)];
 }
 
-Grain next_grain(const Steering& state) {
-  if (state.grain == Grain::kBraille) return Grain::kBlocks;
-  return state.grain == Grain::kBlocks && state.has_images ? Grain::kAuto : Grain::kBraille;
-}
-
 void steer_by_letter(Steering& state, char letter, std::span<const std::string> jobs) {
   switch (letter) {
     case 'q':
@@ -62,7 +57,7 @@ void steer_by_letter(Steering& state, char letter, std::span<const std::string> 
       state.colouring = static_cast<Colouring>((static_cast<int>(state.colouring) + 1) % 5);
       break;
     case 'b':
-      state.grain = next_grain(state);
+      state.grain = state.grain == Grain::kBraille ? Grain::kBlocks : Grain::kBraille;
       break;
     case 'd':
       state.shows_defects = !state.shows_defects;

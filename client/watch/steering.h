@@ -17,7 +17,6 @@ struct Steering {
   Colouring colouring = Colouring::kAuto;
   Colouring automatic = Colouring::kLayers;  ///< what kAuto stands for now
   Grain grain = Grain::kAuto;
-  bool has_images = false;  ///< kAuto is an image now
   bool shows_defects = true;
   bool paused = false;   ///< the picture stands still; the run goes on
   bool numbers = false;  ///< numbers and curves of all runs in place of the rods of one
@@ -41,7 +40,7 @@ inline constexpr const char* kWatchKeys[] = {
     "+ / -        zoom in / out; 0: the whole box",
     "arrows       move the view",
     "c            colours: auto, angle to the director, angle, tilt, species",
-    "b            fine dots, coloured blocks, or an image (--graphics)",
+    "b            fine dots, or coloured blocks",
     "d            defects, or none",
     "o            numbers and S(t) of all runs, or the rods of one",
     "?            these keys",

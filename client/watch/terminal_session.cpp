@@ -66,11 +66,8 @@ void TerminalSession::leave() {
 }
 
 bool TerminalSession::write(const std::string& bytes) {
-  // What was cut may be an image, which goes on until the terminal is told that it has ended.
-  if (std::exchange(is_cut_, false)) return write("\x1b\\" + bytes);
   const ssize_t n = ::write(STDOUT_FILENO, bytes.data(), bytes.size());
   if (n == std::ssize(bytes)) return true;
-  is_cut_ = true;
   // A terminal takes all, unless a signal comes. What nobody reads shall not keep it from being given back.
   is_gone_ = n < 0 && errno != EINTR;
   tcflush(STDOUT_FILENO, TCOFLUSH);

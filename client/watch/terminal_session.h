@@ -38,7 +38,6 @@ class TerminalSession {
   void enter();
   void leave();
 
-  bool is_cut_ = false;  ///< the last write has not come to its end
   bool has_keys_ = false;
   bool is_gone_ = false;
   bool has_settings_ = false;  ///< `before_` holds those that the terminal is to be given back with

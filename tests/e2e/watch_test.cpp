@@ -38,9 +38,8 @@ bool has_own_network() { return std::getenv("SHAKEN_OWN_NETWORK") != nullptr; }
 /// A program on a terminal of its own.
 class OnTerminal {
  public:
-  OnTerminal(const std::vector<std::string>& command, int columns, int lines, bool no_color = false,
-             SmallTerminal::Skills skills = {})
-      : screen_(columns, lines, skills) {
+  OnTerminal(const std::vector<std::string>& command, int columns, int lines, bool no_color = false)
+      : screen_(columns, lines) {
     std::vector<char*> arguments;
     for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
     arguments.push_back(nullptr);
@@ -56,8 +55,6 @@ class OnTerminal {
       login_tty(slave_);
       setenv("TERM", "xterm-256color", 1);
       setenv("COLORTERM", "truecolor", 1);
-      unsetenv("TMUX");
-      unsetenv("STY");
       no_color ? setenv("NO_COLOR", "1", 1) : unsetenv("NO_COLOR");
       execv(arguments[0], arguments.data());
       _exit(127);
@@ -160,7 +157,6 @@ class OnTerminal {
     const ssize_t n = read(master_, bytes.data(), bytes.size());
     if (n <= 0) return false;
     screen_.write({bytes.data(), static_cast<std::size_t>(n)});
-    type(screen_.take_answers());
     return true;
   }
 
@@ -243,116 +239,7 @@ TEST_F(WatchOnATerminal, ShowsRodsAndObeysKeysAndSizes) {
   EXPECT_NE(watch.screen().text().find(" running "), std::string::npos) << "the last state stays on the screen";
 }
 
-constexpr SmallTerminal::Skills kSixel{.knows_sixel = true, .cell_width = 8, .cell_height = 16};
-constexpr SmallTerminal::Skills kKitty{.knows_kitty = true, .cell_width = 8, .cell_height = 16};
-
 /// Live state by way of a relay, which needs no network of its own.
-class WatchOfImages : public WatchOnATerminal {
- protected:
-  explicit WatchOfImages(const std::string& address = free_address())
-      : WatchOnATerminal({"--relay", address, "--lcm-url", "tcpq://" + address}) {}
-
-  std::vector<std::string> command(const std::string& graphics) const {
-    std::vector<std::string> words = watch_command();
-    words.insert(words.end(), {"--graphics", graphics});
-    return words;
-  }
-  static bool has_image(const SmallTerminal& screen) { return screen.image().has_value(); }
-  static bool has_none(const SmallTerminal& screen) { return !screen.image(); }
-  static std::size_t n_colours(const TerminalImage& image) {
-    return std::set<int>(image.pixels.begin(), image.pixels.end()).size();
-  }
-};
-
-TEST_F(WatchOfImages, AreShownWhereTheTerminalSaysThatItKnowsThem) {
-  for (const SmallTerminal::Skills& skills : {kSixel, kKitty}) {
-    OnTerminal watch(watch_command(), 120, 40, false, skills);
-    ASSERT_TRUE(watch.shows(has_image)) << watch.screen().text();
-    const SmallTerminal::Placed first = *watch.screen().image();
-    EXPECT_EQ(first.is_sixel, skills.knows_sixel);
-    EXPECT_EQ(first.column, 0);
-    EXPECT_EQ(first.line, 1);
-    EXPECT_EQ(first.image.width, 74 * 8) << "as wide as the picture of a terminal of 120 x 40";
-    EXPECT_EQ(first.image.height, 588) << "37 x 16, less what is no whole sixel";
-    EXPECT_GT(n_colours(first.image), 2U) << "the floor and rods";
-    EXPECT_EQ(watch.screen().text().find("▀"), std::string::npos) << watch.screen().text();
-    // It moves, and obeys keys.
-    const int n = watch.screen().n_images();
-    EXPECT_TRUE(watch.shows([n](const SmallTerminal& screen) { return screen.n_images() > n + 1; }));
-    watch.type("b");
-    EXPECT_TRUE(watch.shows(has_none)) << "dots";
-    watch.type("b");
-    EXPECT_TRUE(watch.shows("▀")) << "blocks";
-    watch.type("b");
-    EXPECT_TRUE(watch.shows(has_image));
-    EXPECT_TRUE(watch.hides("▀"));
-    watch.type("?");
-    EXPECT_TRUE(watch.shows("leave; the runs go on"));
-    EXPECT_TRUE(watch.shows(has_none)) << "it would stand in front of the help";
-    watch.type("?");
-    EXPECT_TRUE(watch.shows(has_image));
-    watch.type("o");
-    EXPECT_TRUE(watch.shows("1 running"));
-    EXPECT_TRUE(watch.shows(has_none));
-    watch.type("o");
-    EXPECT_TRUE(watch.shows(has_image));
-    watch.resize(100, 30);
-    EXPECT_TRUE(watch.shows([](const SmallTerminal& screen) {
-      return screen.image() && screen.image()->image.width == 54 * 8;
-    })) << watch.screen().text();
-    watch.type("q");
-    EXPECT_EQ(watch.wait(), 0);
-    EXPECT_FALSE(watch.screen().image()) << "it goes with the second page";
-    watch.expect_given_back();
-  }
-}
-
-TEST_F(WatchOfImages, ArePutAwayForCtrlZAndSignals) {
-  OnTerminal watch(watch_command(), 120, 40, false, kKitty);
-  ASSERT_TRUE(watch.shows(has_image)) << watch.screen().text();
-  watch.type("\x1a");
-  EXPECT_TRUE(watch.shows([](const SmallTerminal& screen) { return screen.n_visits() == 2; }));
-  EXPECT_TRUE(watch.shows(has_image)) << watch.screen().text();
-  watch.send(SIGTERM);
-  EXPECT_EQ(watch.wait(), 130);
-  EXPECT_FALSE(watch.screen().image());
-  watch.expect_given_back();
-}
-
-TEST_F(WatchOfImages, AreNotShownWhereNothingIsKnownOfThemOrOfPixels) {
-  for (const SmallTerminal::Skills& skills :
-       {SmallTerminal::Skills{.cell_width = 8, .cell_height = 16}, SmallTerminal::Skills{.knows_sixel = true}}) {
-    OnTerminal watch(watch_command(), 120, 40, false, skills);
-    EXPECT_TRUE(watch.shows("▀")) << watch.screen().text();
-    watch.type("q");
-    EXPECT_EQ(watch.wait(), 0);
-    EXPECT_EQ(watch.screen().n_images(), 0);
-    watch.expect_given_back();
-  }
-}
-
-TEST_F(WatchOfImages, ThatAreAskedForAreShownUnasked) {
-  OnTerminal blocks(command("blocks"), 120, 40, false, kSixel);
-  EXPECT_TRUE(blocks.shows("▀")) << blocks.screen().text();
-  blocks.type("q");
-  EXPECT_EQ(blocks.wait(), 0);
-  EXPECT_EQ(blocks.screen().n_images(), 0);
-  // Two protocols that the terminal knows, of which auto would take the other.
-  OnTerminal sixels(command("sixel"), 120, 40, false,
-                    {.knows_kitty = true, .knows_sixel = true, .cell_width = 8, .cell_height = 16});
-  ASSERT_TRUE(sixels.shows(has_image)) << sixels.screen().text();
-  EXPECT_TRUE(sixels.screen().image()->is_sixel);
-  OnTerminal small(command("kitty"), 120, 40, false, {.knows_kitty = true});
-  EXPECT_TRUE(small.shows("no image: size in pixels unknown")) << small.screen().text();
-  EXPECT_EQ(small.screen().n_images(), 0);
-  small.type("q");
-  EXPECT_EQ(small.wait(), 0);
-  sixels.type("q");
-  EXPECT_EQ(sixels.wait(), 0);
-  sixels.expect_given_back();
-}
-
-/// The same with live state by way of a relay.
 class WatchThroughARelay : public WatchOnATerminal {
  protected:
   explicit WatchThroughARelay(const std::string& address = free_address())

@@ -3,14 +3,11 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "client/watch/cells.h"
-#include "tests/support/terminal_images.h"
 
 namespace shaken::test {
 
@@ -19,24 +16,8 @@ namespace shaken::test {
 class SmallTerminal {
  public:
   using ScreenCell = client::ScreenCell;
-  /// What a terminal knows of images, and tells to those who ask.
-  struct Skills {
-    bool knows_kitty = false;
-    bool knows_sixel = false;
-    int cell_width = 0;  ///< [pixels]; 0: it does not tell
-    int cell_height = 0;
-  };
-  /// An image, and where it begins.
-  struct Placed {
-    TerminalImage image;
-    int column = 0;
-    int line = 0;
-    bool is_sixel = false;
-  };
-
-  SmallTerminal(int columns, int lines, Skills skills)
-      : columns_(columns), lines_(lines), skills_(skills), cells_(static_cast<std::size_t>(columns * lines)) {}
-  SmallTerminal(int columns, int lines) : SmallTerminal(columns, lines, Skills()) {}
+  SmallTerminal(int columns, int lines)
+      : columns_(columns), lines_(lines), cells_(static_cast<std::size_t>(columns * lines)) {}
 
   void write(std::string_view bytes) {
     rest_ += bytes;
@@ -51,7 +32,6 @@ class SmallTerminal {
     columns_ = columns;
     lines_ = lines;
     cells_.assign(static_cast<std::size_t>(columns * lines), {});
-    image_.reset();
   }
 
   const ScreenCell& at(int column, int line) const {
@@ -74,10 +54,6 @@ class SmallTerminal {
   bool shows_cursor() const { return cursor_; }
   bool is_updating() const { return updating_; }
   const std::string& misunderstood() const { return misunderstood_; }
-  /// What is to be sent to the program that asked.
-  std::string take_answers() { return std::exchange(answers_, {}); }
-  const std::optional<Placed>& image() const { return image_; }
-  int n_images() const { return n_images_; }
 
  private:
   static void append(std::string& text, char32_t glyph) {
@@ -106,45 +82,12 @@ class SmallTerminal {
       for (std::size_t i = 1; i < size; ++i) glyph = glyph << 6 | (static_cast<unsigned char>(rest_[i]) & 0x3FU);
       ScreenCell cell = style_;
       cell.glyph = glyph;
-      if (is_in_sixels(column_, line_)) image_.reset();
       if (column_ < columns_) cells_[static_cast<std::size_t>(line_ * columns_ + column_++)] = cell;
     }
     return size;
   }
 
-  /// Strings of a program: "\x1bP...\x1b\\" and "\x1b_...\x1b\\". A lone end is none.
-  std::size_t take_string() {
-    if (rest_[1] == '\\') return 2;
-    const std::size_t end = rest_.find("\x1b\\", 2);
-    if (end == std::string::npos) return 0;
-    const std::string_view body = std::string_view(rest_).substr(2, end - 2);
-    if (rest_[1] == 'P' && skills_.knows_sixel) {
-      place(read_sixels(body), true);
-    } else if (rest_[1] == '_' && body.starts_with('G')) {
-      auto keys = kitty_.add(body.substr(1));
-      if (keys['a'] == "q" && skills_.knows_kitty) answers_ += "\x1b_Gi=" + keys['i'] + ";OK\x1b\\";
-      if (keys['a'] == "T" && skills_.knows_kitty) place(kitty_.image(), false);
-      if (keys['a'] == "d") image_.reset();
-    } else {
-      misunderstood_ += rest_[1];
-    }
-    return end + 2;
-  }
-
-  /// Characters wipe out sixels.
-  bool is_in_sixels(int column, int line) const {
-    if (!image_ || !image_->is_sixel) return false;
-    const int x = (column - image_->column) * skills_.cell_width, y = (line - image_->line) * skills_.cell_height;
-    return x >= 0 && y >= 0 && x < image_->image.width && y < image_->image.height;
-  }
-
-  void place(const TerminalImage& image, bool is_sixel) {
-    image_ = Placed{.image = image, .column = column_, .line = line_, .is_sixel = is_sixel};
-    ++n_images_;
-  }
-
   std::size_t take_sequence() {
-    if (rest_.size() > 1 && (rest_[1] == 'P' || rest_[1] == '_' || rest_[1] == '\\')) return take_string();
     const std::size_t end = rest_.find_first_of("ABCDEFGHJKmhlsutc", 2);
     if (rest_.size() < 3 || end == std::string::npos) return 0;
     const std::string body = rest_.substr(2, end - 2);
@@ -170,21 +113,13 @@ class SmallTerminal {
       column_ = std::min(column_ + std::max(numbers[0], 1), columns_ - 1);
     } else if (command == 'J' && numbers[0] == 2) {
       cells_.assign(cells_.size(), {});
-      image_.reset();
     } else if (command == 'm') {
       restyle(numbers);
-    } else if (command == 'c' && body.empty()) {
-      answers_ += skills_.knows_sixel ? "\x1b[?62;4;22c" : "\x1b[?62;22c";
-    } else if (command == 't' && numbers[0] == 14) {
-      if (skills_.cell_width == 0) return;
-      answers_ += "\x1b[4;" + std::to_string(lines_ * skills_.cell_height) + ";" +
-                  std::to_string(columns_ * skills_.cell_width) + "t";
     } else if (body == "?1049") {
       second_page_ = command == 'h';
       n_visits_ += second_page_ ? 1 : 0;
       // What stood on the first page is not kept; its cursor is at the beginning.
       cells_.assign(cells_.size(), {});
-      image_.reset();
       line_ = column_ = 0;
     } else if (body == "?25") {
       cursor_ = command == 'h';
@@ -220,11 +155,6 @@ class SmallTerminal {
 
   int columns_;
   int lines_;
-  Skills skills_;
-  KittyReader kitty_;
-  std::string answers_;
-  std::optional<Placed> image_;
-  int n_images_ = 0;
   int column_ = 0;
   int line_ = 0;
   ScreenCell style_;

@@ -53,10 +53,8 @@ BLUNT = ("ends of 0.5 and 0.6 mm at 0.80, from a fluid, three seeds: the set `fl
 DECIDING: dict[str, tuple[str, tuple[Batch, ...]]] = {
     "oblique": ("three seeds that start turned by 30°: the set `turned`", (Batch(3.5, 0.85, 41.865, 400, 3),)),
     "long-range": ("0.55, 0.60 and 0.65 in a box of 134 mm, two seeds: the set `long-range`",
-                   (Batch(4.5, 0.55, 133.968, 400, 2), Batch(4.5, 0.60, 133.968, 400, 2),
-                    Batch(4.5, 0.65, 133.968, 400, 2))),
-    "taper": ("untapered rods at 0.80 and 0.85, three seeds: the set `taper`",
-              (Batch(4.5, 0.80, 41.865, 430, 3), Batch(4.5, 0.85, 41.865, 430, 3))),
+                   (Batch(4.5, 0.60, 133.968, 400, 6),)),
+    "taper": ("untapered rods at 0.80 and 0.85, three seeds: the set `taper`", (Batch(4.5, 0.85, 41.865, 430, 6),)),
     "larger-box": ("two seeds in a box of 84 mm: the set `larger-box`", (Batch(4.0, 0.85, 83.73, 400, 2),)),
     "defects": ("a run in the paper's box: the first of the set `no-order`", (Batch(3.0, 0.85, 83.73, 400, 1),)),
     "isotropic": ("twenty seeds: the set `dilute`", (Batch(4.5, 0.45, 66.984, 100, 11),)),

@@ -53,37 +53,6 @@ TEST(KeyReader, UnknownKeysVanishWhole) {
   EXPECT_TRUE(reader.add("1").size() < 2);
 }
 
-TEST(KeyReader, AnswersAreNoKeysAndKeysBetweenThemAreNotLost) {
-  KeyReader reader;
-  EXPECT_EQ(reader.add("n\x1b_Gi=1;OK\x1b\\q\x1b[4;600;800t3\x1b[?62;4cp"),
-            (std::vector<Key>{letter('n'), letter('q'), letter('3'), letter('p')}));
-  EXPECT_EQ(reader.take_answers(), (std::vector<std::string>{"\x1b_Gi=1;OK\x1b\\", "\x1b[4;600;800t", "\x1b[?62;4c"}));
-  EXPECT_TRUE(reader.take_answers().empty());
-}
-
-TEST(KeyReader, AnAnswerMayComeInPieces) {
-  const std::string answer = "\x1b_Gi=1;ENOTSUP:q1\x1b\\";
-  KeyReader reader;
-  for (std::size_t i = 0; i + 1 < answer.size(); ++i) {
-    EXPECT_TRUE(reader.add(answer.substr(i, 1)).empty());
-    EXPECT_EQ(reader.is_in_answer(), i >= 2) << i;
-  }
-  EXPECT_EQ(reader.add("\\q"), std::vector<Key>{letter('q')});
-  EXPECT_EQ(reader.take_answers(), std::vector<std::string>{answer});
-}
-
-TEST(KeyReader, WhatIsNoAnswerDoesNotKeepKeysBack) {
-  KeyReader reader;
-  // Alt and _, and then a key, are two keys; an answer without an end is given up.
-  EXPECT_TRUE(reader.add("\x1b_").empty());
-  EXPECT_EQ(reader.add("q"), (std::vector<Key>{{Kind::kEscape}, letter('_'), letter('q')}));
-  EXPECT_TRUE(reader.add("\x1b_").empty());
-  EXPECT_TRUE(reader.flush().empty());
-  EXPECT_EQ(reader.add("q"), std::vector<Key>{letter('q')});
-  EXPECT_TRUE(reader.add("\x1b_G" + std::string(509, '1')).empty());
-  EXPECT_EQ(reader.add("q"), std::vector<Key>{letter('q')});
-}
-
 TEST(Steering, TabAndNumbersSwitchRuns) {
   Steering state{.job = "aa"};
   EXPECT_EQ(pressed(state, "\t").job, "bb");
@@ -132,7 +101,6 @@ TEST(Steering, LettersToggle) {
   EXPECT_EQ(pressed({}, "b").grain, Grain::kBraille);
   EXPECT_EQ(pressed({}, "bb").grain, Grain::kBlocks);
   EXPECT_EQ(pressed({}, "bbb").grain, Grain::kBraille);
-  EXPECT_EQ(pressed({.job = "aa", .has_images = true}, "bbb").grain, Grain::kAuto) << "the image is the third way";
   EXPECT_FALSE(pressed({}, "d").shows_defects);
   EXPECT_TRUE(pressed({}, "o").numbers);
   EXPECT_TRUE(pressed({}, "q").quit);

@@ -165,43 +165,6 @@ TEST_F(WatchCells, DrawingTheFilmIsAStateOfItsOwn) {
   EXPECT_THAT(shown(), Not(HasSubstr("drawing")));
 }
 
-TEST_F(WatchCells, LeavesRoomForAnImage) {
-  jobs_.note_api(job_json(kFirst, "running"));
-  const auto content = [&] {
-    return WatchContent{.jobs = jobs_,
-                        .steering = steering_,
-                        .rods = rods_,
-                        .defects = defects_,
-                        .title = "sweep s1",
-                        .note = "live",
-                        .depth = depth_,
-                        .cell = PixelSize{.width = 7, .height = 20}};
-  };
-  const Area picture{0, 1, 74, 37};
-  EXPECT_EQ(image_area(content(), 120, 40), picture);
-  const CellGrid grid = watch_cells(content(), 120, 40);
-  for (int line = picture.line; line < picture.line + picture.lines; ++line) {
-    for (int column = 0; column < picture.columns; ++column) ASSERT_EQ(grid.at(column, line), ScreenCell{});
-  }
-  // The box is 74 x 7 pixels wide, and 10 mm: 2 mm are 103.6 pixels or 15 characters.
-  EXPECT_THAT(grid.text(38), HasSubstr("├─────────────┤ 2 mm"));
-  // Otherwise rods are cells, or not there.
-  EXPECT_EQ(image_area(content(), 70, 10), std::nullopt);
-  steering_.help = true;
-  EXPECT_EQ(image_area(content(), 120, 40), std::nullopt);
-  EXPECT_EQ(watch_cells(content(), 120, 40).at(1, 2).back, ink_of(kFloorTone)) << "cells, beside the help";
-  steering_.help = false;
-  steering_.numbers = true;
-  EXPECT_EQ(image_area(content(), 120, 40), std::nullopt);
-  steering_.numbers = false;
-  steering_.grain = Grain::kBlocks;
-  EXPECT_EQ(image_area(content(), 120, 40), std::nullopt);
-  EXPECT_THAT(all_text(watch_cells(content(), 120, 40)), HasSubstr("▀"));
-  steering_.grain = Grain::kAuto;
-  rods_ = nullptr;
-  EXPECT_EQ(image_area(content(), 120, 40), std::nullopt);
-}
-
 TEST_F(WatchCells, SaysWhyThereAreNoRods) {
   rods_ = nullptr;
   jobs_.note_api(job_json(kFirst, "running"));

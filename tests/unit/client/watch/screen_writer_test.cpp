@@ -96,18 +96,6 @@ TEST(ScreenWriter, AnotherSizeOrAForgottenScreenIsDrawnWhole) {
   EXPECT_THAT(writer.update(larger), HasSubstr("hello"));
 }
 
-TEST(ScreenWriter, AnImageIsPartOfTheUpdate) {
-  ScreenWriter writer(ColourDepth::kTrue);
-  CellGrid grid(10, 2);
-  grid.put(0, 0, "hello");
-  EXPECT_TRUE(writer.draws_whole(grid));
-  EXPECT_THAT(writer.update(grid, "IMAGE"), ::testing::EndsWith("hello\x1b[0mIMAGE\x1b[?2026l"));
-  EXPECT_FALSE(writer.draws_whole(grid));
-  EXPECT_EQ(writer.update(grid, "IMAGE"), "\x1b[?2026hIMAGE\x1b[?2026l");
-  EXPECT_EQ(writer.update(grid), "");
-  EXPECT_TRUE(writer.draws_whole(CellGrid(11, 2)));
-}
-
 TEST(ScreenWriter, UsesNoMoreColoursThanThereAre) {
   CellGrid grid(4, 1);
   grid.at(0, 0) = {.glyph = U'▀', .fore = 0xFF9000, .back = 0x2F8FFF};
