@@ -253,6 +253,10 @@ std::vector<Field> shape(const std::string& name, const std::string& of_density)
     later(choice<Profile>(name + ".profile", at<rod..., &RodShape::profile>,
                           {{"symmetric", Profile::kSymmetric}, {"polar", Profile::kPolar}},
                           "Whether the thickness falls from the centre to both ends, or from tail to head.")),
+    later(choice<Inertia>(name + ".inertia", at<rod..., &RodShape::inertia>,
+                          {{"solid", Inertia::kSolid}, {"beads", Inertia::kBeads}},
+                          "How the mass is distributed, which sets the moments of inertia: as in a uniform solid of the "
+                          "union of the beads, or as in uniform beads added up.")),
     bead_diameters(name + ".bead_diameters", at<rod..., &RodShape::bead_diameters>),
     later(quantity(name + ".length_spread", at<rod..., &RodShape::spread, &SizeSpread::length>, kPlain, 0, kMostSpread,
                    "Standard deviation of the rods' lengths over their mean; of spheres, of their diameters.")),

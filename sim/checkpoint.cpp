@@ -65,6 +65,7 @@ void each_scene_key(Archive&& visit, const System& system) {
     visit(rod.end_diameter);
     visit(rod.density);
     visit(static_cast<std::int64_t>(rod.profile));
+    if (rod.inertia != Inertia::kSolid) visit(static_cast<std::int64_t>(rod.inertia));
     for (const double diameter : rod.bead_diameters) visit(diameter);
     if (!rod.spread.is_any()) return;
     visit(rod.spread.length);

@@ -21,6 +21,12 @@ enum class Profile {
   kPolar,      ///< from the tail down to the head, the end that the director points to
 };
 
+/// How the mass of a rod is distributed.
+enum class Inertia {
+  kSolid,  ///< as in a uniform solid, the union of its beads
+  kBeads,  ///< as in its beads added up: each is uniform, and where two overlap there is twice the mass
+};
+
 /// How the rods of one species differ in size (polydispersity): each quantity is distributed normally about that of the
 /// mean rod (sim/rod/sizes.h), independently of the other.
 struct SizeSpread {
@@ -39,6 +45,7 @@ struct RodShape {
   int n_beads = 15;           ///< odd, unless each is given; 1 is a sphere of diameter `mid_diameter`
   double density = 8.5;       ///< [mg/mm^3]; brass. Sets the unit of energy only where all rods have the same
   Profile profile = Profile::kSymmetric;
+  Inertia inertia = Inertia::kSolid;
   std::vector<double> bead_diameters{};  ///< (n_beads) from tail to head, in place of a profile; or empty [mm]
   SizeSpread spread{};                   ///< about all that, which then is the mean rod
   /// A sphere has none: it has no director, no order and no defects.

@@ -76,6 +76,27 @@ ProfileIntegrals integrate_profile(const std::vector<double>& offset, const std:
   return sum;
 }
 
+/// Sums over the beads, of whose masses r^3 is a measure.
+struct BeadSums {
+  double r3 = 0;    ///< of r^3
+  double r3x = 0;   ///< of r^3 x
+  double r3x2 = 0;  ///< of r^3 x^2
+  double r5 = 0;    ///< of r^5
+};
+
+BeadSums sum_of_beads(const std::vector<double>& offset, const std::vector<double>& radius) {
+  BeadSums sum;
+  for (std::size_t b = 0; b < offset.size(); ++b) {
+    const double r2 = radius[b] * radius[b];
+    const double r3 = r2 * radius[b];
+    sum.r3 += r3;
+    sum.r3x += r3 * offset[b];
+    sum.r3x2 += r3 * offset[b] * offset[b];
+    sum.r5 += r3 * r2;
+  }
+  return sum;
+}
+
 /// Beads whose radius falls linearly from the middle one to both ends; the hull follows them exactly.
 void place_symmetric_beads(const RodShape& shape, Species& species) {
   SHAKEN_CHECK(shape.n_beads >= 1 && shape.n_beads % 2 == 1, "a rod has an odd number of beads");
@@ -130,7 +151,9 @@ void place_free_beads(const RodShape& shape, Species& species) {
     radius.push_back(0.5 * diameters[b]);
   }
   const ProfileIntegrals profile = integrate_profile(offset, radius);
-  for (double& s : offset) s -= profile.r2x / profile.r2;
+  const BeadSums beads = sum_of_beads(offset, radius);
+  const double centre = shape.inertia == Inertia::kSolid ? profile.r2x / profile.r2 : beads.r3x / beads.r3;
+  for (double& s : offset) s -= centre;
   species.outer_beads = outer_beads_of(offset, radius);
   species.mid_radius = species.end_radius = radius.front();
   if (n == 1) {
@@ -171,6 +194,11 @@ Species make_species(const RodShape& shape) {
   species.mass = shape.density * kPi * profile.r2;
   species.inertia_par = shape.density * 0.5 * kPi * profile.r4;
   species.inertia_perp = shape.density * kPi * (0.25 * profile.r4 + profile.r2x2);
+  if (shape.inertia == Inertia::kBeads) {
+    const BeadSums beads = sum_of_beads(species.bead_offset, species.bead_radius);
+    species.inertia_par = species.mass * 0.4 * beads.r5 / beads.r3;
+    species.inertia_perp = species.mass * (0.4 * beads.r5 + beads.r3x2) / beads.r3;
+  }
   return species;
 }
 

@@ -49,7 +49,8 @@ struct Species {
 };
 
 /// Model: uniform solid of revolution of the union of the beads; profile R(x) = max over beads of
-/// sqrt(r_b^2 - (x - s_b)^2), integrated piece by piece between the circles' crossings, so exact to rounding.
+/// sqrt(r_b^2 - (x - s_b)^2), integrated piece by piece between the circles' crossings, so exact to rounding. With
+/// Inertia::kBeads the centre of mass and the moments of inertia are those of the beads added up, of the same mass.
 Species make_species(const RodShape& shape);
 
 /// The narrowest periodic box for rods of these kinds [mm]. Two rods whose centres are half a box apart must not touch,

@@ -65,6 +65,33 @@ TEST(Species, AgreesWithBruteForceQuadrature) {
   }
 }
 
+TEST(Species, InertiaOfBeadsAddedUpFollowsSteinerWhateverOverlaps) {
+  // three alike beads of radius 1/2 at -1/2, 0 and 1/2, a third of the mass each
+  const RodShape alike{
+      .length = 2.0, .mid_diameter = 1.0, .end_diameter = 1.0, .n_beads = 3, .inertia = Inertia::kBeads};
+  const Species rod = make_species(alike);
+  RodShape as_solid = alike;
+  as_solid.inertia = Inertia::kSolid;
+  EXPECT_EQ(rod.mass, make_species(as_solid).mass);
+  EXPECT_NEAR(rod.inertia_par, 0.1 * rod.mass, 1e-14 * rod.mass);
+  EXPECT_NEAR(rod.inertia_perp, (0.1 + 0.25 * 2 / 3) * rod.mass, 1e-14 * rod.mass);
+
+  // radii 1/2 and 1, so masses of 1/9 and 8/9, at a distance of 3/2
+  const RodShape unlike{.length = 3.0, .n_beads = 2, .inertia = Inertia::kBeads, .bead_diameters = {1.0, 2.0}};
+  const Species polar = make_species(unlike);
+  EXPECT_NEAR(polar.bead_offset[0], -1.5 * 8 / 9, 1e-14);
+  EXPECT_NEAR(polar.bead_offset[1], 1.5 / 9, 1e-14);
+  EXPECT_NEAR(polar.inertia_par, 0.4 * (0.25 / 9 + 8.0 / 9) * polar.mass, 1e-14 * polar.mass);
+  EXPECT_NEAR(polar.inertia_perp, polar.inertia_par + 1.5 * 1.5 * 8 / 81 * polar.mass, 1e-14 * polar.mass);
+
+  // beads that do not overlap are the same either way
+  RodShape apart{.length = 6.0, .mid_diameter = 1.0, .end_diameter = 1.0, .n_beads = 3};
+  const Species solid = make_species(apart);
+  apart.inertia = Inertia::kBeads;
+  EXPECT_NEAR(make_species(apart).inertia_perp, solid.inertia_perp, 1e-12);
+  EXPECT_NEAR(make_species(apart).inertia_par, solid.inertia_par, 1e-13);
+}
+
 TEST(Species, BeadsAndAreaOfThePaper) {
   EXPECT_EQ(beads_for_pitch(2.5, 0.4, 0.3), 9);
   EXPECT_EQ(beads_for_pitch(4.5, 0.4, 0.3), 15);
