@@ -12,6 +12,7 @@ from shaken.estimate import Estimate
 from shaken.run import Arrays, Run
 from shaken.study import beyond_paper, next_runs
 from shaken.study.evidence import PACKING, SIDE, Evidence, Runs
+from shaken.study.motion_checks import papers_diffusion
 from shaken.study.report import sections
 from shaken.study.statements import STATEMENTS, judged
 from shaken.units import unit_of
@@ -81,11 +82,11 @@ def test_state_points_are_split_in_rising_order():
         == [(0.7, 60.0, 1), (0.8, 20.0, 1), (0.8, 40.0, 2)]
 
 
-def test_the_rival_frequency_is_read_as_the_paper_prints_it():
+def test_diffusion_at_the_rival_frequency_is_compared_with_itself():
     evidence = Evidence([run("frequency", {**diffusion(1.25, 0.05), "diffusion_short_mm2_s": (0.5, 0.02)}, packing=0.60,
                              frequency=f) for f in (200.0, 280.0)])
     (row,) = rows(beyond_paper.rival_frequency(evidence))
-    assert row[3:6] == ["2.50 ± 0.10", "2.5", "1.00 ± 0.04"], "twice D of MSD = 4Dt; 1.7 + 480 x 0.04^2 = 2.47"
+    assert row[3] == "2.50 ± 0.14", "relative errors 0.04 and 0.04"
     assert [row[0] for row in rows(beyond_paper.frequency(evidence))] == ["200", "280"]
 
 
@@ -133,6 +134,12 @@ def test_tilt_is_compared_at_the_same_packing():
                          run("mechanism", {"n_z_switching_time_s": (0.02, 0.001)}, packing=0.6, side=25.0)])
     assert [(row[0], row[1], row[-1]) for row in rows(beyond_paper.diffusion_minimum(evidence))] == [
         ("0.6", "25 mm", "20.0 ± 1.0"), ("0.6", "40 mm", "20.0 ± 1.0"), ("0.7", "40 mm", "–")]
+
+
+def test_beads_added_up_stand_beside_the_solid():
+    evidence = Evidence([run("short-rods", diffusion(4.0, 0.2)), run("inertia", diffusion(5.0, 0.2))])
+    (row,) = rows(beyond_paper.inertia(evidence))
+    assert row[3:6] == ["4.0 ± 0.2", "5.0 ± 0.2", "1.25 ± 0.08"], "1.25 (0.05^2 + 0.04^2)^(1/2)"
 
 
 def test_elastic_constants_are_those_of_boxes_that_hold_waves():
@@ -184,10 +191,38 @@ def test_the_page_has_each_table_once():
     assert set(beyond_paper.SECTIONS) <= set(sections(Evidence([])))
 
 
-def test_more_rods_stand_beside_the_fit_at_the_area_fraction_that_they_stand_for():
-    evidence = Evidence([run("density", diffusion(5.0, 0.2), packing=0.74 * 1.033, side=60.0, n_rods=1800)])
-    (row,) = rows(beyond_paper.density(evidence))
-    assert row[3:5] == ["50.0", "5.0 ± 0.2"] and row[-1] == "6.5", "1.7 + 480 x 0.1^2"
+def test_both_readings_stand_beside_the_fit():
+    # MSD = 4Dt gives half of the paper's fit everywhere, so MSD = 2Dt all of it; with more rods all of it
+    packings = (0.60, 0.65, 0.70, 0.75, 0.80, 0.85)
+    evidence = Evidence([*(run("short-rods", diffusion(papers_diffusion(at) / 2, 0.05), packing=at) for at in packings),
+                         run("density", diffusion(6.5, 0.2), packing=0.74 * 1.033, side=60.0),
+                         run("frequency", diffusion(1.7, 0.1), packing=0.65, frequency=280.0)])
+    found = [row for row in rows(beyond_paper.readings(evidence)) if row[0] != "of"]
+    (first, second), (more, paper, once, twice) = found[:2], found[-4:]
+    assert first[:5] == ["0.6", "N", "2.5", "1.23 ± 0.05", "0.50 ± 0.02"]
+    assert second[5:] == ["1.75 ± 0.10", "1.00 ± 0.06", "3.4 ± 0.2", "1.95 ± 0.11"], "1.7 + 480 x 0.01^2 = 1.748"
+    assert more[:5] == ["0.74", "1.033 N", "6.5", "6.5 ± 0.2", "1.00 ± 0.03"] and more[7:] == ["–", "–"]
+    assert paper == ["the paper", "1.7", "480", "0.64", "–"]
+    assert once[0] == "N rods, MSD = 4Dt" and twice[0] == "N rods, MSD = 2Dt"
+    for row, law in ((once, [0.85, 240, 0.64]), (twice, [1.7, 480, 0.64])):
+        assert [float(cell.split(" ± ")[0]) for cell in row[1:4]] == pytest.approx(law, rel=0.01)
+
+
+def test_a_parabola_is_known_as_well_as_its_points_are():
+    rng = np.random.default_rng(5)
+    at, error = np.array([0.65, 0.70, 0.75, 0.80, 0.85]), np.array([0.03, 0.1, 0.2, 0.15, 0.8])
+    law = 1.6 + 400 * (at - 0.67) ** 2
+    pulls, chi2 = [], []
+    for _ in range(400):
+        points = [(x, Estimate(y, e)) for x, y, e in zip(at, law + error * rng.standard_normal(5), error)]
+        found, of = beyond_paper.parabola(points)
+        pulls.append([(e.value - true) / e.error for e, true in zip(found, (1.6, 400, 0.67))])
+        chi2.append(of)
+    # errors grow where chi square is above 1, so that pulls are a little below 1
+    assert np.mean(chi2) == pytest.approx(1.0, abs=0.15)
+    assert np.abs(np.mean(pulls, axis=0)).max() < 0.15 and np.all((np.std(pulls, axis=0) > 0.7) &
+                                                                    (np.std(pulls, axis=0) < 1.05))
+    assert beyond_paper.parabola([(0.65, Estimate(1.0, 0.1))] * 3) is None
 
 
 def test_layers_of_a_strip_stand_beside_those_of_the_square_box():

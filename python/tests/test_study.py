@@ -348,6 +348,15 @@ def test_the_two_steps_are_compared_and_priced():
     # D: (0.04 / (0.05 x 1.8))^2 h and so on
     hours = [cpu / 3600 * (0.04 / (0.05 * 2 * value)) ** 2 for value, cpu in found]
     assert row[10] == f"{sum(hours) / 3:.2g}"
+    # the same trajectory counts once, as many controls as runs are still controls, and other rods are other rods
+    twin, control, beads = desk[0], _timed_run(4e-6, order(0.91, 0.01), 7200.0), _timed_run(16e-6, order(0.5, 0.02))
+    again = SimpleNamespace(**{**vars(twin), "id": "again", "sweeps": ["short-step-desk"]})
+    for run in (twin, again):
+        run.summary["state_hash"] = "0123456789abcdef"
+    control.sweeps = ["short-step-desk"]
+    beads.key = {**beads.parameters, "rods.inertia": "beads"}.get
+    (pair,) = time_step.pairs(Evidence([*desk, again, control, beads]))
+    assert len(pair.desk) == 3 and len(pair.paper) == 1
     # a run of another length is not compared
     other = Evidence([_timed_run(16e-6, order(0.9, 0.02), time=50.0), _timed_run(4e-6, order(0.9, 0.02))])
     assert time_step.pairs(other) == []

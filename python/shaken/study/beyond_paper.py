@@ -11,11 +11,12 @@ from ..estimate import Estimate, derived
 from ..run import Run
 from . import late_lags, scaling
 from .evidence import (BEADS, END, FREQUENCY, GAMMA, LENGTH, PACKING, SIDE, Evidence, Runs, box_of, box_text,
-                       by, is_from_a_fluid, key_of, number_of, place_on)
+                       by, is_from_a_fluid, key_of, number_of, place_on, points_of)
 from .late_lags import long_time_diffusion
 from .layer_checks import layered, theta_m
 from .layer_wavelength import mean_wavelength
-from .motion_checks import late_velocity_correlation, papers_diffusion, speed_between
+from .motion_checks import (PAPERS_PARABOLA, late_velocity_correlation, papers_diffusion, short_rods,
+                            speed_between)
 from .rules import text
 from .structure_checks import mean_waves, ordered_in_large_boxes
 
@@ -104,12 +105,78 @@ def beads(evidence: Evidence) -> str:
     return found
 
 
-def density(evidence: Evidence) -> str:
-    """D of rods of 2.5 mm with 3.3 % more of them than their area fraction gives."""
-    return table(by(evidence["density"], PACKING), [
-        PACKED, BOX, SEEDS, ("rods per cm²", lambda here: f"{100 * rods_per_area(here):.1f}"),
-        number("D (mm²/s)", "diffusion_mm2_s"), number("exponent, long lags", "alpha_long"),
-        ("the paper's fit, at φ / 1.033", lambda here: f"{papers_diffusion(key_of(here[0], PACKING) / 1.033):.1f}")])
+#: Number of rods in the paper's larger box over that of their area fraction here.
+MORE_RODS = 1.033
+
+
+def parabola(points: Sequence[tuple[float, Estimate]]) -> tuple[list[Estimate], float] | None:
+    """(D0, C, phi0) of D0 + C (phi - phi0)^2, fitted to (phi, D) with the weights of the errors, and chi square per
+    degree of freedom, by whose root the errors are larger where it is above 1. None of fewer than four points.
+
+    Errors of the three go to first order through the covariance of the polynomial's coefficients.
+    """
+    known = [(at, found.value, found.error) for at, found in points if found.error > 0]
+    if len(known) < 4:
+        return None
+    at, value, error = np.array(known).T
+    middle = at.mean()
+    (c, b, a), covariance = np.polyfit(at - middle, value, 2, w=1 / error, cov="unscaled")
+    chi2 = float((((np.polyval((c, b, a), at - middle) - value) / error) ** 2).sum()) / (len(known) - 3)
+    slopes = np.array([[b * b / (4 * c * c), -b / (2 * c), 1], [1, 0, 0], [b / (2 * c * c), -1 / (2 * c), 0]])
+    errors = np.sqrt(np.diag(slopes @ covariance @ slopes.T) * max(1.0, chi2))
+    values = (a - b * b / (4 * c), c, middle - b / (2 * c))
+    return [Estimate(float(v), float(e), True) for v, e in zip(values, errors)], chi2
+
+
+def dense_diffusion(evidence: Evidence) -> list[tuple[float, Estimate]]:
+    """(area fraction, D of MSD = 4Dt) of rods of 2.5 mm from 0.65 on, where the paper's fit rises."""
+    return [(at, found) for at, found in points_of(short_rods(evidence), PACKING, long_time_diffusion) if at > 0.64]
+
+
+def more_rods(evidence: Evidence) -> list[tuple[float, Estimate]]:
+    """The same with 3.3 % more rods, at the area fraction that they stand for."""
+    return [(round(at / MORE_RODS, 3), found)
+            for at, found in points_of(evidence["density"], PACKING, long_time_diffusion)]
+
+
+def readings(evidence: Evidence) -> str:
+    """D of rods of 2.5 mm by both readings of the paper's formula beside its fit, and the fits to both."""
+    rival = dict(points_of(evidence["frequency"].where(FREQUENCY, 280), PACKING, long_time_diffusion))
+    usual = points_of(short_rods(evidence), PACKING, long_time_diffusion)
+    lines = ["| φ | rods | the paper's fit | 200 Hz, MSD = 4Dt | over the fit | 200 Hz, MSD = 2Dt | over the fit | "
+             "280 Hz, MSD = 2Dt | over the fit |", "|---" * 9 + "|"]
+    for at, found, rods, other in (*((at, found, "N", rival.get(at)) for at, found in usual if at > 0.59),
+                                   *((at, found, f"{MORE_RODS} N", None) for at, found in more_rods(evidence))):
+        fit = papers_diffusion(at)
+        cells = [found, found / fit, found * 2, found * 2 / fit,
+                 *([other * 2, other * 2 / fit] if other else [Estimate(), Estimate()])]
+        lines.append(f"| {at:.3g} | {rods} | {fit:.1f} | {' | '.join(text(cell) for cell in cells)} |")
+    fits = [(name, fitted) for name, points in (("N rods", dense_diffusion(evidence)),
+                                                (f"{MORE_RODS} N rods", more_rods(evidence)))
+            if (fitted := parabola(points))]
+    if fits:
+        d0, c, phi0 = PAPERS_PARABOLA
+        lines += ["", "The parabola D₀ + C (φ − φ₀)², fitted from 0.65 on:", "",
+                  "| of | D₀ (mm²/s) | C (mm²/s) | φ₀ | χ² per degree of freedom |", "|---" * 5 + "|",
+                  f"| the paper | {d0:g} | {c:g} | {phi0:g} | – |"]
+        lines += [f"| {name}, MSD = {4 // factor}Dt | {text(values[0] * factor)} | {text(values[1] * factor)} | "
+                  f"{text(values[2])} | {chi2:.2g} |" for name, (values, chi2) in fits for factor in (1, 2)]
+    return "\n".join(lines) + "\n"
+
+
+def inertia(evidence: Evidence) -> str:
+    """D of rods of 2.5 mm whose mass is that of their beads added up, beside that of uniform solids."""
+    usual = short_rods(evidence)
+
+    def solid(here: Runs) -> Estimate:
+        return long_time_diffusion(usual.at(packing=key_of(here[0], PACKING), side=key_of(here[0], SIDE)))
+
+    return table(by(evidence["inertia"], PACKING), [
+        PACKED, BOX, SEEDS, ("D, uniform solid (mm²/s)", lambda here: text(solid(here))),
+        ("D, beads added up (mm²/s)", lambda here: text(long_time_diffusion(here))),
+        ("ratio", lambda here: text(ratio(long_time_diffusion(here), solid(here)))),
+        number("tilt keeps its sign (ms)", "n_z_switching_time_s", 1000),
+        number("v beyond n_z = 0.31 (mm/s)", beyond_reversal)])
 
 
 def frequency(evidence: Evidence) -> str:
@@ -122,12 +189,12 @@ def frequency(evidence: Evidence) -> str:
 
 
 def rival_frequency(evidence: Evidence) -> str:
-    """D of rods of 2.5 mm at 280 Hz with MSD = 2Dt, as the paper prints it, beside the paper's fit."""
+    """Whether rods of 2.5 mm diffuse normally and swim as the paper draws it at 280 Hz."""
     runs = evidence["frequency"].where(FREQUENCY, 280)
     return table(by(runs, PACKING), [
-        PACKED, BOX, SEEDS, number("D, MSD = 2Dt (mm²/s)", "diffusion_mm2_s", 2),
-        ("the paper's fit", lambda here: f"{papers_diffusion(key_of(here[0], PACKING)):.1f}"),
-        number("D, short lags", "diffusion_short_mm2_s", 2), number("exponent, long lags", "alpha_long"),
+        PACKED, BOX, SEEDS, ("D at long lags over that at short ones", lambda here: text(
+            ratio(here.number("diffusion_mm2_s"), here.number("diffusion_short_mm2_s")))),
+        number("exponent, long lags", "alpha_long"),
         number("v beyond n_z = 0.31 (mm/s)", beyond_reversal)])
 
 
@@ -318,6 +385,6 @@ def strip(evidence: Evidence) -> str:
 
 #: What makes each table of docs/findings.md, by the names of its marks.
 SECTIONS: dict[str, Callable[[Evidence], str]] = {
-    "beads": beads, "number of rods": density, "frequency": frequency, "rival frequency": rival_frequency,
-    "shaking": shaking, "diffusion": diffusion_minimum, "streaming": streaming, "defects": defects,
-    "elastic constants": elastic, "order and box": sizes, "blunt rods": blunt}
+    "beads": beads, "two readings": readings, "inertia": inertia, "frequency": frequency,
+    "rival frequency": rival_frequency, "shaking": shaking, "diffusion": diffusion_minimum, "streaming": streaming,
+    "defects": defects, "elastic constants": elastic, "order and box": sizes, "blunt rods": blunt}

@@ -215,8 +215,8 @@ def _physics(run: Run) -> int:
 
 
 class Evidence:
-    """Runs by set, of each point those of the newest physics. Where a set has a few runs of a finer time step than the
-    others these are its `controls`.
+    """Runs by set, of each point those of the newest physics. Where a set has no more runs of a finer time step than of
+    the others these are its `controls`.
 
     `runs` are ArchivedRuns, which know their sweeps; the scale is what stands behind the last dash of a sweep's name.
     """
@@ -231,7 +231,7 @@ class Evidence:
         for name, members in everything.items():
             members = of_newest_physics(members)
             steps = Counter(key_of(run, "time.step") for run in members)
-            usual = steps.most_common(1)[0][0]
+            usual = max(steps, key=lambda step: (steps[step], step))
             self._sets[name] = Runs(run for run in members if key_of(run, "time.step") >= usual * 0.999)
             self.controls[name] = Runs(run for run in members if key_of(run, "time.step") < usual * 0.999)
 
@@ -239,11 +239,11 @@ class Evidence:
         return self._sets.get(name, Runs())
 
     def joined(self, *names: str) -> Runs:
-        """The runs of several sets, each once."""
+        """The runs of several sets, each trajectory once: two sets may have measured different things on the same."""
         seen: dict[str, Run] = {}
         for name in names:
             for run in self[name]:
-                seen.setdefault(run.id, run)
+                seen.setdefault(run.summary.get("state_hash") or run.id, run)
         return Runs(seen.values())
 
     @property

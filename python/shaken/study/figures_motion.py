@@ -9,10 +9,11 @@ import numpy as np
 
 from ..estimate import Estimate
 from ..plots import names
+from ..plots.panel import Panel
 from ..plots.sheet import Sheet
 from ..run import Array, Run
-from .beyond_paper import swimming_defects
-from .evidence import FREQUENCY, LENGTH, PACKING, SIDE, Runs, key_of, number_of, place_on, points_of
+from .beyond_paper import dense_diffusion, more_rods, parabola, swimming_defects
+from .evidence import FREQUENCY, LENGTH, PACKING, SIDE, Evidence, Runs, key_of, number_of, place_on, points_of
 from .late_lags import long_time_diffusion
 from .material import Material, angle_bar, draw_curves, draw_points, draw_rods, first_snapshot, packing_scale
 from .motion_checks import (FREE_OF_THE_WINDOW, VELOCITY_WINDOW, late_c2, late_velocity_correlation, long_rods,
@@ -99,6 +100,23 @@ def _short_limit(direction: str) -> Any:
     return of
 
 
+def _draw_readings(panel: Panel, evidence: Evidence, late: list[tuple[float, Estimate]]) -> None:
+    """D of short rods at the longest lags by both readings of the paper's formula, at the frequency that is assumed and
+    at its rival, with the parabolas of both and that of the paper."""
+    rival = points_of(evidence["frequency"].where(FREQUENCY, 280), PACKING, long_time_diffusion)
+    draw_points(panel, late, "longest lags, MSD = 4Dt", 1, joined=False)
+    draw_points(panel, [(at, e * 2) for at, e in late if at > 0.59], "longest lags, MSD = 2Dt", 2, joined=False)
+    draw_points(panel, [(at, e * 2) for at, e in rival], "280 Hz, MSD = 2Dt", 3, joined=False)
+    phi = np.linspace(0.60, 0.85, 40)
+    panel.reference(phi, papers_diffusion(phi), "the paper: 1.7 + 480 (φ − 0.64)²")
+    if fitted := parabola(dense_diffusion(evidence)):
+        d0, c, phi0 = (e.value for e in fitted[0])
+        phi = phi[phi >= 0.65]
+        for factor in (1, 2):
+            panel.curve(phi, factor * (d0 + c * (phi - phi0) ** 2), colour=factor, look="line",
+                        name=f"parabola, MSD = {4 // factor}Dt")
+
+
 def diffusion(material: Material) -> Sheet:
     """9: mean square displacement and D at short and at long times: short rods, long rods along and across."""
     short, long_ = short_rods(material.evidence), long_rods(material.evidence)
@@ -114,11 +132,11 @@ def diffusion(material: Material) -> Sheet:
         draw_curves(panel, runs, f"/msd/{direction}_mm2", scale)
         panel = sheet[2 * k + 1].titles(names.axis_title(PACKING), "D (mm²/s)", title)
         draw_points(panel, runs.points(PACKING, short_limit), "t → 0", 0)
-        draw_points(panel, points_of(runs, PACKING, lambda here, way=direction: long_time_diffusion(here, way)),
-                    "longest lags", 1)
+        late = points_of(runs, PACKING, lambda here, way=direction: long_time_diffusion(here, way))
         if direction == "total":
-            phi = np.linspace(0.60, 0.85, 40)
-            panel.reference(phi, papers_diffusion(phi), "the paper: 1.7 + 480 (φ − 0.64)²")
+            _draw_readings(panel, material.evidence, late)
+        else:
+            draw_points(panel, late, "longest lags", 1)
         if direction == "across":
             panel.scale(y="log")
         else:
@@ -260,7 +278,7 @@ def melting(material: Material) -> Sheet:
 
 
 def model(material: Material) -> Sheet:
-    """What the paper leaves open: the frequency, the number of rods, the number of beads."""
+    """What the paper leaves open: frequency, number of rods, number of beads, moments of inertia."""
     evidence = material.evidence
     shaken = evidence["frequency"].at(packing=0.60)
     sheet = material.sheet(6)
@@ -281,17 +299,16 @@ def model(material: Material) -> Sheet:
     panel.reference(y=papers_diffusion(0.60), label="the paper's fit, MSD = 4Dt")
     panel.reference(y=papers_diffusion(0.60) / 2, label="the paper's fit, MSD = 2Dt")
     panel.range(y=(0, None))
-    panel = sheet[3].titles(names.axis_title(PACKING), "D (mm²/s)", "two readings")
-    draw_points(panel, points_of(short_rods(evidence), PACKING, long_time_diffusion), "200 Hz, MSD = 4Dt", 0)
-    rival = evidence["frequency"].where(FREQUENCY, 280).points(PACKING, "diffusion_mm2_s")
-    draw_points(panel, [(at, e * 2) for at, e in rival], "280 Hz, MSD = 2Dt", 1)
+    panel = sheet[3].titles(names.axis_title(PACKING), "D (mm²/s)", "moments of inertia")
+    usual = [(at, e) for at, e in points_of(short_rods(evidence), PACKING, long_time_diffusion) if at > 0.59]
+    draw_points(panel, usual, "a uniform solid's", 0)
+    draw_points(panel, points_of(evidence["inertia"], PACKING, long_time_diffusion), "those of the beads", 1)
     phi = np.linspace(0.60, 0.85, 40)
     panel.reference(phi, papers_diffusion(phi), "the paper's fit")
     panel.range(y=(0, None))
     panel = sheet[4].titles(names.axis_title(PACKING), "D (mm²/s)", "3.3 % more rods")
-    draw_points(panel, evidence["diffusion"].points(PACKING, "diffusion_mm2_s"), "N of the area fraction", 0)
-    more = evidence["density"]
-    draw_points(panel, [(round(at / 1.033, 3), e) for at, e in more.points(PACKING, "diffusion_mm2_s")], "N × 1.033", 1)
+    draw_points(panel, usual, "N of the area fraction", 0)
+    draw_points(panel, more_rods(evidence), "N × 1.033", 1)
     panel.reference(phi, papers_diffusion(phi), "the paper's fit")
     panel.range(y=(0, None))
     panel = sheet[5].titles("beads of a rod", "D (mm²/s)", "φ = 0.75")

@@ -22,9 +22,14 @@ NEAR_ONE = 0.85 ** 2
 LEVEL = 0.05
 
 
+#: D0 [mm2/s], C [mm2/s] and phi0 of the paper's fit D0 + C (phi - phi0)^2 to D of rods of 2.5 mm.
+PAPERS_PARABOLA = (1.7, 480.0, 0.64)
+
+
 def papers_diffusion(packing: float) -> float:
     """The paper's fit to D of rods of 2.5 mm [mm2/s]."""
-    return 1.7 + 480 * (packing - 0.64) ** 2
+    d0, c, phi0 = PAPERS_PARABOLA
+    return d0 + c * (packing - phi0) ** 2
 
 
 def short_rods(evidence: Evidence) -> Runs:

@@ -35,7 +35,7 @@ STRIP = 51.44
 #: What would decide each question of docs/findings.md.
 QUESTIONS: dict[str, tuple[str, Batch]] = {
     "beads": ("7, 9 and 21 beads with 986 rods each, three seeds", Batch(2.5, 0.75, 41.865, 200, 9)),
-    "number of rods": ("φ = 0.8264 of the set `density`, two seeds", Batch(2.5, 0.8264, 60, 200, 2)),
+    "number of rods": ("0.8264 and 0.878 of the set `density`, two seeds", Batch(2.5, 0.85, 60, 200, 4)),
     "frequency": ("225 and 280 Hz at 0.80, until the MSD is linear, one seed", Batch(2.5, 0.80, 60, 900, 2)),
     "shaking": ("Γ = 3 from the disordered end of a run at Γ = 14, three seeds", Batch(2.5, 0.75, 25.119, 1000, 3)),
     "minimum of D": ("0.65 to 0.85 in steps of 0.05, the set `diffusion`", Batch(2.5, 0.75, 60, 250, 10)),

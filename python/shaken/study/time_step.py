@@ -8,14 +8,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Callable
+from typing import Any, Callable
 
 from ..estimate import NAN, Estimate, derived
 from ..run import Run
 from .evidence import BEADS, END, FREQUENCY, GAMMA, GAP, LENGTH, PACKING, SIDE, Evidence, Runs, key_of, number_of
 from .rules import judged_error, text
 
-_SCENE = (LENGTH, PACKING, SIDE, END, GAP, GAMMA, FREQUENCY, BEADS)
+_SCENE = (LENGTH, PACKING, SIDE, END, GAP, GAMMA, FREQUENCY, BEADS, "plates.inclination")
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ class Pair:
 
 def pairs(evidence: Evidence) -> list[Pair]:
     """Each scene that was run at both steps, for equally long, by length and area fraction."""
-    controls: dict[tuple[float, ...], Runs] = {}
+    controls: dict[tuple[Any, ...], Runs] = {}
     for runs in evidence.controls.values():
         for run in runs:
             controls.setdefault(_scene(run), Runs()).append(run)
@@ -58,15 +58,16 @@ def layered(evidence: Evidence) -> list[Pair]:
     return [Pair(runs, Runs()) for _, runs in sorted(known.items()) if runs]
 
 
-def _by_scene(evidence: Evidence) -> dict[tuple[float, ...], Runs]:
-    found: dict[tuple[float, ...], Runs] = {}
+def _by_scene(evidence: Evidence) -> dict[tuple[Any, ...], Runs]:
+    found: dict[tuple[Any, ...], Runs] = {}
     for run in evidence.joined(*evidence.sets):
         found.setdefault(_scene(run), Runs()).append(run)
     return found
 
 
-def _scene(run: Run) -> tuple[float, ...]:
-    return tuple(round(value, 6) for value in (key_of(run, path) for path in _SCENE) if math.isfinite(value))
+def _scene(run: Run) -> tuple[Any, ...]:
+    return (*(round(value, 6) for value in (key_of(run, path) for path in _SCENE) if math.isfinite(value)),
+            run.key("rods.inertia"))
 
 
 @dataclass(frozen=True)
