@@ -120,10 +120,14 @@ def test_defects_swim_head_first_where_they_move_against_their_tail():
         *(run("short-rods", lasting(-3.0, 0.006), packing=0.8) for _ in range(2)),
         run("short-rods", lasting(-4.0, 0.006), packing=0.8, step=4e-6),
         run("short-rods", lasting(-3.0, 0.0001), packing=0.85),
-        run("phases", lasting(2.0, 0.004), length=3.0, packing=0.7)])
+        run("phases", lasting(2.0, 0.004), {"/defects/tracks/span_s": [0.2, 0.4, 0.8],
+                                            "/defects/tracks/lasting/speed_plus_along_mm_s": [1.8, 1.9, 2.0],
+                                            "/defects/tracks/lasting/speed_plus_along_sem_mm_s": [0.1, 0.2, 0.3]},
+            length=3.0, packing=0.7)])
     control, first, second = rows(beyond_paper.defects(evidence))
     assert first[1:5] == ["0.8", "40 mm", "16 µs", "2 × 200 s"] and first[6] == "0.600 ± 0.007"
     assert first[8] == "3.00 ± 0.07" and second[0] == "3 mm" and second[8] == "−2.00 ± 0.10"
+    assert first[9] == "–" and second[9] == "−1.80 ± 0.10", "over one sample"
     assert control[3] == "4 µs" and control[8] == "4.00 ± 0.10", "another step is another row"
     unknown = Runs([run("short-rods", {**lasting(-3.0, 0.006), "lasting_defect_speed_plus_along_mm_s": (-3.0, None)})])
     assert beyond_paper.swimming_defects(unknown) == [], "without an error there is no swimming"
