@@ -29,9 +29,10 @@ LARGEST = 60_000
 _FORMAT = "shaken archive 1"
 _HIGHEST = 1 << 26  # bytes that a file may grow to when it is read: nobody's disk is filled by a hostile one
 
-#: Points that are kept of curves that have more; each is the mean of those that it stands for.
-_MOST_POINTS = {"/order/order": 1050, "/order/time_s": 1050, "/order/director_rad": 1050, "/defects/n_plus": 350,
-                "/defects/n_minus": 350, "/defects/time_s": 350}
+#: Points that are kept of curves against time that have more, by their groups; each is the mean of those that it stands
+#: for.
+_MOST_POINTS = {"/defects": 350, **dict.fromkeys(("/order", "/drift", "/temperatures", "/polar", "/clusters",
+                                                  "/collisions", "/stress"), 1050)}
 #: Left out: what no figure shows, or what follows from others.
 _NO_FIGURE = ("/defects/tracks/speed_", "/msd/relative_across", "/msd/relative_along")
 _TRACE_TIME = 2.0    # seconds of which a trace keeps every point of n_z
@@ -159,7 +160,7 @@ def _packed(run: Run, sweeps: Iterable[str], arrays: dict[str, tuple[np.ndarray,
     data += bytes(-len(data) % 4)
     for name, (values, unit) in arrays.items():
         header["arrays"].append({"name": name, "unit": unit, "n": int(values.size), "at": len(data)})
-        data += _rounded(values, 8 if "_sem" in name else 10 if name in _MOST_POINTS else 12).tobytes()
+        data += _rounded(values, 8 if "_sem" in name else 10 if _group(name) in _MOST_POINTS else 12).tobytes()
     text = json.dumps(header, separators=(",", ":"), ensure_ascii=False).encode()
     return lzma.compress(text + b"\n" + bytes(data), preset=9 | lzma.PRESET_EXTREME)
 
@@ -199,11 +200,15 @@ def _kept_arrays(run: Run) -> dict[str, tuple[np.ndarray, str]]:
         elif name.startswith(_NO_FIGURE):
             continue
         elif name == "/order/director_rad":
-            values = _thinned(np.unwrap(2 * values) / 2, _MOST_POINTS[name])
-        elif name in _MOST_POINTS:
-            values = _thinned(values, _MOST_POINTS[name])
+            values = _thinned(np.unwrap(2 * values) / 2, _MOST_POINTS["/order"])
+        elif _group(name) in _MOST_POINTS:
+            values = _thinned(values, _MOST_POINTS[_group(name)])
         kept[name] = (values.ravel(), array.unit)
     return kept
+
+
+def _group(name: str) -> str:
+    return name.rpartition("/")[0]
 
 
 def _thinned(values: np.ndarray, most: int) -> np.ndarray:

@@ -103,6 +103,20 @@ def test_a_file_that_would_be_too_large_leaves_out_what_matters_least(tmp_path, 
     assert len(small.snapshots) == 1 and "/pairs/g2" in small
 
 
+def test_a_long_run_with_curves_against_time_fits(tmp_path):
+    rng, n = np.random.default_rng(4), 12000
+    time, noise = (np.arange(n) * 0.01, "s"), rng.normal(size=n)
+    made_up_run(tmp_path / "run", arrays={
+        "drift/time_s": time, "drift/x_mm": (np.cumsum(0.01 * noise), "mm"), "temperatures/time_s": time,
+        **{f"temperatures/{name}_pJ": (900 + rng.normal(size=n), "pJ") for name in ("along", "across", "turning")},
+        **{f"{group}/time_s": time for group in ("stress", "polar", "collisions", "clusters")},
+        **{f"stress/{name}": (rng.normal(size=n), "1") for name in ("xx", "yy", "xy", "yx")}})
+    path = archive.add_run(tmp_path / "run", tmp_path / "archive")
+    way = shaken.open(path)["/drift/x_mm"]
+    assert path.stat().st_size <= archive.LARGEST and len(way) <= 1050
+    assert way[-1] == pytest.approx(np.cumsum(0.01 * noise)[-12:].mean(), abs=0.02), "a mean of twelve"
+
+
 @pytest.mark.parametrize("damage", [lambda data: data[:-20], lambda data: b"junk", lambda data: b"",
                                     lambda data: lzma.compress(b"{}\n"), lambda data: lzma.compress(b"[1]\n"),
                                     lambda data: data[:100] + bytes([data[100] ^ 1]) + data[101:]])
