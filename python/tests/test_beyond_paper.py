@@ -140,6 +140,49 @@ def test_tilt_is_compared_at_the_same_packing():
         ("0.6", "25 mm", "20.0 ± 1.0"), ("0.6", "40 mm", "20.0 ± 1.0"), ("0.7", "40 mm", "–")]
 
 
+def wanderer(rng, *, tau, kinetic, pull, n_rods, seconds=400.0, step=0.01):
+    """Way of the centre of mass of rods that are pulled along x and lose their momentum within tau, as measured."""
+    n = round(seconds / step)
+    keep, speed = math.exp(-step / tau), math.sqrt(kinetic / n_rods)
+    v, way = np.zeros((n, 2)), np.array([pull * tau, 0.0])
+    for k in range(1, n):
+        v[k] = keep * v[k - 1] + speed * math.sqrt(1 - keep**2) * rng.standard_normal(2)
+    x, y = (np.cumsum((v + way) * step, axis=0)).T
+    return {"/drift/time_s": np.arange(n) * step, "/drift/x_mm": x, "/drift/y_mm": y}
+
+
+def test_pulled_rods_lose_their_momentum_as_they_wander():
+    rng, made = np.random.default_rng(3), []
+    for degrees in (0.1, 0.1, 0.1, 0.25, 0.25, 0.25):
+        pull = 9810 * math.sin(math.radians(degrees))
+        way = wanderer(rng, tau=0.3, kinetic=150.0, pull=pull, n_rods=400)
+        drift = [float((way[name][-1] - way[name][3000]) / 370) for name in ("/drift/x_mm", "/drift/y_mm")]
+        rms = math.sqrt(2 * 150 + drift[0] ** 2 + drift[1] ** 2)
+        made.append(run("response", {"drift_x_mm_s": (drift[0], 0.05), "drift_y_mm_s": (drift[1], 0.05),
+                                     "speed_rms_mm_s": (rms, 0.01)}, way, n_rods=400, seconds=400.0))
+        made[-1].scene.update(gravity=9810.0)
+        made[-1].scene["plates"]["inclination"] = degrees
+    short = run("short-rods", diffusion(9.0, 0.1))
+    (row,) = rows(beyond_paper.linear_response(Evidence([*made, short])))
+    assert row[:4] == ["2.5 mm", "0.75", "either way", "6 × 400 s"]
+    value = [float(cell.split(" ± ")[0]) for cell in row[4:]]
+    assert value[:2] == pytest.approx([0.3, 0.3], rel=0.05), "the same at both angles: the response is linear"
+    assert value[2] == pytest.approx(1.0, abs=0.05) and value[3] == pytest.approx(150, rel=0.01)
+    assert value[4] == pytest.approx(45, rel=0.2) and value[5] == pytest.approx(1.0, rel=0.2), "Einstein: tau T/m = 45"
+    assert value[6:] == [9.0, pytest.approx(0.2, rel=0.05)]
+
+
+def test_long_rods_are_pulled_along_and_across():
+    made = []
+    for angle, drift in ((0.0, (4.0, 0.3)), (90.0, (0.3, 8.0))):
+        made.append(run("response", {"drift_x_mm_s": (drift[0], 0.1), "drift_y_mm_s": (drift[1], 0.1)}, length=4.5))
+        made[-1].scene.update(gravity=9810.0)
+        made[-1].scene["plates"].update(inclination=0.1, inclination_angle=angle)
+    found = rows(beyond_paper.linear_response(Evidence(made)))
+    assert [row[2] for row in found] == ["along the director", "across the director"]
+    assert [row[4] for row in found] == ["0.234 ± 0.006", "0.467 ± 0.006"], "4 and 8 mm/s over 17.1 mm/s2"
+
+
 def test_beads_added_up_stand_beside_the_solid():
     evidence = Evidence([run("short-rods", diffusion(4.0, 0.2)), run("inertia", diffusion(5.0, 0.2))])
     (row,) = rows(beyond_paper.inertia(evidence))

@@ -9,13 +9,13 @@ import numpy as np
 
 from ..estimate import Estimate, derived
 from ..run import Run
-from . import late_lags, scaling
+from . import late_lags, response, scaling
 from .evidence import (BEADS, END, FREQUENCY, GAMMA, LENGTH, PACKING, SIDE, Evidence, Runs, box_of, box_text,
                        by, is_from_a_fluid, key_of, number_of, place_on, points_of)
 from .late_lags import long_time_diffusion
 from .layer_checks import layered, theta_m
 from .layer_wavelength import mean_wavelength
-from .motion_checks import (PAPERS_PARABOLA, late_velocity_correlation, papers_diffusion, short_rods,
+from .motion_checks import (PAPERS_PARABOLA, late_velocity_correlation, long_rods, papers_diffusion, short_rods,
                             speed_between)
 from .rules import text
 from .structure_checks import mean_waves, ordered_in_large_boxes
@@ -276,6 +276,34 @@ def streaming(evidence: Evidence) -> str:
         number("way along by then, in boxes", way_in_boxes), ("of it common drift", drift)])
 
 
+def linear_response(evidence: Evidence) -> str:
+    """How fast rods drift that a constant force pulls, and how their centre of mass wanders."""
+    runs = evidence["response"]
+    rods = {2.5: short_rods(evidence), 4.5: long_rods(evidence)}
+
+    def own_diffusion(here: Runs, way: str) -> Estimate:
+        known = rods.get(key_of(here[0], LENGTH), Runs()).at(packing=key_of(here[0], PACKING))
+        return long_time_diffusion(known, way) if known else Estimate(reason="not measured")
+
+    lines = ["| ℓ | φ | pulled | runs | τ at 0.1° (s) | τ at 0.25° (s) | later half over earlier | T/m (mm²/s²) | "
+             "N D_c (mm²/s) | over τT/m | D of a rod (mm²/s) | over τT/m |", "|---" * 12 + "|"]
+    for here in by(runs, LENGTH, PACKING):
+        both = key_of(here[0], LENGTH) > 4
+        for degrees in response.directions(here):
+            down = response.pulled(here, degrees)
+            way = ("across" if degrees else "along") if both else "total"
+            tau, kinetic = down.of(response.damping_time), here.of(response.kinetic)
+            wide = (response.pulled(here, 90 - degrees) if both else down).of(response.wandering)
+            own = own_diffusion(here, way)
+            taus = [text(down.where("plates.inclination", angle).of(response.damping_time)) for angle in (0.1, 0.25)]
+            cells = [f"{key_of(here[0], LENGTH):g} mm", f"{key_of(here[0], PACKING):g}",
+                     {"total": "either way"}.get(way, way + " the director"), seeds(down), *taus,
+                     *(text(cell) for cell in (down.of(response.later_over_earlier), kinetic, wide,
+                                               wide / (tau * kinetic), own, own / (tau * kinetic)))]
+            lines.append("| " + " | ".join(cells) + " |")
+    return "\n".join(lines) + "\n"
+
+
 #: Fewer lasting defects than this [1/mm2], of both signs, are one in a box of 33 mm at a time.
 _ENOUGH_DEFECTS = 0.0009
 
@@ -397,4 +425,5 @@ def strip(evidence: Evidence) -> str:
 SECTIONS: dict[str, Callable[[Evidence], str]] = {
     "beads": beads, "two readings": readings, "inertia": inertia, "frequency": frequency,
     "rival frequency": rival_frequency, "shaking": shaking, "diffusion": diffusion_minimum, "streaming": streaming,
-    "defects": defects, "elastic constants": elastic, "order and box": sizes, "blunt rods": blunt}
+    "linear response": linear_response, "defects": defects, "elastic constants": elastic, "order and box": sizes,
+    "blunt rods": blunt}
