@@ -20,17 +20,8 @@ struct NamedKind {
   std::string_view name;
   Factor::Kind kind;
 };
-constexpr auto kKinds = std::to_array<NamedKind>({{"grid", Factor::Kind::kGrid},
-                                                  {"zip", Factor::Kind::kZip},
-                                                  {"list", Factor::Kind::kList},
-                                                  {"random", Factor::Kind::kRandom},
-                                                  {"latin", Factor::Kind::kLatin},
-                                                  {"sobol", Factor::Kind::kSobol}});
-
-Spread spread_of(Factor::Kind kind) {
-  if (kind == Factor::Kind::kLatin) return Spread::kLatin;
-  return kind == Factor::Kind::kSobol ? Spread::kSobol : Spread::kRandom;
-}
+constexpr auto kKinds = std::to_array<NamedKind>(
+    {{"grid", Factor::Kind::kGrid}, {"zip", Factor::Kind::kZip}, {"list", Factor::Kind::kList}});
 
 /// Reads one product, which stands at `path` ("sweep", "sweep.1").
 class VariationReader {
@@ -49,6 +40,10 @@ class VariationReader {
         read_stages(member.value);
       } else if (member.key == "replicas") {
         variation_.replicas = read_count(within("replicas"), member.value, 1, kMaxReplicas, problems_).value_or(1);
+      } else if (member.key == "random" || member.key == "latin" || member.key == "sobol") {
+        report(
+            member.place, within(member.key),
+            "points that fill a space are entries of \"list\", which shaken.design in Python makes (docs/python.md)");
       } else {
         std::vector<std::string> names{"replicas", "stages"};
         for (const NamedKind& one : kKinds) names.emplace_back(one.name);
@@ -73,10 +68,6 @@ class VariationReader {
         return read_zip(node);
       case Factor::Kind::kList:
         return read_list(node);
-      case Factor::Kind::kRandom:
-      case Factor::Kind::kLatin:
-      case Factor::Kind::kSobol:
-        return read_draws(kind, node);
     }
   }
 
@@ -212,37 +203,6 @@ class VariationReader {
       ++factor.n_choices;
     }
     if (factor.n_choices > 0) variation_.factors.push_back(std::move(factor));
-  }
-
-  void read_draws(Factor::Kind kind, const Node& draws) {
-    const std::string path = within(name_of(kind));
-    if (!expect(draws, Node::Kind::kObject, path, "an object")) return;
-    CubePoints points{.spread = spread_of(kind)};
-    if (const Member* member = draws.find("n")) {
-      points.n = read_count(path + ".n", member->value, 1, kMaxPoints, problems_).value_or(0);
-    } else {
-      report(draws.place, path, "lacks \"n\", the number of draws");
-    }
-    if (const Member* member = draws.find("seed")) {
-      points.seed =
-          static_cast<std::uint64_t>(read_count(path + ".seed", member->value, 0, 1 << 30, problems_).value_or(1));
-    }
-    Factor factor{kind, static_cast<std::size_t>(points.n), {}, {}};
-    int dimension = 0;
-    for (const Member& member : draws.members) {
-      if (member.key == "n" || member.key == "seed") continue;
-      if (dimension == kMaxSobolDimensions && kind == Factor::Kind::kSobol) {
-        report(member.place, member.key, fmt::format("\"sobol\" has at most {} keys", kMaxSobolDimensions));
-        break;
-      }
-      if (const Field* field = swept_field(member)) {
-        std::vector<Node> values = draw_values(*field, member.value, points, dimension, room_, problems_);
-        if (!values.empty()) factor.axes.push_back({member.key, member.place, std::move(values)});
-      }
-      ++dimension;
-    }
-    if (dimension == 0) report(draws.place, path, "names no key to draw values for");
-    if (!factor.axes.empty()) variation_.factors.push_back(std::move(factor));
   }
 
   std::string path_;

@@ -22,7 +22,7 @@ struct Axis {
 
 /// Paths that vary together.
 struct Factor {
-  enum class Kind { kGrid, kZip, kList, kRandom, kLatin, kSobol };
+  enum class Kind { kGrid, kZip, kList };
   Kind kind = Kind::kGrid;
   std::size_t n_choices = 0;
   std::vector<Axis> axes;

@@ -10,7 +10,6 @@
 #include "base/keys/schema.h"
 #include "scene/factors.h"
 #include "scene/fields.h"
-#include "scene/points.h"
 #include "scene/sweep_keys.h"
 #include "scene/values.h"
 
@@ -29,10 +28,9 @@ Schema whole_number(int low, int high) { return {{"type", "integer"}, {"minimum"
 bool is_number(const Field& field) { return field.form == Form::kQuantity || field.form == Form::kWhole; }
 
 std::string range_name(Dimension dimension) { return fmt::format("range of {}", name_of(dimension)); }
-std::string interval_name(Dimension dimension) { return fmt::format("interval of {}", name_of(dimension)); }
 std::string values_name(const Field& field) { return fmt::format("values of {}", field.path); }
 
-/// "range of length", "interval of length": several values, and where values are drawn.
+/// "range of length": several values.
 void define_ranges(Dimension dimension, Schema& definitions) {
   const std::string quantity = quantity_pattern(dimension);
   Schema number{{"type", {"number", "string"}}};
@@ -46,8 +44,6 @@ void define_ranges(Dimension dimension, Schema& definitions) {
   Schema by_count = object_with(
       {{"from", number}, {"to", number}, {"n", whole_number(1, kMaxPoints)}, {"scale", scale}}, {"from", "to", "n"});
   definitions[range_name(dimension)] = any_of({std::move(text), std::move(by_step), std::move(by_count)});
-  definitions[interval_name(dimension)] =
-      object_with({{"from", number}, {"to", number}, {"scale", scale}}, {"from", "to"});
 }
 
 /// What read_values reads.
@@ -70,23 +66,15 @@ Schema values_schema(const Field& field) {
 Schema product_schema() {
   Schema values = Schema::object();
   Schema single = Schema::object();
-  Schema drawn{{"n", whole_number(1, kMaxPoints)}, {"seed", whole_number(0, 1 << 30)}};
-  drawn["n"]["description"] = "Number of points.";
-  drawn["seed"].update({{"description", "Other seeds draw other points."}, {"default", 1}});
   for (const Field& field : fields()) {
     if (field.form == Form::kBlock) continue;
     values[field.path] = refer_to(values_name(field));
     single[field.path] = refer_to(field.path);
-    if (is_number(field)) drawn[field.path] = refer_to(interval_name(field.dimension));
   }
   const auto described = [](std::string_view description, Schema schema) {
     schema["description"] = description;
     return schema;
   };
-  Schema draws = object_with(std::move(drawn), {"n"});
-  draws["minProperties"] = 2;
-  Schema sobol = draws;
-  sobol["maxProperties"] = 2 + kMaxSobolDimensions;
   Schema replicas = whole_number(1, kMaxReplicas);
   replicas["default"] = 1;
   const Schema stages{{"type", "array"}, {"items", object_with(values)}, {"minItems", 1}, {"maxItems", kMaxStages}};
@@ -94,9 +82,6 @@ Schema product_schema() {
       {{"grid", described("All combinations of the values of these keys.", object_with(values))},
        {"zip", described("These keys vary together: the first values, the second, ...", object_with(values))},
        {"list", described("Points named one by one.", {{"type", "array"}, {"items", object_with(std::move(single))}})},
-       {"random", described("Independent random points.", draws)},
-       {"latin", described("A Latin hypercube: one point in each nth of each interval.", draws)},
-       {"sobol", described("Sobol's sequence, scrambled by the seed.", std::move(sobol))},
        {"stages", described("Runs one after the other, each from where the one before has left the rods.", stages)},
        {"replicas", described("Runs of each point, each with a seed of its own.", std::move(replicas))}});
 }

@@ -40,14 +40,11 @@ std::string sweep_name(std::string_view text, const std::string& file);
 
 /// Reads a sweep file, or a scene file as a sweep of one point.
 ///   {"name"?, "executor"?, "slurm"?: {...}, "scene": {...}, "sweep": {"grid": {path: values}, "zip": {path: values},
-///   "list": [{path: value}, ...],
-///    "random": {"n", "seed", path: {"from", "to", "scale"?}}, "latin": {...}, "sobol": {...},
-///    "stages": [{path: values}, ...], "replicas": n}}
-/// The points are the product of all paths of the grid, the tuples of zip, the entries of list and the draws of random,
-/// latin and sobol, the first varying slowest, and `replicas` runs of each: replica k has time.seed + k - 1. With
-/// stages each run is a chain of runs, one after the other in time (RunPlan::start), whose points have the further
-/// parameter "stage", from 1; the stages vary faster than all but the replicas. A "sweep"
-/// may also be an array of such products: then the points are those of the first, of the second and so on; of points
+///   "list": [{path: value}, ...], "stages": [{path: values}, ...], "replicas": n}}
+/// The points are the product of all paths of the grid, the tuples of zip and the entries of list, the first varying
+/// slowest, and `replicas` runs of each: replica k has time.seed + k - 1. With stages each run is a chain of runs, one
+/// after the other in time (RunPlan::start), whose points have the further parameter "stage", from 1; the stages vary
+/// faster than all but the replicas. A "sweep" may also be an array of such products: then the points are those of the first, of the second and so on; of points
 /// that name the same run, the first is kept.
 ///
 /// Settings are applied to every point, of every product. One with several values, "rods.length=2.5,3.5" or

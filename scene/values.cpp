@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "base/keys/nearest.h"
+#include "scene/log_scale.h"
 
 namespace shaken::scene {
 
@@ -92,27 +93,6 @@ class ValuesReader {
     if (is_number && node.kind == Node::Kind::kString && node.text.find(':') != std::string::npos) return text(node);
     if (is_number && node.kind == Node::Kind::kObject) return object(node);
     return add_one(node);
-  }
-
-  void draws(const Node& node, const CubePoints& points, int dimension) {
-    const auto bounds = keys(node, {"from", "to"}, true);
-    if (!bounds) return;
-    const double from = bounds->numbers[0].value();
-    const double to = bounds->numbers[1].value();
-    const bool whole = field_.form == Form::kWhole;
-    if (!(from < to)) return report(node, "\"from\" must be less than \"to\"");
-    if (whole && !(bounds->numbers[0].is_whole() && bounds->numbers[1].is_whole())) {
-      return report(node, "\"from\" and \"to\" must be whole numbers here");
-    }
-    if (!has_room(node, points.n)) return;
-    // A whole number stands for the interval up to the next one, so that the last has the share of the others.
-    const double end = whole ? to + 1 : to;
-    const int digits = points.spread == Spread::kRandom ? 6 : 9;
-    for (const double share : points.coordinates(field_.path, dimension)) {
-      const double value = bounds->logarithmic ? between_on_log_scale(from, end, share) : from + (end - from) * share;
-      const double kept = std::clamp(whole ? std::floor(value) : rounded(value, digits).value(), from, to);
-      values_.push_back(value_node(rounded(kept, 17), bounds->unit, node.place));
-    }
   }
 
   std::vector<Node> take() { return std::move(values_); }
@@ -284,17 +264,6 @@ class ValuesReader {
 std::vector<Node> read_values(const Field& field, const Node& node, Room& room, std::vector<Problem>& problems) {
   ValuesReader reader(field, room, problems);
   reader.add(node);
-  return reader.take();
-}
-
-std::vector<Node> draw_values(const Field& field, const Node& node, const CubePoints& points, int dimension, Room& room,
-                              std::vector<Problem>& problems) {
-  if (field.form != Form::kQuantity && field.form != Form::kWhole) {
-    problems.push_back(problem_at(node.place, field.path, "only numbers can be drawn"));
-    return {};
-  }
-  ValuesReader reader(field, room, problems);
-  reader.draws(node, points, dimension);
   return reader.take();
 }
 

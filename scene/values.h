@@ -7,7 +7,6 @@
 
 #include "scene/fields.h"
 #include "scene/keys.h"
-#include "scene/points.h"
 
 namespace shaken::scene {
 
@@ -25,12 +24,6 @@ struct Room {
 /// {"from", "to", "step"} and {"from", "to", "n", "scale"?} (n values, both ends included; evenly spaced, or with even
 /// ratios where "scale" is "log"). Their values are exact decimals. None, and a problem, if there are too many.
 std::vector<Node> read_values(const Field& field, const Node& node, Room& room, std::vector<Problem>& problems);
-
-/// One value in {"from", "to", "scale"?} for each of `points`, by their coordinates in dimension number `dimension`:
-/// evenly distributed, or their logarithms where "scale" is "log". Whole numbers where the field takes no others, each
-/// from first to last with the same share; else rounded, to 6 digits if random and to 9 if not.
-std::vector<Node> draw_values(const Field& field, const Node& node, const CubePoints& points, int dimension, Room& room,
-                              std::vector<Problem>& problems);
 
 /// A whole number in [low, high], or none and a problem.
 std::optional<int> read_count(std::string_view path, const Node& node, int low, int high,

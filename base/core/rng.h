@@ -19,7 +19,6 @@ enum class RngStream : std::uint64_t {
   kNoise = 5,
   kContacts = 6,
   kReferences = 7,
-  kPoints = 8,
   kKicks = 9,
   kSamples = 10,
   kDomains = 11

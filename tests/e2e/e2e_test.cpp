@@ -365,23 +365,22 @@ TEST(EndToEnd, StoppedDaemonGoesOnWhereItWas) {
   EXPECT_EQ(hash(daemon.root() / "runs" / job), hash(out.path() / "alone"));
 }
 
-TEST(EndToEnd, ASweepOfSobolPointsGrowsByTheNewOnes) {
+TEST(EndToEnd, ASweepGrowsByTheNewPoints) {
   Daemon daemon;
   const ScratchFolder out;
   const auto with_points = [&](int n) {
     return write_file(out.path() / "sweep.json", R"({ "$schema": "sweep.schema.json", "name": "space",
       "scene": { "rods": { "length": "2.5 mm", "area_fraction": 0.3 }, "box": { "side": "8 mm" },
                  "time": { "steady": 0, "measure": "2 ms" }, "measure": { "order": { "every": "1 ms" } } },
-      "sweep": [ { "sobol": { "n": )" + std::to_string(n) +
-                                                     R"(, "rods.length": { "from": "2 mm", "to": "3 mm" },
-                   "contacts.rod_rod.friction": { "from": 0.001, "to": 1, "scale": "log" } } },
+      "sweep": [ { "grid": { "rods.length": "2.1:2.)" +
+                                                     std::to_string(n) + R"(:0.1" } },
                  { "grid": { "plates.gamma": [6, 7] } }, { "list": [ { "plates.gamma": 7 }, {} ] } ] })");
   };
   const Json first = daemon.json({"submit", with_points(4).string()});
   EXPECT_EQ(first.at("counts").at("new"), 4 + 2);  // a gamma of 7 is there, and the default
   ASSERT_EQ(daemon.shaken({"wait", "--timeout", "100"}).code, 0);
-  const Json second = daemon.json({"submit", with_points(6).string()});
-  EXPECT_EQ(second.at("counts").at("new"), 2);
+  const Json second = daemon.json({"submit", with_points(7).string()});
+  EXPECT_EQ(second.at("counts").at("new"), 2);  // a length of 2.5 is there, as that of the scene
   EXPECT_EQ(second.at("counts").at("done"), 4 + 2);
   EXPECT_EQ(daemon.shaken({"wait", "--timeout", "100"}).code, 0);
 }

@@ -64,8 +64,7 @@ class Reported(unittest.TestCase):
 
     def test_07_one_run_that_a_sweep_lists_several_times_is_one_sample(self):
         scene = {**ONE, "time": {"steady": 0, "measure": "0.1 s", "step": "20 us"}}
-        self.write("so.json", {"scene": scene, "sweep": {"sobol": {"n": 8, "seed": 1,
-                                                                   "contacts.sweeps": {"from": 1, "to": 2}}}})
+        self.write("so.json", {"scene": scene, "sweep": {"list": [{"contacts.sweeps": n} for n in [1, 2] * 4]}})
         self.start_daemon()
         self.type("shaken submit so.json --name so && shaken wait so")
         rows = json.loads(self.type("shaken results so --aggregate --json"))["rows"]

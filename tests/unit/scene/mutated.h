@@ -20,12 +20,12 @@ inline constexpr std::string_view kScene = R"({ // a comment
 inline constexpr std::string_view kSweep = R"({ "name": "x", "scene": { "box": {"side": 40} }, "sweep": {
   "grid": { "rods.length": [2.5, "3.5 mm"], "rods.area_fraction": "0.45:0.55:0.1" },
   "zip": { "box.gap": [1.2, 1.4], "plates.gamma": {"from": 6, "to": 7, "n": 2} },
-  "list": [ {"time.step": "2 us"} ], "random": { "n": 1, "seed": 1, "contacts.rod_rod.friction": {"from": 0, "to": 1} },
+  "list": [ {"time.step": "2 us"} ], "stages": [ {"plates.gamma": 6} ],
   "replicas": 2 } })";
 
 inline constexpr std::string_view kSweeps = R"({ "$schema": "sweep.schema.json", "scene": { "box": {"side": 40} },
-  "sweep": [ { "latin": { "n": 3, "seed": 7, "rods.length": {"from": 2.5, "to": "3.5 mm", "scale": "linear"} } },
-             { "sobol": { "n": 2, "contacts.sweeps": {"from": 1, "to": 4}, "box.gap": {"from": 1.2, "to": 1.4} } },
+  "sweep": [ { "grid": { "rods.length": {"from": 2.5, "to": "3.5 mm", "n": 2, "scale": "linear"} } },
+             { "zip": { "contacts.sweeps": [1, 4], "box.gap": {"from": 1.2, "to": 1.4, "step": 0.2} } },
              { "grid": { "time.step": {"from": "1 us", "to": "4 us", "n": 3, "scale": "log"} } } ] })";
 
 inline constexpr auto kPieces = std::to_array<std::string_view>(

@@ -201,19 +201,6 @@ class Writer {
       if (one_in(3)) product[part] = some(any, [&](const Field& field) { return values(field); });
     }
     if (one_in(3)) product["list"] = Json::array({some(any, [&](const Field& field) { return value(field); })});
-    for (const char* part : {"random", "latin", "sobol"}) {
-      if (!one_in(4)) continue;
-      product[part] = some([](const Field& field) { return is_number(field); },
-                           [&](const Field& field) {
-                             double a = number(field), b = number(field);
-                             if (field.form == Form::kWhole) a = std::floor(a), b = std::floor(b);
-                             Json interval{{"from", std::min(a, b)}, {"to", std::max(a, b)}};
-                             if (one_in(3)) interval["scale"] = "log";
-                             return interval;
-                           });
-      product[part]["n"] = 1 + below(4);
-      if (one_in(2)) product[part]["seed"] = below(1000);
-    }
     if (one_in(3)) product["replicas"] = 1 + below(3);
     return product;
   }
@@ -282,10 +269,10 @@ void break_sweep(Json& sweep, Writer& writer) {
       product["replicas"] = writer.one_in(2) ? Json(0) : Json("3");
       return;
     case 3:
-      product["latin"] = {{"n", writer.one_in(2) ? Json(0) : Json(2.5)}, {"box.gap", {{"from", 1}, {"to", 2}}}};
+      product["zip"] = {{"box.gap", {{"from", 1}, {"to", 2}, {"n", writer.one_in(2) ? Json(0) : Json(2.5)}}}};
       return;
     case 4:
-      product["sobol"] = {{"n", 3}, {"box.gap", {{"from", 1}, {"to", 2}, {"scale", "cubic"}}}};
+      product["zip"] = {{"box.gap", {{"from", 1}, {"to", 2}, {"n", 3}, {"scale", "cubic"}}}};
       return;
     default:
       product["grid"] = {{"box.gap", Json::array({1, "1:2"})}};

@@ -101,91 +101,28 @@ TEST(Sweep, AListNamesItsPointsOneByOne) {
   EXPECT_EQ(sweep.points[2].plan, plan_of("{}"));
 }
 
-TEST(Sweep, RandomDrawsAreRepeatable) {
-  const std::string text =
-      R"({"sweep": {"random": {"n": 20, "seed": 5, "rods.length": {"from": 2, "to": 5}, "contacts.sweeps": {"from": 1, "to": 4}}}})";
-  const Sweep sweep = sweep_of(text);
-  ASSERT_EQ(sweep.points.size(), 20u);
-  const std::vector<std::string> drawn = labels(sweep);
-  EXPECT_EQ(drawn, labels(sweep_of(text)));
-  EXPECT_EQ(std::set<std::string>(drawn.begin(), drawn.end()).size(), 20u);
-}
-
 TEST(Sweep, EverythingTogetherIsAProductWithTheLastVaryingFastest) {
   const Sweep sweep = sweep_of(R"({"sweep": {
     "grid": {"box.gap": [1.2, 1.4]},
     "zip": {"rods.length": [2.5, 4.5], "rods.area_fraction": [0.5, 0.6]},
     "list": [{"plates.gamma": 6}, {"plates.gamma": 7}],
-    "random": {"n": 3, "contacts.rod_rod.friction": {"from": 0, "to": 1}},
     "replicas": 2}})");
-  ASSERT_EQ(sweep.points.size(), 2u * 2 * 2 * 3 * 2);
-  EXPECT_THAT(sweep.points[0].label,
-              HasSubstr("box.gap=1.2 rods.length=2.5 rods.area_fraction=0.5 plates.gamma=6 contacts."));
-  EXPECT_THAT(sweep.points[1].label, HasSubstr("plates.gamma=6 contacts.rod_rod.friction="));
+  ASSERT_EQ(sweep.points.size(), 2u * 2 * 2 * 2);
+  EXPECT_THAT(sweep.points[0].label, HasSubstr("box.gap=1.2 rods.length=2.5 rods.area_fraction=0.5 plates.gamma=6"));
   EXPECT_THAT(sweep.points[1].label, HasSubstr(" replica=2"));
-  EXPECT_THAT(sweep.points[6].label, HasSubstr("plates.gamma=7"));
-  EXPECT_THAT(sweep.points[12].label, HasSubstr("rods.length=4.5"));
-  EXPECT_THAT(sweep.points[24].label, HasSubstr("box.gap=1.4"));
+  EXPECT_THAT(sweep.points[2].label, HasSubstr("plates.gamma=7"));
+  EXPECT_THAT(sweep.points[4].label, HasSubstr("rods.length=4.5"));
+  EXPECT_THAT(sweep.points[8].label, HasSubstr("box.gap=1.4"));
   std::set<std::string> ids;
   for (const SweepPoint& point : sweep.points) ids.insert(run_id(point.plan));
   EXPECT_EQ(ids.size(), sweep.points.size());
 }
 
-TEST(Sweep, LatinAndSobolAreWrittenLikeRandom) {
+TEST(Sweep, PointsThatFillASpaceComeFromPython) {
   for (const std::string kind : {"random", "latin", "sobol"}) {
-    const std::string text = R"({"sweep": {")" + kind + R"(": {"n": 16, "seed": 5,
-      "rods.length": {"from": "2 mm", "to": 5}, "contacts.rod_rod.friction": {"from": 0.001, "to": 1, "scale": "log"},
-      "contacts.sweeps": {"from": 1, "to": 4}}}})";
-    const Sweep sweep = sweep_of(text);
-    ASSERT_EQ(sweep.points.size(), 16u) << kind;
-    EXPECT_EQ(labels(sweep), labels(sweep_of(text)));
-    std::vector<int> lengths(16), frictions(16), sweeps(5);
-    for (const SweepPoint& point : sweep.points) {
-      const auto share = [](double x, double from, double to) { return (x - from) / (to - from); };
-      const double length = share(point.parameters.at("rods.length"), 2, 5);
-      const double friction =
-          share(std::log(point.parameters.at("contacts.rod_rod.friction").get<double>()), std::log(0.001), 0);
-      ++lengths.at(static_cast<std::size_t>(16 * length));
-      ++frictions.at(static_cast<std::size_t>(16 * friction));
-      ++sweeps.at(point.parameters.at("contacts.sweeps").get<std::size_t>());
-    }
-    if (kind == "random") continue;
-    EXPECT_THAT(lengths, testing::Each(1)) << kind;
-    EXPECT_THAT(frictions, testing::Each(1)) << kind;
-    EXPECT_THAT(sweeps, ElementsAre(0, 4, 4, 4, 4)) << kind;
+    EXPECT_THAT(sweep_problems(R"({"sweep": {")" + kind + R"(": {"n": 4, "box.gap": {"from": 1, "to": 2}}}})"),
+                HasSubstr("/sweep/" + kind + ": points that fill a space are entries of \"list\""));
   }
-}
-
-TEST(Sweep, MoreSobolOrRandomPointsAreAddedAtTheEnd) {
-  for (const std::string kind : {"random", "sobol"}) {
-    const auto drawn = [&](int n) {
-      return labels(sweep_of(R"({"sweep": {")" + kind + R"(": {"n": )" + std::to_string(n) +
-                             R"(, "box.gap": {"from": 1, "to": 2}, "rods.length": {"from": 2, "to": 5}}}})"));
-    };
-    const std::vector<std::string> few = drawn(10), many = drawn(37);
-    EXPECT_TRUE(std::equal(few.begin(), few.end(), many.begin())) << kind;
-  }
-}
-
-TEST(Sweep, MistakesInDrawsAreListedTogether) {
-  EXPECT_EQ(sweep_problems(R"({"sweep": {"latin": {"n": 0, "seed": -1, "box.gpa": {"from": 1, "to": 2}},
- "sobol": {"n": 4}, "random": {"n": 2, "box.gap": {"from": 1, "to": "2 s"}, "rods.length": {"form": 1, "to": 2}}}})"),
-            "s.json:1:27: /sweep/latin/n: expected a whole number in [1, 100000], not the number 0\n"
-            "s.json:1:38: /sweep/latin/seed: expected a whole number in [0, 1073741824], not the number -1\n"
-            "s.json:1:42: /box/gpa: unknown key; did you mean box.gap?\n"
-            "s.json:2:11: /sweep/sobol: names no key to draw values for\n"
-            "s.json:2:51: /box/gap: \"s\" is a unit of time, not of length; use mm, m, cm, um\n"
-            "s.json:2:92: /rods/length: the range lacks \"from\"\n"
-            "s.json:2:93: /rods/length: unknown key \"form\" in a range; did you mean from?\n");
-  std::string keys;
-  int n = 0;
-  for (const Field& field : fields()) {
-    if (field.form == Form::kQuantity && n++ <= kMaxSobolDimensions) {
-      keys += ", \"" + field.path + R"(": {"from": 1, "to": 2})";
-    }
-  }
-  EXPECT_THAT(sweep_problems(R"({"sweep": {"sobol": {"n": 2)" + keys + "}}}"),
-              HasSubstr("\"sobol\" has at most 32 keys"));
 }
 
 TEST(Sweep, AnArrayIsOneSweepAfterTheOther) {
@@ -222,12 +159,12 @@ TEST(Sweep, SettingsHoldForEachSweepOfAnArray) {
 }
 
 TEST(Sweep, MistakesInAnArrayHaveTheirNumber) {
-  EXPECT_EQ(sweep_problems(R"({"sweep": [{"gird": {}}, 3, {"latin": [], "replicas": 0, "grid": {"box.gap": [0.7]}}]})"),
+  EXPECT_EQ(sweep_problems(R"({"sweep": [{"gird": {}}, 3, {"zip": [], "replicas": 0, "grid": {"box.gap": [0.7]}}]})"),
             "s.json:1:13: /sweep/0/gird: unknown key; did you mean grid?\n"
             "s.json:1:26: /sweep/1: expected an object, not the number 3\n"
-            "s.json:1:39: /sweep/2/latin: expected an object, not an array\n"
-            "s.json:1:55: /sweep/2/replicas: expected a whole number in [1, 10000], not the number 0\n"
-            "s.json:1:79: /box/gap: a gap of 0.7 mm is too small for rods 0.8 mm thick\n");
+            "s.json:1:37: /sweep/2/zip: expected an object of paths and values, not an array\n"
+            "s.json:1:53: /sweep/2/replicas: expected a whole number in [1, 10000], not the number 0\n"
+            "s.json:1:77: /box/gap: a gap of 0.7 mm is too small for rods 0.8 mm thick\n");
   EXPECT_EQ(
       sweep_problems(R"({"sweep": [{"grid": {"rods.length": "1:60000:1"}}, {"grid": {"rods.length": "1:50000:1"}}]})"),
       "s.json:1:1: the sweep has more than 100000 points: 60000 (grid) x 1 replicas + 50000 (grid) x 1 replicas\n");
@@ -244,14 +181,11 @@ TEST(Sweep, PartsGoTogetherInEveryCombination) {
       {R"("grid": {"box.gap": [1.2, 1.4, 1.6]})", 3},
       {R"("zip": {"rods.length": "3:4:1", "rods.area_fraction": {"from": 0.3, "to": 0.4, "n": 2}})", 2},
       {R"("list": [{"plates.gamma": 6}, {"plates.gamma": 7, "contacts.sweeps": 2}])", 2},
-      {R"("random": {"n": 3, "contacts.rod_rod.friction": {"from": 0, "to": 1}})", 3},
-      {R"("latin": {"n": 2, "contacts.rod_base.friction": {"from": 0, "to": 1}})", 2},
-      {R"("sobol": {"n": 4, "contacts.rod_lid.friction": {"from": 0, "to": 1}})", 4},
       {R"("replicas": 2)", 2}};
-  for (unsigned chosen = 0; chosen < 128; ++chosen) {
+  for (unsigned chosen = 0; chosen < 16; ++chosen) {
     std::string text;
     std::size_t n = 1;
-    for (unsigned k = 0; k < 7; ++k) {
+    for (unsigned k = 0; k < 4; ++k) {
       if (((chosen >> k) & 1) == 0) continue;
       text += (text.empty() ? "" : ", ") + std::string(parts[k].text);
       n *= parts[k].n;
@@ -411,20 +345,13 @@ TEST(Sweep, StructuralMistakes) {
             "s.json:1:21: /measure: this is an object; sweep the keys in it\n");
   EXPECT_EQ(sweep_problems(R"({"sweep": {"grid": {"box.gap": [1.2]}, "list": [{"box.gap": 1.3}]}})"),
             "s.json:1:50: /box/gap: swept twice, in \"grid\" at 1:21 too\n");
-  EXPECT_EQ(sweep_problems(R"({"sweep": {"random": {"box.gap": {"from": 1.2, "to": 2}}}})"),
-            "s.json:1:22: /sweep/random: lacks \"n\", the number of draws\n");
-  EXPECT_EQ(sweep_problems(R"({"sweep": {"random": {"n": 2, "box.gap": {"from": 3, "to": 2}}}})"),
-            "s.json:1:42: /box/gap: \"from\" must be less than \"to\"\n");
-  EXPECT_EQ(sweep_problems(R"({"sweep": {"random": {"n": 2, "rods.start": {"from": 3, "to": 2}}}})"),
-            "s.json:1:45: /rods/start: only numbers can be drawn\n");
   EXPECT_EQ(sweep_problems(R"({"sweep": [], "name": 3})"),
             "s.json:1:11: /sweep: an array of sweeps needs at least one\ns.json:1:23: /name: expected a text, not the "
             "number 3\n");
-  EXPECT_EQ(sweep_problems(R"({"sweep": {"grid": 3, "zip": 4, "list": {}, "random": []}})"),
+  EXPECT_EQ(sweep_problems(R"({"sweep": {"grid": 3, "zip": 4, "list": {}}})"),
             "s.json:1:20: /sweep/grid: expected an object of paths and values, not the number 3\n"
             "s.json:1:30: /sweep/zip: expected an object of paths and values, not the number 4\n"
-            "s.json:1:41: /sweep/list: expected an array of objects, not an object\n"
-            "s.json:1:55: /sweep/random: expected an object, not an array\n");
+            "s.json:1:41: /sweep/list: expected an array of objects, not an object\n");
   EXPECT_EQ(sweep_problems(R"({"sweep": {"replicas": 0}})"),
             "s.json:1:24: /sweep/replicas: expected a whole number in [1, 10000], not the number 0\n");
   EXPECT_EQ(sweep_problems("{}", {}, 0), "--replicas 0: 0 is outside [1, 10000]\n");

@@ -155,39 +155,6 @@ TEST(Values, RandomDrawsAreWhatTheyHaveAlwaysBeen) {
   EXPECT_THAT(drawn, ElementsAre(2.57508, 2.56375, 3.94954));
 }
 
-/// Values drawn from 'range' for the whole numbers of contacts.sweeps.
-std::vector<int> whole_draws(const std::string& range, Spread spread, int n) {
-  std::vector<Problem> problems;
-  Room room;
-  std::vector<int> numbers;
-  for (const Node& value :
-       draw_values(field_at("contacts.sweeps"), *node_of(range, problems), {spread, n, 1}, 0, room, problems)) {
-    const Decimal number = parse_decimal(value.text).value();
-    EXPECT_TRUE(number.is_whole()) << value.text;
-    numbers.push_back(static_cast<int>(number.value()));
-  }
-  EXPECT_TRUE(problems.empty()) << to_string(problems);
-  return numbers;
-}
-
-TEST(Values, WholeNumbersAreDrawnFromFirstToLast) {
-  const auto count = [](const std::vector<int>& numbers, int value) {
-    return std::count(numbers.begin(), numbers.end(), value);
-  };
-  const std::vector<int> random = whole_draws(R"({"from": 1, "to": 3})", Spread::kRandom, 300);
-  for (const int value : {1, 2, 3}) EXPECT_GT(count(random, value), 60);
-  EXPECT_EQ(count(random, 1) + count(random, 2) + count(random, 3), 300);
-  // Where points are even, so are the shares.
-  for (const Spread spread : {Spread::kLatin, Spread::kSobol}) {
-    const std::vector<int> even = whole_draws(R"({"from": 1, "to": 4})", spread, 256);
-    for (const int value : {1, 2, 3, 4}) EXPECT_EQ(count(even, value), 64) << value;
-    // On a logarithmic scale 1 and 2 to 3 and 4 to 7 each have a third: [1, 2), [2, 4), [4, 8).
-    const std::vector<int> log = whole_draws(R"({"from": 1, "to": 7, "scale": "log"})", spread, 300);
-    EXPECT_NEAR(static_cast<double>(count(log, 1)), 100, 5);
-    EXPECT_NEAR(static_cast<double>(count(log, 2) + count(log, 3)), 100, 5);
-  }
-}
-
 TEST(Values, ALogarithmicScaleHasEvenRatios) {
   EXPECT_THAT(values(R"({"from": 0.001, "to": "10 mm", "n": 5, "scale": "log"})"),
               ElementsAre("0.001 mm", "0.01 mm", "0.1 mm", "1 mm", "10 mm"));
@@ -200,22 +167,6 @@ TEST(Values, ALogarithmicScaleHasEvenRatios) {
   EXPECT_EQ(problem_with(R"({"from": 1, "to": 2, "n": 3, "scale": true})"),
             "\"scale\" is \"linear\" or \"log\", not true");
   EXPECT_EQ(problem_with(R"({"from": 1, "to": 2, "step": 1, "scale": "log"})"), "unknown key \"scale\" in a range");
-}
-
-TEST(Values, BadIntervalsOfDrawsSayWhy) {
-  const auto problem_of = [](const std::string& range, std::string_view path) {
-    std::vector<Problem> problems;
-    Room room;
-    draw_values(field_at(path), *node_of(range, problems), {Spread::kLatin, 5, 1}, 0, room, problems);
-    return problems.size() == 1 ? problems.front().message : to_string(problems);
-  };
-  EXPECT_EQ(problem_of(R"({"from": 1.5, "to": 3})", "contacts.sweeps"),
-            "\"from\" and \"to\" must be whole numbers here");
-  EXPECT_EQ(problem_of(R"({"from": -1, "to": 3, "scale": "log"})", "rods.length"),
-            "a range with \"scale\": \"log\" must lie above 0");
-  EXPECT_EQ(problem_of(R"({"from": 1, "to": 3, "scael": "log"})", "rods.length"),
-            "unknown key \"scael\" in a range; did you mean scale?");
-  EXPECT_EQ(problem_of(R"({"from": 1, "to": 3})", "rods.start"), "only numbers can be drawn");
 }
 
 }  // namespace
