@@ -43,6 +43,11 @@ class System:
         """Diameter of the centre bead."""
         return 2 * max(self.bead_radius)
 
+    @property
+    def largest_tilt(self):
+        """n_z of a rod in the middle of the gap whose end beads touch both plates."""
+        return min(1.0, (self.gap / 2 - self.bead_radius[-1]) / self.bead_offset[-1])
+
     def base_at(self, time):
         return self.amplitude * math.cos(2 * math.pi * self.frequency * time) + self.amplitude
 
