@@ -44,8 +44,8 @@ std::string sweep_name(std::string_view text, const std::string& file);
 /// The points are the product of all paths of the grid, the tuples of zip and the entries of list, the first varying
 /// slowest, and `replicas` runs of each: replica k has time.seed + k - 1. With stages each run is a chain of runs, one
 /// after the other in time (RunPlan::start), whose points have the further parameter "stage", from 1; the stages vary
-/// faster than all but the replicas. A "sweep" may also be an array of such products: then the points are those of the first, of the second and so on; of points
-/// that name the same run, the first is kept.
+/// faster than all but the replicas. A "sweep" may also be an array of such products: then the points are those of the
+/// first, of the second and so on; of points that name the same run, the first is kept.
 ///
 /// Settings are applied to every point, of every product. One with several values, "rods.length=2.5,3.5" or
 /// "box.gap=0.9:1.5:0.1", is an axis of the grid; one for a path that the file's grid has takes the place of that axis.

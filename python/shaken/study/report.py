@@ -14,6 +14,7 @@ from .beyond_paper import SECTIONS, strip
 from .evidence import Evidence
 from .figures import FIGURES, Figure
 from .next_runs import open_questions, open_statements
+from .other_program import tables
 from .pages import PAGES, content, index, page_of
 from .rules import AGREES, CONSISTENT, CONTRADICTS, DISAGREES, IN_PART, NO_DATA, OPEN
 from .sets import ORDER
@@ -116,10 +117,12 @@ def _wrapped(text: str) -> str:
     return textwrap.fill(text, 120, break_long_words=False, break_on_hyphens=False) + "\n"
 
 
-def sections(evidence: Evidence, folder: str = "figures", pages: str = "validation") -> dict[str, Callable[[], str]]:
+def sections(evidence: Evidence, folder: str = "figures", pages: str = "validation",
+             data: Path = Path("data")) -> dict[str, Callable[[], str]]:
     """What makes each section that a page may have, by the names of their marks.
 
-    folder: where the figures are, as seen from the page; pages: where those of the validation are
+    folder: where the figures are, as seen from the page; pages: where those of the validation are;
+    data: the folder of what the tables of the pages need beside the archive
     """
     @functools.cache
     def found() -> list[Verdict]:
@@ -140,6 +143,7 @@ def sections(evidence: Evidence, folder: str = "figures", pages: str = "validati
             "strip": lambda: strip(evidence), "time step": lambda: differences(evidence),
             "price of errors": lambda: prices(evidence), "next runs": lambda: open_questions(evidence),
             "open": lambda: open_statements(evidence, found()),
+            "other program": lambda: tables(data / "other-program.json"),
             **{name: lambda make=make: make(evidence) for name, make in SECTIONS.items()}}
 
 
@@ -175,7 +179,7 @@ def _marks(name: str) -> str:
 def write_report(path: Path, evidence: Evidence) -> None:
     """Writes the marked sections of a Markdown file anew, and those of its pages: the files with marks in the folder
     beside it that has its name, where there is one."""
-    _write(path, sections(evidence))
+    _write(path, sections(evidence, data=path.parent / "data"))
     of_pages = sections(evidence, "../figures", ".")
     for page in sorted(path.with_suffix("").glob("*.md")):
         if re.search(_MARK, page.read_text()):
