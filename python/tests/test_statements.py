@@ -298,8 +298,8 @@ CASES = {
             layers(0.80, LAYERED, arrays=p_theta(9)) + layers(0.80, VAGUE, "gaps", gap=1.4)),
     "gap-order": tuple(layers(0.80, PLAIN, "gaps", gap=1.4, S=s, error=error)
                        for s, error in ((0.9, 0.01), (0.3, 0.01), (0.6, 0.3))),
-    "taper": tuple(layers(0.80, numbers | {"diffusion_along_mm2_s": d}, "taper", end=0.8) + layers(0.80, LAYERED)
-                   for numbers, d in ((PLAIN, 5.0), (LAYERED, 5.0), (PLAIN, 0.001))),
+    "taper": tuple(layers(0.80, numbers, "taper", end=0.8) + layers(0.80, LAYERED)
+                   for numbers in (PLAIN, LAYERED, VAGUE)),
     "crystal": (layers(0.80, LAYERED) + layers(0.80, PLAIN | {"bragg_peak": (0.5, 0.01)}, "gaps", gap=0.9),
                 layers(0.80, LAYERED) + layers(0.80, PLAIN | {"bragg_peak": (0.05, 0.001)}, "gaps", gap=0.9),
                 layers(0.80, LAYERED) + layers(0.80, PLAIN | {"bragg_peak": (0.11, 0.05)}, "gaps", gap=0.9)),

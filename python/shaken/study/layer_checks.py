@@ -14,8 +14,8 @@ from ..run import Array, Run
 from .evidence import (END, GAP, LENGTH, PACKING, SIDE, Evidence, Runs, box_of, box_text, by, is_from_a_fluid, key_of,
                        number_of, place_on, points_of)
 from .layer_wavelength import TWO_PEAKS, mean_wavelength, wavelength
-from .rules import (AGREES, CONSISTENT, NOT_RUN, Answer, Finding, above, below, close_to, conclude, larger, listed, no,
-                    refutable, text, trend, unknown, yes)
+from .rules import (AGREES, CONSISTENT, NOT_RUN, Answer, Finding, above, all_of, below, close_to, conclude, larger,
+                    listed, no, refutable, text, trend, unknown, yes)
 
 #: Change of the dip from one half of the time to the other below which layers count as formed.
 STILL = 0.1
@@ -205,21 +205,19 @@ def ordered_at_a_wider_gap(evidence: Evidence) -> Finding:
 
 
 def taper_makes_layers(evidence: Evidence) -> Finding:
-    """Whether untapered rods have no layers where tapered ones do."""
-    answers, found = [], []
+    """Whether untapered rods have no layers where tapered ones do: any would refute the statement."""
+    answers, found, frozen = [], [], []
     for packing in (0.80, 0.85):
         plain = evidence["taper"].at(4.5, packing)
         tapered = _widest(evidence.joined("layers", "strip").at(4.5, packing))
-        if not plain or not tapered:
+        if not plain or not two_peaks(tapered).word:
             continue
-        answer = two_peaks(plain).negated()
-        if answer.word and not _goes_far(plain):
-            answer = unknown("untapered rods are frozen")
-        answers.append((answer if two_peaks(tapered).word else unknown("tapered rods have no layers")).placed(
-            f"{packing:g}"))
+        answers.append(two_peaks(plain).negated())
+        frozen += [] if _goes_far(plain) else [f"{packing:g}"]
         found.append(f"φ = {packing:g}: untapered {_angle_text(plain)}, S = {text(plain.number('S'))}; tapered "
                      f"{_angle_text(tapered)}")
-    return conclude(answers, "; ".join(found))
+    how = "none without a taper" + (f", where rods freeze, at {', '.join(frozen)}" if frozen else "")
+    return refutable(all_of(answers), "; ".join(found), how) if answers else Finding()
 
 
 def crystal_at_a_narrow_gap(evidence: Evidence) -> Finding:

@@ -99,7 +99,7 @@ STATEMENTS: tuple[Statement, ...] = (
     Statement("gap-order", "gap", "At a gap of 1.4 mm the system is ordered still", layer_checks.ordered_at_a_wider_gap,
               "in a box narrower than the paper's"),
     Statement("taper", "taper", "The layers are due to the tapered shape", layer_checks.taper_makes_layers,
-              "asked of untapered rods, which start as a fluid: whether they have none"),
+              "asked of untapered rods, which start as a fluid: layers of theirs would refute it"),
     Statement("crystal", "gap", "At a gap of 0.9 mm a crystal, without layers", layer_checks.crystal_at_a_narrow_gap,
               "all runs start as a crystal: one that melts would refute it"),
     Statement("angle-packing", "layer-trends", "θ_m grows with packing", layer_checks.angle_grows_with_packing),
