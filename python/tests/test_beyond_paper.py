@@ -183,6 +183,13 @@ def test_long_rods_are_pulled_along_and_across():
     assert [row[4] for row in found] == ["0.234 ± 0.006", "0.467 ± 0.006"], "4 and 8 mm/s over 17.1 mm/s2"
 
 
+def test_rods_in_the_core_of_a_defect_stand_beside_it():
+    evidence = Evidence([run("defect-flow", {**lasting(-2.1, 0.01), "core_flow_along_mm_s": (-2.0, 0.1),
+                                             "core_density_plus": (0.91, 0.02), "core_flow_across_mm_s": (0.1, 0.1)})])
+    assert rows(beyond_paper.carried(evidence)) == [
+        ["2.5 mm", "0.75", "40 mm", "1 × 200 s", "0.91 ± 0.02", "2.00 ± 0.10", "2.10 ± 0.10", "0.10 ± 0.10"]]
+
+
 def test_beads_added_up_stand_beside_the_solid():
     evidence = Evidence([run("short-rods", diffusion(4.0, 0.2)), run("inertia", diffusion(5.0, 0.2))])
     (row,) = rows(beyond_paper.inertia(evidence))

@@ -351,6 +351,15 @@ def defects(evidence: Evidence) -> str:
         number("across (mm/s)", "lasting_defect_speed_plus_across_mm_s")])
 
 
+def carried(evidence: Evidence) -> str:
+    """How +1/2 defects move along their axis, and the rods in their cores."""
+    return table(by(evidence["defect-flow"], LENGTH, PACKING), [
+        LONG, PACKED, BOX, SEEDS, number("rods in the core, of the mean density", "core_density_plus"),
+        ("they move head first (mm/s)", lambda here: text(here.number("core_flow_along_mm_s") * -1)),
+        ("+½ head first (mm/s)", lambda here: text(swim_head_first(here))),
+        number("rods across (mm/s)", "core_flow_across_mm_s")])
+
+
 def wave_ratio(length: float, *, with_noise: bool = False) -> Callable[[Runs], str]:
     """Power of splay over that of bend, of the opposite waves whose length is nearest to this one [mm]; with_noise: as
     measured, before the noise level of uncorrelated rods is subtracted from both."""
@@ -425,5 +434,5 @@ def strip(evidence: Evidence) -> str:
 SECTIONS: dict[str, Callable[[Evidence], str]] = {
     "beads": beads, "two readings": readings, "inertia": inertia, "frequency": frequency,
     "rival frequency": rival_frequency, "shaking": shaking, "diffusion": diffusion_minimum, "streaming": streaming,
-    "linear response": linear_response, "defects": defects, "elastic constants": elastic, "order and box": sizes,
-    "blunt rods": blunt}
+    "linear response": linear_response, "defects": defects, "carried": carried, "elastic constants": elastic,
+    "order and box": sizes, "blunt rods": blunt}

@@ -18,7 +18,7 @@ ORDER: tuple[tuple[str, str], ...] = (
     ("Q", "long-range"), ("M", "larger-box"), ("S", "turned"), ("AB", "fluid-start"), ("U", "frequency"),
     ("V", "phases"), ("X", "beads"), ("R", "elasticity"), ("L", "no-order"), ("W", "density"), ("T", "diffusion"),
     ("AC", "taper"), ("AD", "response"), ("AE", "neighbours"), ("AF", "short-step"), ("AG", "inertia"),
-    ("AH", "forgetting"), ("Y", "equilibrium"), ("Z", "movies"))
+    ("AH", "forgetting"), ("AI", "defect-flow"), ("Y", "equilibrium"), ("Z", "movies"))
 
 #: Side [mm] of the boxes of those sets that give a number of rods in place of a side.
 SIDE_OF_COUNTS = 41.865
