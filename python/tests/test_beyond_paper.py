@@ -183,6 +183,12 @@ def test_long_rods_are_pulled_along_and_across():
     assert [row[4] for row in found] == ["0.234 ± 0.006", "0.467 ± 0.006"], "4 and 8 mm/s over 17.1 mm/s2"
 
 
+def test_motion_of_neighbours_stands_beside_the_persistence_of_ways():
+    numbers = {"flow_of_neighbours": (0.6, 0.02), "flow_length_mm": (2.9, 0.1), "persistence_time_s": (1.4, 0.1)}
+    assert rows(beyond_paper.neighbours(Evidence([run("neighbours", numbers)]))) == [
+        ["0.75", "40 mm", "1 × 200 s", "0.60 ± 0.02", "2.90 ± 0.10", "1.40 ± 0.10", "–"]]
+
+
 def test_rods_in_the_core_of_a_defect_stand_beside_it():
     evidence = Evidence([run("defect-flow", {**lasting(-2.1, 0.01), "core_flow_along_mm_s": (-2.0, 0.1),
                                              "core_density_plus": (0.91, 0.02), "core_flow_across_mm_s": (0.1, 0.1)})])

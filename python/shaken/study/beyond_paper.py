@@ -276,6 +276,14 @@ def streaming(evidence: Evidence) -> str:
         number("way along by then, in boxes", way_in_boxes), ("of it common drift", drift)])
 
 
+def neighbours(evidence: Evidence) -> str:
+    """How alike neighbours move, beside how long a rod keeps its direction."""
+    return table(by(evidence["neighbours"], PACKING), [
+        PACKED, BOX, SEEDS, number("C of neighbours", "flow_of_neighbours"),
+        number("C falls to 1/e at (mm)", "flow_length_mm"), number("persistence time (s)", "persistence_time_s"),
+        number("length (mm)", "persistence_length_mm")])
+
+
 def linear_response(evidence: Evidence) -> str:
     """How fast rods drift that a constant force pulls, and how their centre of mass wanders."""
     runs = evidence["response"]
@@ -433,6 +441,6 @@ def strip(evidence: Evidence) -> str:
 #: What makes each table of docs/findings.md, by the names of its marks.
 SECTIONS: dict[str, Callable[[Evidence], str]] = {
     "beads": beads, "two readings": readings, "inertia": inertia, "frequency": frequency,
-    "rival frequency": rival_frequency, "shaking": shaking, "diffusion": diffusion_minimum, "streaming": streaming,
-    "linear response": linear_response, "defects": defects, "carried": carried, "elastic constants": elastic,
-    "order and box": sizes, "blunt rods": blunt}
+    "rival frequency": rival_frequency, "shaking": shaking, "diffusion": diffusion_minimum, "neighbours": neighbours,
+    "streaming": streaming, "linear response": linear_response, "defects": defects, "carried": carried,
+    "elastic constants": elastic, "order and box": sizes, "blunt rods": blunt}

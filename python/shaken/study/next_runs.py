@@ -39,7 +39,6 @@ QUESTIONS: dict[str, tuple[str, Batch]] = {
     "frequency": ("225 and 280 Hz at 0.80, until the MSD is linear, one seed", Batch(2.5, 0.80, 60, 900, 2)),
     "shaking": ("Γ = 3 from the disordered end of a run at Γ = 14, three seeds", Batch(2.5, 0.75, 25.119, 1000, 3)),
     "minimum of D": ("0.65 to 0.85 in steps of 0.05, the set `diffusion`", Batch(2.5, 0.75, 60, 250, 10)),
-    "persistence": ("neighbours' velocities at 0.85, two seeds", Batch(2.5, 0.85, 83.73, 120, 2)),
     "lanes": ("0.85 in twice the box, for as long, two seeds", Batch(4.5, 0.85, 66.984, 810, 2)),
     "defects": ("0.80 in the paper's box, defects every 50 ms, two seeds", Batch(2.5, 0.80, 83.73, 120, 2)),
     "elastic constants": ("0.55 in twice the box, two seeds", Batch(4.5, 0.55, 133.968, 300, 2)),
