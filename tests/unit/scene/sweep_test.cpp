@@ -9,7 +9,6 @@
 
 #include "scene/canonical.h"
 #include "scene/fields.h"
-#include "scene/points.h"
 #include "tests/support/effort.h"
 #include "tests/unit/scene/scene_support.h"
 
