@@ -75,11 +75,11 @@ def write_contacts(system, path, dt, stiffness, each_arm):
 
     def dashpot(*arms):
         """In kg/s, of hits that far from the centres of the rods concerned."""
-        inverse = sum(1 + system.mass * arm**2 / system.inertia_perp for arm in arms) / mass
-        # a contact of n steps has (1 + 0.7 / n) times less restitution, for the dashpot is late by half a step
-        steps = math.pi / (dt * math.sqrt(stiffness * inverse))
-        log = math.log(system.restitution * (1 + 0.7 / steps if each_arm else 1))
-        return -2 * log / math.hypot(math.pi, log) * math.sqrt(stiffness / inverse)
+        reduced = mass / sum(1 + system.mass * arm**2 / system.inertia_perp for arm in arms)
+        critical = 1 / (1 + (math.pi / math.log(system.restitution))**2)  # square of the share of critical damping
+        # the dashpot acts half a step late, as if it took c dt / 2 from the mass
+        late = critical * stiffness * dt if each_arm else 0
+        return math.sqrt(late**2 + 4 * critical * stiffness * reduced) - late
 
     plates = (f"zplane {2 * system.amplitude * MM:.12g} {(2 * system.amplitude + system.gap) * MM:.12g} "
               f"wiggle z {-system.amplitude * MM:.12g} {1 / system.frequency:.12g}\n")

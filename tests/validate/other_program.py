@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Shaken's rods in LAMMPS: both programs go on from one state of Shaken's, and what is measured on them is compared.
 
-LAMMPS runs in stretches of five seconds, each of which goes on where the one before ended; what is done stays in
+LAMMPS runs in stretches of 2.5 seconds, each of which goes on where the one before ended; what is done stays in
 build/other-program, so that the command continues where it was stopped. Numbers go to docs/data/other-program.json."""
 import argparse
 import itertools
@@ -27,8 +27,7 @@ from shaken.study.other_program import tables  # noqa: E402
 
 EVERY = 0.02008  # [s]; frames see all phases of the plates' period of 5 ms
 SHAKEN_FRAMES = 12000  # of its run
-FRAMES = 250  # of a stretch, which is a whole number of vibrations; so is what goes before the first
-SETTLE = 125  # frames
+FRAMES, SETTLE = 125, 25  # of a stretch, which is a whole number of vibrations; those of the first to leave out
 LAGS = 1, 5, 25, 50, 250  # in frames
 TILTS = 6
 POWER = "power that plates give a rod (µJ/s)"
@@ -60,8 +59,8 @@ class Springs(NamedTuple):
 
 SIDE = 25.119  # [mm]
 RODS = [Rods("short", 2.5, 0.60, 20), Rods("long", 4.5, 0.75, 60)]
-SPRINGS = [Springs(500, 16e-6, True, 12), Springs(2000, 8e-6, True, 6), Springs(500, 16e-6, False, 4),
-           Springs(8000, 4e-6, True, 4)]
+SPRINGS = [Springs(500, 16e-6, True, 12), Springs(2000, 8e-6, True, 12), Springs(500, 16e-6, False, 4),
+           Springs(8000, 4e-6, True, 8), Springs(32000, 2e-6, True, 4)]
 
 
 # ---- running ----
@@ -93,16 +92,16 @@ def shaken_run(rods):
 
 def simulate_stretch(system, springs, folder, number):
     """One stretch, into a file; it begins where the one before ended."""
-    start, settle = system.start, SETTLE * EVERY
+    start = system.start
     if number:
         with np.load(folder / f"{number - 1}.npz") as before:
             time = round(before["time"][-1] * system.frequency) / system.frequency
-            start, settle = peers.Frame(time, 0.0, *before["state"][-1].astype(float)), 0
+            start = peers.Frame(time, 0.0, *before["state"][-1].astype(float))
     here = replace(system, start=start)
     folder.mkdir(exist_ok=True)
     lammps.write_start(here, folder)
     cpu = -sum(os.times()[2:4])
-    lammps.simulate(here, folder, springs.dt, settle, 0, FRAMES, EVERY, springs.stiffness, springs.each_arm)
+    lammps.simulate(here, folder, springs.dt, 0, 0, FRAMES, EVERY, springs.stiffness, springs.each_arm)
     cpu += sum(os.times()[2:4])
     frames = list(lammps.read_dump(here, folder / "frames.dump", springs.dt))
     np.savez(folder / "new.npz", time=[f.time for f in frames], cpu=cpu,
@@ -191,7 +190,8 @@ def of_lammps(system, folder, reference):
             parts.append(dict(part))
     if not parts:
         return {}
-    states, given, virial = (np.concatenate([part[name] for part in parts]) for name in ("state", "given", "virial"))
+    states, given, virial = (np.concatenate([part[name] for part in parts])[skip:] for name, skip in (
+        ("state", SETTLE), ("given", SETTLE // 25), ("virial", SETTLE // 25)))
     found = means_of(system, states.astype(float))
     found[POWER] = given * 1e6 / system.n_rods, np.ones(len(given))
     found[PRESSURE] = virial * 1e12 / (2 * system.side**2), np.ones(len(virial))
