@@ -357,6 +357,7 @@ def test_the_two_steps_are_compared_and_priced():
     beads.key = {**beads.parameters, "rods.inertia": "beads"}.get
     (pair,) = time_step.pairs(Evidence([*desk, again, control, beads]))
     assert len(pair.desk) == 3 and len(pair.paper) == 1
+    assert time_step.layered(Evidence([*desk, beads])) == [], "scenes with and without a newer key have an order"
     # a run of another length is not compared
     other = Evidence([_timed_run(16e-6, order(0.9, 0.02), time=50.0), _timed_run(4e-6, order(0.9, 0.02))])
     assert time_step.pairs(other) == []

@@ -138,6 +138,11 @@ class Runs(list[Run]):
         values = self.values(path)
         return self.where(path, values[-1]) if values else self
 
+    def widest(self) -> "Runs":
+        """Those in the box that is widest across the director, into which most layers fit."""
+        width = max((box_of(run)[1] for run in self), default=0.0)
+        return Runs(run for run in self if box_of(run)[1] > 0.99 * width)
+
     def smallest(self, path: str) -> "Runs":
         values = self.values(path)
         return self.where(path, values[0]) if values else self

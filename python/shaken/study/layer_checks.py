@@ -118,16 +118,10 @@ def _gap_text(runs: Runs) -> str:
             f"Bragg peak {text(runs.number('bragg_peak'))}")
 
 
-def _widest(runs: Runs) -> Runs:
-    """Those in the box that is widest across the director, into which most layers fit."""
-    width = max((box_of(run)[1] for run in runs), default=0.0)
-    return Runs(run for run in runs if box_of(run)[1] > 0.99 * width)
-
-
 def layers_when_dense(evidence: Evidence) -> Finding:
     answers, found = [], []
     for packing in (0.75, 0.80, 0.85):
-        runs = _widest(evidence.joined("layers", "strip").at(4.5, packing))
+        runs = evidence.joined("layers", "strip").at(4.5, packing).widest()
         if not runs:
             if evidence["layers"]:
                 answers.append(unknown(NOT_RUN).placed(f"{packing:g}"))
@@ -160,13 +154,14 @@ def _crest(run: Run) -> Estimate:
 
 def g2_oscillates(evidence: Evidence) -> Finding:
     answers, found, short = [], [], []
-    for name in ("layers", "strip"):
-        for packing in (0.80, 0.85):
-            # where layers still form or melt G2 is asked for all the same: they need not have their last depth for it
-            runs = Runs(run for run in evidence[name].at(4.5, packing) if number_of(run, "dip").value < TWO_PEAKS)
-            if not runs:
+    for name in ("layers", "layer-trends", "strip"):
+        # where layers still form or melt G2 is asked for all the same: they need not have their last depth for it
+        peaked = Runs(run for run in evidence[name].at(end=0.4) if number_of(run, "dip").value < TWO_PEAKS)
+        for runs in by(peaked, LENGTH, PACKING):
+            if key_of(runs[0], PACKING) < 0.79 or runs.number("S").value < 0.5:
                 continue
-            rise, where = runs.of(_crest), f"{packing:g} in {box_text(runs[0])}"
+            where = f"{key_of(runs[0], PACKING):g}, ℓ = {key_of(runs[0], LENGTH):g} mm in {box_text(runs[0])}"
+            rise = runs.of(_crest)
             if not rise.is_known:
                 short.append(where)
                 continue
@@ -175,7 +170,7 @@ def g2_oscillates(evidence: Evidence) -> Finding:
     finding = conclude(answers or [unknown("G₂ ends before a wavelength").placed(where) for where in short],
                        "G₂ across the director, a wavelength away less half a wavelength away: " + "; ".join(found))
     if answers and short:
-        finding.why += ("; " if finding.why else "") + f"not asked at {', '.join(short)}: G₂ ends before a wavelength"
+        finding.why += ("; " if finding.why else "") + f"not asked at {'; '.join(short)}: G₂ ends before a wavelength"
     return finding
 
 
@@ -204,20 +199,28 @@ def ordered_at_a_wider_gap(evidence: Evidence) -> Finding:
     return conclude([above(s, 0.5)] if runs else [], f"S = {text(s)} at w = 1.4 mm")
 
 
+def taper_angle(run: Run) -> float:
+    """Twice the angle between the flank and the axis of a rod [degrees]: that between two rods, flank on flank."""
+    length, middle, end = (key_of(run, path) for path in (LENGTH, "rods.mid_diameter", END))
+    return 2 * math.degrees(math.atan((middle - end) / (length - end)))
+
+
 def taper_makes_layers(evidence: Evidence) -> Finding:
-    """Whether untapered rods have no layers where tapered ones do: any would refute the statement."""
-    answers, found, frozen = [], [], []
-    for packing in (0.80, 0.85):
-        plain = evidence["taper"].at(4.5, packing)
-        tapered = _widest(evidence.joined("layers", "strip").at(4.5, packing))
-        if not plain or not two_peaks(tapered).word:
-            continue
-        answers.append(two_peaks(plain).negated())
-        frozen += [] if _goes_far(plain) else [f"{packing:g}"]
-        found.append(f"φ = {packing:g}: untapered {_angle_text(plain)}, S = {text(plain.number('S'))}; tapered "
-                     f"{_angle_text(tapered)}")
-    how = "none without a taper" + (f", where rods freeze, at {', '.join(frozen)}" if frozen else "")
-    return refutable(all_of(answers), "; ".join(found), how) if answers else Finding()
+    """Whether theta_m is the same part of the angle of the taper at every length, as where flanks lie on flanks."""
+    parts = []
+    for length in (3.5, 4.0, 4.5):
+        runs = layered(evidence.joined("layers", "layer-trends", "strip").at(length, 0.85, end=0.4).widest())
+        if runs and (theta := _mean_angle(runs)).is_known:
+            parts.append((length, theta * (1 / taper_angle(runs[0]))))
+    if len(parts) < 2:
+        return Finding()
+    mean = math.fsum(part.value for _, part in parts) / len(parts)
+    found = f"θ_m over the angle of two tapered flanks at φ = 0.85: {listed(parts, 'ℓ')}"
+    plain = evidence["taper"].at(4.5, 0.80)
+    if plain:
+        found += f"; rods without a taper at 0.80: S = {text(plain.number('S'))}, dip to {text(dip(plain))}"
+    return refutable(all_of([close_to(part, mean, 0.15) for _, part in parts]), found,
+                     "θ_m follows the taper; rods without one have no nematic in which layers could be missing")
 
 
 def crystal_at_a_narrow_gap(evidence: Evidence) -> Finding:

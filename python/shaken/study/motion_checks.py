@@ -164,10 +164,16 @@ def persists_for_want_of_noise(evidence: Evidence) -> Finding:
         if at in turning and at in ways:
             answers.append(below(turning[at] * ways[at].value, 1).placed(f"{at:g}"))
             found.append(f"ways persist for {text(ways[at])} s, 1/D_r = {1 / turning[at].value:.2g} s at φ = {at:g}")
-    if len(answers) == 2:
-        answers.append(larger(turning[0.65], turning[0.85]).placed("less noise when denser"))
-    return refutable(all_of(answers), "; ".join(found), "rods keep their direction for longer than their way") \
-        if answers else Finding()
+    if len(answers) < 2:
+        return Finding()
+    answers.append(larger(turning[0.65], turning[0.85]).placed("less noise when denser"))
+    long_ = evidence["long-rods"].at(4.5, 0.75)
+    if long_:  # which turn still less
+        time = long_.number("persistence_time_s")
+        answers.append(larger(time, ways[0.85]).placed("rods with less noise persist longer"))
+        d_r = long_.number("rotational_diffusion_rad2_s").value
+        found.append(f"{text(time)} s, 1/D_r = {1 / d_r:.0f} s at ℓ = 4.5 mm, φ = 0.75")
+    return conclude(answers, "; ".join(found))
 
 
 def diffusion_rises(evidence: Evidence) -> Finding:
@@ -267,8 +273,11 @@ def diffusion_along_the_director(evidence: Evidence) -> Finding:
 def no_superdiffusion_across(evidence: Evidence) -> Finding:
     runs = Runs(run for run in long_rods(evidence) if key_of(run, PACKING) > 0.59)
     short = runs.points(PACKING, "alpha_across_short")
-    late = points_of(runs, PACKING, lambda here: late_lags.best(here, late_lags.exponent("/msd/across_mm2"),
-                                                                "alpha_across_long"))
+    # in the widest box: in a narrow one rods glide along two or three turned layers for long
+    everywhere = Runs([*runs, *evidence.joined("layers", "strip").at(4.5, end=0.4)])
+    late = [(packing, late_lags.best(everywhere.at(packing=packing).widest(), late_lags.exponent("/msd/across_mm2"),
+                                     "alpha_across_long")) for packing in runs.values(PACKING)]
+    late = [(packing, estimate) for packing, estimate in late if estimate.is_known]
     answers, found = [], []
     for when, points in (("short", short), ("long", late)):
         answers += [below(e, 1.05).placed(f"{when} times, {at:g}") for at, e in points]
@@ -285,7 +294,8 @@ def slower_when_denser(evidence: Evidence) -> Finding:
     c_v = [(at, e) for at, e in runs.points(PACKING, "velocity_correlation_s") if at > 0.64]
     if len(c2) < 2 or len(c_v) < 2:
         return Finding()
-    return conclude([trend(c2, rising=True).placed("C₂"), trend(c_v, rising=True).placed("C_v")],
+    return conclude([trend(c2, rising=True).placed("C₂"), trend(c_v, rising=True).placed("C_v from 0.65 on"),
+                     unknown("it is that of the averaging window").placed("C_v below 0.65")],
                     f"C₂ falls to 1/e in {listed(c2, 'φ', ' s')}. C_v: {listed(c_v, 'φ', ' s')}")
 
 
@@ -338,7 +348,8 @@ def velocity_along_grows(evidence: Evidence) -> Finding:
     if len(growing) < 2:
         return Finding()
     at_zero = [(at, e) for at, e in runs.points(PACKING, "velocity_variance_along_mm2_s2") if at > 0.59]
-    return conclude([trend(growing, rising=True)],
+    return conclude([trend(growing, rising=True).placed("lags of 0.8 to 2.8 s"),
+                     *([trend(at_zero, rising=True).placed("C_v(0)")] if len(at_zero) > 1 else [])],
                     f"C_v along, lags of 0.8 to 2.8 s: {listed(points, 'φ', ' mm²/s²')}. "
                     f"C_v(0): {listed(at_zero, 'φ')}")
 

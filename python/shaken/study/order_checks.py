@@ -168,7 +168,9 @@ def long_range(evidence: Evidence) -> Finding:
             continue
         power, predicted = scaling.power(runs), scaling.predicted(runs.largest())
         falls, stays = below(power, 0), larger(power, predicted)
-        answers.append((no() if falls.word else yes() if stays.word else unknown(
+        # over one octave a fall that ends looks like one that goes on
+        too_few = "" if sides[-1] > 3.9 * sides[0] else "boxes of one octave only"
+        answers.append((unknown(too_few) if too_few else no() if falls.word else yes() if stays.word else unknown(
             doubt(power) or "the errors are too large")).placed(f"{packing:g}"))
         found.append(f"x = {text(power)} at φ = {packing:g}, {sides[0]:.0f} to {sides[-1]:.0f} mm (by the waves: "
                      f"{text(predicted)})")

@@ -66,8 +66,9 @@ def _by_scene(evidence: Evidence) -> dict[tuple[Any, ...], Runs]:
 
 
 def _scene(run: Run) -> tuple[Any, ...]:
-    return (*(round(value, 6) for value in (key_of(run, path) for path in _SCENE) if math.isfinite(value)),
-            run.key("rods.inertia"))
+    values = [key_of(run, path) for path in _SCENE]
+    return (*(round(value, 6) if math.isfinite(value) else 0.0 for value in values),
+            run.key("rods.inertia") or "solid")  # keys that older runs have not are at their defaults
 
 
 @dataclass(frozen=True)

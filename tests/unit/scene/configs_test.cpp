@@ -78,7 +78,7 @@ TEST(Configs, TheExamplesOfTheReferenceAreValid) {
       example.clear();
     }
   }
-  EXPECT_EQ(n_examples, 5);
+  EXPECT_EQ(n_examples, 4);
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ inline constexpr std::string_view kScene = R"({ // a comment
 inline constexpr std::string_view kSweep = R"({ "name": "x", "scene": { "box": {"side": 40} }, "sweep": {
   "grid": { "rods.length": [2.5, "3.5 mm"], "rods.area_fraction": "0.45:0.55:0.1" },
   "zip": { "box.gap": [1.2, 1.4], "plates.gamma": {"from": 6, "to": 7, "n": 2} },
-  "list": [ {"time.step": "2 us"} ], "stages": [ {"plates.gamma": 6} ],
+  "list": [ {"time.step": "2 us"} ], "stages": [ {"time.measure": "2 s"} ],
   "replicas": 2 } })";
 
 inline constexpr std::string_view kSweeps = R"({ "$schema": "sweep.schema.json", "scene": { "box": {"side": 40} },
