@@ -152,7 +152,7 @@ def scaling_with_size(material: Material) -> Sheet:
     the director that predicts it, and G2 far away."""
     runs = scaling.boxes(material.evidence)
     sheet = material.sheet(6)
-    panel = sheet[0].titles(names.axis_title(PACKING), names.axis_title("S"), "order in several boxes")
+    panel = sheet[0].titles(names.axis_title(PACKING), names.axis_title("S"), "several boxes")
     other = sheet[1].titles(names.axis_title(PACKING), names.axis_title("binder"), "Binder cumulant")
     for k, side in enumerate(runs.values(SIDE)):
         here = runs.at(side=side)
@@ -162,7 +162,7 @@ def scaling_with_size(material: Material) -> Sheet:
     panel.range(y=(0, 1)).reference(y=ORDERED, label="0.5")
     material.stamp(panel, "transition-size")
 
-    panel = sheet[2].titles(names.axis_title(SIDE), names.axis_title("S"), "lines: by the waves").scale("log", "log")
+    panel = sheet[2].titles(names.axis_title(SIDE), names.axis_title("S"), "lines: waves").scale("log", "log")
     far = sheet[5].titles(names.axis_title(SIDE), "G₂ at half the box", "far away")
     stiff = sheet[4].titles(names.axis_title(SIDE), "√(K₁K₃)", "stiffness of the director").scale("log", "log")
     for k, packing in enumerate(runs.values(PACKING)):
@@ -177,7 +177,7 @@ def scaling_with_size(material: Material) -> Sheet:
         sides = np.array([side for side, _ in order])
         panel.curve(sides, s.value * (sides / first) ** x, colour=k)
     stiff.reference(y=scaling.LEAST_STIFFNESS, label="8/π")
-    material.stamp(panel, "long-range", "disordered")
+    material.stamp(panel, "long-range")
     far.zero()
 
     panel = sheet[3].titles(names.axis_title(PACKING), "x of S ~ Lˣ", "three readings of the power")
