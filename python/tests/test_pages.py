@@ -60,6 +60,18 @@ def test_a_page_has_the_rows_of_its_statements_and_the_index_counts_them():
     assert row.endswith("| 4 no data, 1 used for calibration |")
 
 
+def test_where_readers_differ_the_verdict_is_the_one_that_the_page_has():
+    document = (DOCS / "validation.md").read_text()
+    of_page = {s.says: line.split(" | ")[-1]
+               for s in STATEMENTS for line in document.splitlines() if line.count(" | ") == 7 and s.says in line}
+    differing = document.partition("## Where other readers differ")[2].partition("\n## ")[0]
+    rows = [line.strip("| ").split(" | ") for line in differing.splitlines() if line.startswith("| ")][1:]
+    assert rows
+    for said, _, verdict, _ in rows:
+        [word] = [words for says, words in of_page.items() if says.startswith(said)]
+        assert word.replace("*", "").startswith(verdict), said
+
+
 def test_a_report_is_written_with_its_pages(tmp_path):
     report, folder = tmp_path / "report.md", tmp_path / "report"
     folder.mkdir()

@@ -722,6 +722,14 @@ def test_isotropy_is_judged_where_no_order_is_left():
     assert found.verdict == rules.AGREES and "1.001 ± 0.006" in found.found.partition("; ")[2]
 
 
+def test_layers_of_rods_without_a_taper_refute_the_taper_as_their_cause():
+    tapered = CASES["taper"][0]
+    for numbers, S, expected, how in ((LAYERED, 0.9, rules.DISAGREES, ""), (PLAIN, 0.9, rules.CONSISTENT, "no layers"),
+                                      (PLAIN, 0.1, rules.CONSISTENT, "no nematic")):
+        found = CHECKS["taper"].check(Evidence(tapered + layers(0.80, numbers, "taper", end=0.8, S=S)))
+        assert found.verdict == expected and how in found.why
+
+
 def test_one_octave_of_boxes_says_nothing_of_long_range_order():
     found = CHECKS["long-range"].check(Evidence(in_two_boxes(0.88, 0.80, wide=66.984)))
     assert found.verdict == rules.OPEN and "one octave only" in found.why

@@ -14,6 +14,7 @@ from ..run import Array, Run
 from .evidence import (END, GAP, LENGTH, PACKING, SIDE, Evidence, Runs, box_of, box_text, by, is_from_a_fluid, key_of,
                        number_of, place_on, points_of)
 from .layer_wavelength import TWO_PEAKS, mean_wavelength, wavelength
+from .order_checks import ORDERED
 from .rules import (AGREES, CONSISTENT, NOT_RUN, Answer, Finding, above, all_of, below, close_to, conclude, larger,
                     listed, no, refutable, text, trend, unknown, yes)
 
@@ -60,7 +61,7 @@ def layered(runs: Runs) -> Runs:
     for here in by(runs, LENGTH, END, PACKING, SIDE, GAP):
         depth = here.number("dip")
         relaxes = depth.steady is False and not abs(depth.drift) < STILL
-        if here.number("S").value > 0.5 and 2 * _n_layered(here) >= len(here) and not relaxes:
+        if here.number("S").value > ORDERED and 2 * _n_layered(here) >= len(here) and not relaxes:
             found += here
     return found
 
@@ -158,7 +159,7 @@ def g2_oscillates(evidence: Evidence) -> Finding:
         # where layers still form or melt G2 is asked for all the same: they need not have their last depth for it
         peaked = Runs(run for run in evidence[name].at(end=0.4) if number_of(run, "dip").value < TWO_PEAKS)
         for runs in by(peaked, LENGTH, PACKING):
-            if key_of(runs[0], PACKING) < 0.79 or runs.number("S").value < 0.5:
+            if key_of(runs[0], PACKING) < 0.79 or runs.number("S").value < ORDERED:
                 continue
             where = f"{key_of(runs[0], PACKING):g}, ℓ = {key_of(runs[0], LENGTH):g} mm in {box_text(runs[0])}"
             rise = runs.of(_crest)
@@ -196,7 +197,7 @@ def no_layers_at_wide_gaps(evidence: Evidence) -> Finding:
 def ordered_at_a_wider_gap(evidence: Evidence) -> Finding:
     runs = evidence["gaps"].at(gap=1.4)
     s = runs.number("S")
-    return conclude([above(s, 0.5)] if runs else [], f"S = {text(s)} at w = 1.4 mm")
+    return conclude([above(s, ORDERED)] if runs else [], f"S = {text(s)} at w = 1.4 mm")
 
 
 def taper_angle(run: Run) -> float:
@@ -216,11 +217,15 @@ def taper_makes_layers(evidence: Evidence) -> Finding:
         return Finding()
     mean = math.fsum(part.value for _, part in parts) / len(parts)
     found = f"θ_m over the angle of two tapered flanks at φ = 0.85: {listed(parts, 'ℓ')}"
+    answers, how = [close_to(part, mean, 0.15) for _, part in parts], "θ_m follows the taper"
     plain = evidence["taper"].at(4.5, 0.80)
     if plain:
         found += f"; rods without a taper at 0.80: S = {text(plain.number('S'))}, dip to {text(dip(plain))}"
-    return refutable(all_of([close_to(part, mean, 0.15) for _, part in parts]), found,
-                     "θ_m follows the taper; rods without one have no nematic in which layers could be missing")
+        layers = _two_peaks_in_order(plain)
+        answers += [no()] if layers.word else []
+        how += {None: "; rods without one have no nematic in which layers could be missing",
+                False: "; rods without one have no layers"}.get(layers.word, "")
+    return refutable(all_of(answers), found, how)
 
 
 def crystal_at_a_narrow_gap(evidence: Evidence) -> Finding:
@@ -303,7 +308,7 @@ def angle_falls_with_end(evidence: Evidence) -> Finding:
 
 def _two_peaks_in_order(runs: Runs) -> Answer:
     """As two_peaks, of rods that have an order to which layers could be turned."""
-    return two_peaks(runs) if runs.number("S").value > 0.5 else unknown("the rods froze without order")
+    return two_peaks(runs) if runs.number("S").value > ORDERED else unknown("the rods froze without order")
 
 
 def _whatever_the_start(answers: list[Answer]) -> Answer:

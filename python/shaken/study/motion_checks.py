@@ -295,7 +295,8 @@ def slower_when_denser(evidence: Evidence) -> Finding:
     if len(c2) < 2 or len(c_v) < 2:
         return Finding()
     return conclude([trend(c2, rising=True).placed("C₂"), trend(c_v, rising=True).placed("C_v from 0.65 on"),
-                     unknown("it is that of the averaging window").placed("C_v below 0.65")],
+                     *[unknown("it is that of the averaging window").placed("C_v below 0.65")
+                       for _ in [at for at, _ in c2 if at < 0.64][:1]]],
                     f"C₂ falls to 1/e in {listed(c2, 'φ', ' s')}. C_v: {listed(c_v, 'φ', ' s')}")
 
 
