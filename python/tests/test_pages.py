@@ -3,8 +3,11 @@
 import re
 from pathlib import Path
 
-from shaken.study.evidence import Evidence
+from shaken.archive import archived_runs
+from shaken.run import Numbers
+from shaken.study.evidence import LENGTH, PACKING, Evidence, key_of
 from shaken.study.figures import FIGURES
+from shaken.study.next_runs import DECIDING
 from shaken.study.pages import PAGES, content, index, page_of
 from shaken.study.report import write_report
 from shaken.study.statements import STATEMENTS, judged
@@ -82,3 +85,26 @@ def test_a_report_is_written_with_its_pages(tmp_path):
     assert "(validation/figure-2.md)" in report.read_text()
     assert "| Rods start aligned, S(0) = 1" in (folder / "figure-2.md").read_text()
     assert (folder / "other.md").read_text() == "a page without marks\n"
+
+
+def test_archived_runs_that_are_named_as_deciding_a_statement_are_read_by_it():
+    read: set[int] = set()
+
+    class Noting(Numbers):
+        def __getitem__(self, name):
+            read.add(id(self))
+            return super().__getitem__(name)
+
+    runs = list(archived_runs(DOCS / "archive"))
+    for run in runs:
+        run.numbers = Noting(run.numbers)
+    evidence, checks = Evidence(runs), {statement.id: statement.check for statement in STATEMENTS}
+    for statement, (text, batches) in DECIDING.items():
+        sets = set(re.findall("`([a-z-]+)`", text))
+        assert sets and batches, f"{statement}: no set or no run is named"
+        read.clear()
+        checks[statement](evidence)
+        for batch in batches:
+            named = [run for run in runs if sets & {sweep.rpartition("-")[0] for sweep in run.sweeps}
+                     and (key_of(run, LENGTH), key_of(run, PACKING)) == (batch.length, batch.packing)]
+            assert not named or any(id(run.numbers) in read for run in named), f"{statement}: {batch} is never read"

@@ -114,6 +114,10 @@ def _start_text(runs: Runs) -> str:
     return " (from a fluid)" if n == len(runs) else " (in part from a fluid)" if n else ""
 
 
+def _boxes_text(runs: Runs) -> str:
+    return " and ".join(dict.fromkeys(box_text(run) for run in runs))
+
+
 def _gap_text(runs: Runs) -> str:
     return (f"w = {key_of(runs[0], GAP):g} mm: {_angle_text(runs)}, kurtosis of P(θ) {text(runs.of(kurtosis))}, "
             f"Bragg peak {text(runs.number('bragg_peak'))}")
@@ -218,13 +222,15 @@ def taper_makes_layers(evidence: Evidence) -> Finding:
     mean = math.fsum(part.value for _, part in parts) / len(parts)
     found = f"θ_m over the angle of two tapered flanks at φ = 0.85: {listed(parts, 'ℓ')}"
     answers, how = [close_to(part, mean, 0.15) for _, part in parts], "θ_m follows the taper"
-    plain = evidence["taper"].at(4.5, 0.80)
-    if plain:
-        found += f"; rods without a taper at 0.80: S = {text(plain.number('S'))}, dip to {text(dip(plain))}"
-        layers = _two_peaks_in_order(plain)
-        answers += [no()] if layers.word else []
-        how += {None: "; rods without one have no nematic in which layers could be missing",
-                False: "; rods without one have no layers"}.get(layers.word, "")
+    untapered = by(Runs(run for run in evidence["taper"] if key_of(run, PACKING) > 0.78), PACKING)
+    for plain in untapered:
+        found += (f"; rods without a taper at {key_of(plain[0], PACKING):g}: S = {text(plain.number('S'))}, "
+                  f"dip to {text(dip(plain))}")
+    words = [_two_peaks_in_order(plain).word for plain in untapered]
+    answers += [no()] if True in words else []
+    if untapered:
+        how += ("; rods without one have layers" if True in words else "; rods without one have no layers"
+                if False in words else "; rods without one have no nematic in which layers could be missing")
     return refutable(all_of(answers), found, how)
 
 
@@ -263,7 +269,7 @@ def _trend(series: list[tuple[Runs, str]], of: Callable[[Runs], Estimate], risin
             continue
         where = ", ".join(f"{symbols[other]} = {key_of(runs[0], other):g}" for other in (LENGTH, PACKING)
                           if other != key)
-        where += f", {box_text(runs[0])}{_start_text(runs)}"
+        where += f", {_boxes_text(runs)}{_start_text(runs)}"
         if len({_goes_far(formed.where(key, value)) for value, _ in points}) > 1:
             answer = unknown("a fluid against a frozen state")
         else:
@@ -291,7 +297,10 @@ def _by_length(evidence: Evidence) -> list[tuple[Runs, str]]:
 
 
 def _by_end(evidence: Evidence) -> list[tuple[Runs, str]]:
-    return [(evidence[name].at(4.0, 0.85), END) for name in ("layer-trends", "fluid-start", "strip")]
+    """At 0.85, where rods with blunt ends freeze, and at 0.825, where those with ends of 0.5 mm may still flow. At 0.80
+    the usual rods of this length have no layers with which those of others could be compared."""
+    dense = [evidence[name].at(4.0, 0.85) for name in ("layer-trends", "fluid-start", "strip")]
+    return [(runs, END) for runs in (*dense, evidence["strip"].at(4.0, 0.825))]
 
 
 def angle_grows_with_packing(evidence: Evidence) -> Finding:
@@ -312,10 +321,10 @@ def _two_peaks_in_order(runs: Runs) -> Answer:
 
 
 def _whatever_the_start(answers: list[Answer]) -> Answer:
-    """The answer of runs from several starts, where they say the same."""
+    """The answer of runs from several starts and packings, where they say the same."""
     open_ = [answer for answer in answers if answer.word is None]
     same = len({answer.word for answer in answers}) == 1
-    return open_[0] if open_ else answers[0] if same else unknown("it depends on the start")
+    return open_[0] if open_ else answers[0] if same else unknown("it depends on start and packing")
 
 
 def two_peaks_at_every_end(evidence: Evidence) -> Finding:
@@ -325,8 +334,9 @@ def two_peaks_at_every_end(evidence: Evidence) -> Finding:
     for end in ends if len(ends) > 1 else []:
         starts = [here for runs in series if (here := runs.at(end=end))]
         answers.append(_whatever_the_start([_two_peaks_in_order(here) for here in starts]).placed(f"d = {end:g} mm"))
-        found.append(f"d = {end:g} mm: " + ", ".join(f"{_angle_text(here)} in {box_text(here[0])}{_start_text(here)}"
-                                                     for here in starts))
+        found.append(f"d = {end:g} mm: " + ", ".join(
+            f"{_angle_text(here)} at φ = {key_of(here[0], PACKING):g} in {box_text(here[0])}{_start_text(here)}"
+            for here in starts))
     return conclude(answers, "; ".join(found), everywhere=True)
 
 

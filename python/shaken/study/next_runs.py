@@ -44,8 +44,9 @@ QUESTIONS: dict[str, tuple[str, Batch]] = {
     "elastic constants": ("0.55 in twice the box, two seeds", Batch(4.5, 0.55, 133.968, 300, 2)),
 }
 
-#: Rods with blunt ends where they may still be a fluid: at 0.85 they freeze. No further run is needed for it.
-BLUNT = ("these statements asked at 0.80 too, where the set `fluid-start` has run: they are asked at 0.85 alone", ())
+#: Rods with blunt ends where they have layers and may still be a fluid: at 0.85 they freeze.
+BLUNT = ("ends of 0.5 mm at 0.825 in the strip, from a fluid, three seeds: the set `strip`",
+         (Batch(4.0, 0.825, STRIP, 310, 3),))
 
 #: What would decide each statement that is open or may be, by its id.
 DECIDING: dict[str, tuple[str, tuple[Batch, ...]]] = {
