@@ -58,6 +58,8 @@ ALLOWED = {
     "render/headline.cpp": ["render", "base/keys", "scene/fields.h"],
     # the defaults of the director field whose defects are drawn
     "render/measure.cpp": ["render", "scene/measure_plan.h", "sim/system.h", "analysis"],
+    # films are encoded by the program ffmpeg
+    "render/movie.cpp": ["render", "base"],
     "render": ["base/files.h", "base/keys", "base/palettes.h", "base/picture_limits.h", "base/text.h", "sim/cell.h",
                "analysis"],
     "proto/relay": ["proto", "base"],

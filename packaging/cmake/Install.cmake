@@ -75,7 +75,7 @@ if(NOT SHAKEN_ONLY_SIM)
   set(CPACK_DEBIAN_PROGRAMS_PACKAGE_NAME shaken)
   set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SECTION science)
   set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SHLIBDEPS ON)
-  set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS "python3-shaken, fonts-dejavu-core, libjs-chart.js")
+  set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS "python3-shaken, ffmpeg, fonts-dejavu-core, libjs-chart.js")
   set(CPACK_COMPONENT_PROGRAMS_DESCRIPTION
     "Simulates rods between two vibrating plates in three dimensions, every collision\nresolved by an impulse: a daemon that runs sweeps, a command line, films and\npictures, live state over LCM.")
   set(CPACK_DEBIAN_LIBRARIES_PACKAGE_NAME libshaken-dev)

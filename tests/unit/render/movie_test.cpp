@@ -10,6 +10,7 @@ extern "C" {
 
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <vector>
@@ -168,6 +169,27 @@ TEST(Movie, AFolderThatDoesNotExistIsAnError) {
   ASSERT_FALSE(movie);
   EXPECT_NE(movie.error().message.find("/nowhere/at/all/m.mp4: No such file"), std::string::npos)
       << movie.error().message;
+}
+
+TEST(Movie, FailuresOfFfmpegAreToldAndLeaveNoFile) {
+  const ScratchFolder folder, programs;
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", programs.path().c_str(), 1);
+  const Result<MovieWriter> none = MovieWriter::create(folder / "m.mp4", 128, 96, 30);
+  std::ofstream(programs / "ffmpeg") << "#!/bin/sh\necho No space left on device\nexit 1\n";
+  std::filesystem::permissions(programs / "ffmpeg", std::filesystem::perms::owner_all);
+  {
+    Result<MovieWriter> full = MovieWriter::create(folder / "m.mp4", 128, 96, 30);
+    setenv("PATH", path.c_str(), 1);
+    ASSERT_TRUE(full);
+    const auto done = full->finish();
+    ASSERT_FALSE(done);
+    EXPECT_NE(done.error().message.find("ffmpeg failed with exit code 1: No space left"), std::string::npos)
+        << done.error().message;
+  }
+  ASSERT_FALSE(none);
+  EXPECT_NE(none.error().message.find("`apt install ffmpeg`"), std::string::npos) << none.error().message;
+  EXPECT_EQ(listing(folder), "");
 }
 
 /// The colour of the middle of each frame, and when it is shown.
