@@ -100,7 +100,7 @@ struct MovieWriter::Impl {
     const auto said = read_part("/proc/self/fd/" + std::to_string(messages.value()), 0, 1000);
     std::string words = said ? *said : said.error().message;
     while (words.ends_with('\n')) words.pop_back();
-    return failed("ffmpeg " + how.text() + (words.empty() ? "" : ": " + printable(words)));
+    return failed("ffmpeg " + how.text() + (words.empty() ? "" : ": " + printable(words, Lines::kMany)));
   }
 };
 
