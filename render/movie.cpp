@@ -41,7 +41,7 @@ struct Format {
 constexpr Format kFormats[] = {
     {".mp4", "-f mp4 -c:v libx264 -preset veryfast -movflags +faststart" SHAKEN_BT709, 1000, "20", "30"},
     {".webm", "-f webm -c:v libvpx-vp9 -b:v 0 -deadline realtime -cpu-used 8" SHAKEN_BT709, 1000, "30", "42"},
-    // Every frame whole: the encoder of libavcodec 59 compares frames by index, also where their palettes differ.
+    // Every frame whole: the encoder of ffmpeg 5.1 compares frames by index, also where their palettes differ.
     {".gif",
      "-f gif -gifflags 0 -filter_complex split[a][b];[a]palettegen=stats_mode=single:reserve_transparent=0[p];"
      "[b][p]paletteuse=new=1:dither=bayer:bayer_scale=5",
@@ -94,6 +94,7 @@ struct MovieWriter::Impl {
   }
   /// Waits for the end of the film, or of ffmpeg without one.
   Result<void> end() {
+    if (ffmpeg == 0) return failed("ffmpeg has ended before the film");
     frames = Descriptor();
     const ProcessEnd how = wait_for_child(std::exchange(ffmpeg, 0));
     if (how.is_success()) return {};
@@ -140,12 +141,12 @@ Result<MovieWriter> MovieWriter::create(const std::filesystem::path& file, int w
   impl->width = width;
   impl->height = height;
   impl->unfinished = temporary_for(file);
-  if (!Descriptor(open(impl->unfinished.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666))) {
+  if (!Descriptor(open(impl->unfinished.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666)))
     return impl->failed(std::strerror(errno));
-  }
+  // -xerror: else a disk that is full when the index is written would be no failure
   std::istringstream words(fmt::format(
-      "ffmpeg -v error -nostdin -y -f rawvideo -pix_fmt rgb24 -s {}x{} -framerate {:.17g} -i - -g 60 -threads 1 "
-      "-fps_mode passthrough -fflags +bitexact -flags:v +bitexact {}",
+      "ffmpeg -v error -xerror -nostdin -y -f rawvideo -pix_fmt rgb24 -s {}x{} -framerate {:.17g} -i - -g 60 "
+      "-threads 1 -fps_mode passthrough -fflags +bitexact -flags:v +bitexact {}",
       width, height, fps, kind->options));
   std::vector<std::string> command{std::istream_iterator<std::string>(words), {}};
   if (kind->is_gif()) {
@@ -168,16 +169,15 @@ Result<void> MovieWriter::add(const Image& image) {
     if (n > 0) sent += static_cast<std::size_t>(n);
     if (n >= 0 || errno == EINTR) continue;
     if (auto done = impl_->end(); !done) return done;
-    return impl_->failed("ffmpeg has ended before the film");
+    return impl_->end();  // it has ended, but not for a failure
   }
   return {};
 }
 
 Result<void> MovieWriter::finish() {
   if (auto done = impl_->end(); !done) return done;
-  if (auto done = add_notes_to_gif(impl_->unfinished, impl_->gif_comment); !done) {
+  if (auto done = add_notes_to_gif(impl_->unfinished, impl_->gif_comment); !done)
     return impl_->failed(done.error().message);
-  }
   if (std::rename(impl_->unfinished.c_str(), impl_->file.c_str()) != 0) return impl_->failed(std::strerror(errno));
   return {};
 }

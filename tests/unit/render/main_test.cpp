@@ -143,7 +143,7 @@ TEST(RenderProgram, AnOddSizeIsBadInputForEveryFilmThatCannotHaveIt) {
   EXPECT_EQ(code(".gif"), 0);
 }
 
-// libavformat would take what is before the colon for a protocol, and open connections.
+// ffmpeg would take what is before the colon for a protocol, and open connections.
 TEST(RenderProgram, ANameOfAFilmIsNeverAnAddress) {
   const ScratchFolder folder;
   plant_trajectory(folder.path(), 1);

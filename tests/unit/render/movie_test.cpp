@@ -3,18 +3,17 @@
 
 #include <gtest/gtest.h>
 
-extern "C" {
-#include <libavcodec/avcodec.h>
-#include <libavformat/avformat.h>
-}
-
 #include <array>
+#include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <vector>
 
+#include "base/process.h"
 #include "render/make_movie.h"
 #include "tests/unit/render/render_support.h"
 
@@ -30,56 +29,39 @@ Image plain(int width, int height, const Rgb& colour) {
   return image;
 }
 
+/// A film as the programs ffprobe and ffmpeg read it.
 struct Decoded {
-  int width = 0, height = 0;
-  AVPixelFormat format = AV_PIX_FMT_NONE;
-  AVColorSpace matrix = AVCOL_SPC_UNSPECIFIED;
-  AVColorRange range = AVCOL_RANGE_UNSPECIFIED;
-  double fps = 0;
+  nlohmann::json stream, tags;
   std::vector<double> time;                ///< [s]
-  std::vector<std::array<int, 3>> middle;  ///< Y, Cb, Cr of each frame's middle
+  std::vector<std::array<int, 3>> middle;  ///< Y, Cb, Cr of each frame's middle; R, G, B of a GIF's
 };
 
+std::string output_of(std::vector<std::string> command) {
+  command.insert(command.begin() + 1, {"-v", "error"});
+  const Captured said = run_captured(command, {.time = std::chrono::minutes(1)});
+  EXPECT_EQ(said.exit_code, 0) << said.output;
+  return said.output;
+}
+
 Decoded decode(const std::filesystem::path& file) {
-  Decoded movie;
-  AVFormatContext* format = nullptr;
-  if (avformat_open_input(&format, file.c_str(), nullptr, nullptr) < 0) {
-    ADD_FAILURE() << "cannot open " << file;
-    return movie;
+  const auto told = nlohmann::json::parse(output_of({"ffprobe", "-of", "json", "-show_entries",
+                                                     "stream=codec_name,width,height,pix_fmt,color_space,color_range,"
+                                                     "avg_frame_rate:format_tags:frame=pts_time",
+                                                     file}));
+  Decoded movie{told.at("streams").at(0), told.at("format").value("tags", nlohmann::json::object()), {}, {}};
+  for (const auto& frame : told.at("frames")) {
+    movie.time.push_back(std::stod(frame.at("pts_time").get<std::string>()));
   }
-  avformat_find_stream_info(format, nullptr);
-  const AVStream* stream = format->streams[0];
-  AVCodecContext* codec = avcodec_alloc_context3(avcodec_find_decoder(stream->codecpar->codec_id));
-  avcodec_parameters_to_context(codec, stream->codecpar);
-  avcodec_open2(codec, codec->codec, nullptr);
-  movie.fps = av_q2d(stream->avg_frame_rate);
-  AVPacket* packet = av_packet_alloc();
-  AVFrame* frame = av_frame_alloc();
-  const auto drain = [&] {
-    while (avcodec_receive_frame(codec, frame) == 0) {
-      movie.width = frame->width;
-      movie.height = frame->height;
-      movie.format = static_cast<AVPixelFormat>(frame->format);
-      movie.matrix = frame->colorspace;
-      movie.range = frame->color_range;
-      movie.time.push_back(static_cast<double>(frame->pts) * av_q2d(stream->time_base));
-      const int x = frame->width / 2, y = frame->height / 2;
-      movie.middle.push_back({frame->data[0][y * frame->linesize[0] + x],
-                              frame->data[1][y / 2 * frame->linesize[1] + x / 2],
-                              frame->data[2][y / 2 * frame->linesize[2] + x / 2]});
-    }
-  };
-  while (av_read_frame(format, packet) == 0) {
-    avcodec_send_packet(codec, packet);
-    av_packet_unref(packet);
-    drain();
+  const bool is_gif = movie.stream.at("codec_name") == "gif";
+  const std::string bytes =
+      output_of({"ffmpeg", "-nostdin", "-i", file, "-fps_mode", "passthrough", "-vf",
+                 is_gif ? "format=rgb24,crop=1:1" : "format=yuv420p,crop=2:2", "-f", "rawvideo", "-"});
+  const std::array<std::size_t, 4> at =
+      is_gif ? std::array<std::size_t, 4>{0, 1, 2, 3} : std::array<std::size_t, 4>{0, 4, 5, 6};
+  for (std::size_t i = 0; i + at[3] <= bytes.size(); i += at[3]) {
+    const auto byte = [&](std::size_t c) { return static_cast<int>(static_cast<std::uint8_t>(bytes[i + at[c]])); };
+    movie.middle.push_back({byte(0), byte(1), byte(2)});
   }
-  avcodec_send_packet(codec, nullptr);
-  drain();
-  av_frame_free(&frame);
-  av_packet_free(&packet);
-  avcodec_free_context(&codec);
-  avformat_close_input(&format);
   return movie;
 }
 
@@ -109,12 +91,8 @@ TEST(Movie, DecodesToWhatWasPutIn) {
   write_movie(folder / "m.mp4", 70, 25);
   EXPECT_EQ(listing(folder), "m.mp4");
   const Decoded movie = decode(folder / "m.mp4");
-  EXPECT_EQ(movie.width, 128);
-  EXPECT_EQ(movie.height, 96);
-  EXPECT_EQ(movie.format, AV_PIX_FMT_YUV420P);
-  EXPECT_EQ(movie.matrix, AVCOL_SPC_BT709);
-  EXPECT_EQ(movie.range, AVCOL_RANGE_MPEG);
-  EXPECT_DOUBLE_EQ(movie.fps, 25);
+  EXPECT_EQ(movie.stream, nlohmann::json::parse(R"({"codec_name": "h264", "width": 128, "height": 96,
+      "pix_fmt": "yuv420p", "color_space": "bt709", "color_range": "tv", "avg_frame_rate": "25/1"})"));
   ASSERT_EQ(movie.middle.size(), 70u);
   for (std::size_t i = 0; i < 70; ++i) {
     EXPECT_NEAR(movie.time[i], static_cast<double>(i) / 25, 1e-6);
@@ -171,59 +149,60 @@ TEST(Movie, AFolderThatDoesNotExistIsAnError) {
       << movie.error().message;
 }
 
-TEST(Movie, FailuresOfFfmpegAreToldAndLeaveNoFile) {
-  const ScratchFolder folder, programs;
-  const std::string path = std::getenv("PATH");
-  setenv("PATH", programs.path().c_str(), 1);
-  const Result<MovieWriter> none = MovieWriter::create(folder / "m.mp4", 128, 96, 30);
-  std::ofstream(programs / "ffmpeg") << "#!/bin/sh\necho No space left on device\nexit 1\n";
-  std::filesystem::permissions(programs / "ffmpeg", std::filesystem::perms::owner_all);
-  {
-    Result<MovieWriter> full = MovieWriter::create(folder / "m.mp4", 128, 96, 30);
-    setenv("PATH", path.c_str(), 1);
-    ASSERT_TRUE(full);
-    const auto done = full->finish();
-    ASSERT_FALSE(done);
-    EXPECT_NE(done.error().message.find("ffmpeg failed with exit code 1: No space left"), std::string::npos)
-        << done.error().message;
+/// While it lives, `ffmpeg` is a program of the shell with these lines; without lines there is none.
+class OtherFfmpeg {
+ public:
+  explicit OtherFfmpeg(const std::string& lines) {
+    setenv("PATH", folder_.path().c_str(), 1);
+    if (lines.empty()) return;
+    std::ofstream(folder_ / "ffmpeg") << "#!/bin/sh\nPATH='" << path_ << "'\n" << lines << '\n';
+    std::filesystem::permissions(folder_ / "ffmpeg", std::filesystem::perms::owner_all);
   }
-  ASSERT_FALSE(none);
-  EXPECT_NE(none.error().message.find("`apt install ffmpeg`"), std::string::npos) << none.error().message;
+  OtherFfmpeg(const OtherFfmpeg&) = delete;
+  OtherFfmpeg& operator=(const OtherFfmpeg&) = delete;
+  ~OtherFfmpeg() { setenv("PATH", path_.c_str(), 1); }
+
+ private:
+  const ScratchFolder folder_;
+  const std::string path_ = std::getenv("PATH");
+};
+
+TEST(Movie, FailuresOfFfmpegAreToldAndLeaveNoFile) {
+  const ScratchFolder folder;
+  // A file that can grow no more fails as a full disk does: here when ffmpeg writes the index of a short film.
+  const std::array<std::pair<const char*, const char*>, 4> cases = {
+      std::pair{"", "ffmpeg cannot be run: No such file or directory; it encodes films: `apt install ffmpeg`"},
+      {"echo No space left on device; exit 1", "ffmpeg failed with exit code 1: No space left on device"},
+      {"trap '' XFSZ; ulimit -f 1; exec ffmpeg \"$@\"", "File too large"},
+      {"kill -9 $$", "ffmpeg was ended by signal 9"}};
+  for (const auto& [lines, words] : cases) {
+    const OtherFfmpeg ffmpeg(lines);
+    Result<MovieWriter> movie = MovieWriter::create(folder / "m.mp4", 128, 96, 30);
+    Result<void> done = movie ? movie->add(plain(128, 96, kColours[0])) : movie.error();
+    if (done) done = movie->finish();
+    ASSERT_FALSE(done) << lines;
+    EXPECT_NE(done.error().message.find(words), std::string::npos) << done.error().message;
+  }
   EXPECT_EQ(listing(folder), "");
 }
 
-/// The colour of the middle of each frame, and when it is shown.
-struct Shown {
-  std::vector<Rgb> middle;
-  std::vector<double> time;
-};
-Shown decode_gif(const std::filesystem::path& file) {
-  Shown shown;
-  AVFormatContext* format = nullptr;
-  EXPECT_GE(avformat_open_input(&format, file.c_str(), av_find_input_format("gif"), nullptr), 0);
-  if (!format) return shown;
-  avformat_find_stream_info(format, nullptr);
-  const AVStream* stream = format->streams[0];
-  AVCodecContext* codec = avcodec_alloc_context3(avcodec_find_decoder(AV_CODEC_ID_GIF));
-  avcodec_parameters_to_context(codec, stream->codecpar);
-  avcodec_open2(codec, codec->codec, nullptr);
-  AVPacket* packet = av_packet_alloc();
-  AVFrame* frame = av_frame_alloc();
-  while (av_read_frame(format, packet) == 0) {
-    avcodec_send_packet(codec, packet);
-    av_packet_unref(packet);
-    while (avcodec_receive_frame(codec, frame) == 0) {
-      EXPECT_EQ(frame->format, AV_PIX_FMT_BGRA);
-      const std::uint8_t* p = frame->data[0] + frame->height / 2 * frame->linesize[0] + frame->width / 2 * 4;
-      shown.middle.push_back({p[2], p[1], p[0]});
-      shown.time.push_back(static_cast<double>(frame->pts) * av_q2d(stream->time_base));
-    }
-  }
-  av_frame_free(&frame);
-  av_packet_free(&packet);
-  avcodec_free_context(&codec);
-  avformat_close_input(&format);
-  return shown;
+TEST(Movie, AFilmThatHasFailedFailsAgainAndWaitsForNobody) {
+  const ScratchFolder folder;
+  const OtherFfmpeg ffmpeg("kill -9 $$");
+  Result<MovieWriter> movie = MovieWriter::create(folder / "m.mp4", 128, 96, 30);
+  ASSERT_TRUE(movie);
+  const auto add = [&] { return movie->add(plain(128, 96, kColours[0])); };
+  auto added = add();
+  for (int i = 0; i < 1000 && added; ++i) added = add();
+  ASSERT_FALSE(added);
+  EXPECT_NE(added.error().message.find("signal 9"), std::string::npos) << added.error().message;
+  const Result<pid_t> other = start_child({.command = {"/bin/sleep", "5"}});
+  ASSERT_TRUE(other);
+  EXPECT_FALSE(add());
+  EXPECT_FALSE(movie->finish());
+  EXPECT_FALSE(poll_child(*other)) << "a child of somebody else's";
+  kill(*other, SIGKILL);
+  wait_for_child(*other);
 }
 
 TEST(Movie, AGifIsAGif) {
@@ -241,7 +220,7 @@ TEST(Movie, AGifIsAGif) {
   const std::string comment = std::string("\x21\xFE\xFF", 3) + "Run id: " + std::string(247, 'a') +
                               static_cast<char>(300 - 247 + 9) + std::string(300 - 247, 'a') + "; Seed: 7";
   EXPECT_NE(bytes.find(comment), std::string::npos) << "the notes, in blocks of 255 bytes";
-  const Shown shown = decode_gif(folder / "m.gif");
+  const Decoded shown = decode(folder / "m.gif");
   ASSERT_EQ(shown.middle.size(), 6u);
   for (std::size_t i = 0; i < 6; ++i) {
     EXPECT_NEAR(shown.time[i], 0.05 * static_cast<double>(i), 1e-6);
@@ -258,7 +237,7 @@ TEST(Movie, WebmDecodes) {
   ASSERT_TRUE(movie->finish());
   const Decoded decoded = decode(folder / "m.webm");
   ASSERT_EQ(decoded.middle.size(), 4u);
-  EXPECT_EQ(decoded.matrix, AVCOL_SPC_BT709);
+  EXPECT_EQ(decoded.stream.at("color_space"), "bt709");
   for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(decoded.middle[0][c], bt709(kColours[0])[c], 4) << c;
 }
 
@@ -279,15 +258,9 @@ TEST(Movie, SaysWhereItComesFrom) {
   ASSERT_TRUE(movie);
   ASSERT_TRUE(movie->add(plain(128, 96, kColours[0])));
   ASSERT_TRUE(movie->finish());
-  AVFormatContext* format = nullptr;
-  ASSERT_GE(avformat_open_input(&format, (folder / "m.mp4").c_str(), nullptr, nullptr), 0);
-  const auto tag = [&](const char* key) {
-    const AVDictionaryEntry* entry = av_dict_get(format->metadata, key, nullptr, 0);
-    return entry ? std::string(entry->value) : std::string();
-  };
-  EXPECT_EQ(tag("title"), "\u03c6 = 0.8");
-  EXPECT_EQ(tag("comment"), "Run id: 1f0c; Seed: 3");
-  avformat_close_input(&format);
+  const Decoded decoded = decode(folder / "m.mp4");
+  EXPECT_EQ(decoded.tags.at("title"), "\u03c6 = 0.8");
+  EXPECT_EQ(decoded.tags.at("comment"), "Run id: 1f0c; Seed: 3");
 }
 
 PictureStyle small() {
