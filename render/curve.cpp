@@ -4,43 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/ticks.h"
-
 namespace shaken::render {
-namespace {
-
-/// The cells over `plot`, and right of it their scale with its ends.
-void draw_cells(const Canvas& canvas, const Rect& plot, double unit, const Curve::Cells& cells,
-                const PageColours& colours) {
-  cairo_t* cr = canvas.cairo();
-  cairo_save(cr);
-  cairo_set_antialias(cr, CAIRO_ANTIALIAS_NONE);  // else the page shines through between two cells
-  const std::size_t rows = cells.values.size() / cells.columns;
-  const double width = plot.width / static_cast<double>(cells.columns),
-               height = plot.height / static_cast<double>(rows);
-  for (std::size_t k = 0; k < cells.values.size(); ++k) {
-    if (std::isnan(cells.values[k])) continue;
-    const std::size_t column = k % cells.columns, row = k / cells.columns;
-    canvas.colour(cells.colour(cells.values[k], cells.range, Palette::kSafe));
-    canvas.fill({plot.x + static_cast<double>(column) * width, plot.bottom() - static_cast<double>(row + 1) * height,
-                 width, height});
-  }
-  const Rect bar{plot.right() + 10 * unit, plot.y, 10 * unit, plot.height};
-  constexpr int kSteps = 32;
-  for (int k = 0; k < kSteps; ++k) {
-    const double share = (k + 0.5) / kSteps, step = bar.height / kSteps;
-    canvas.colour(
-        cells.colour(cells.range.x() + share * (cells.range.y() - cells.range.x()), cells.range, Palette::kSafe));
-    canvas.fill({bar.x, bar.bottom() - (k + 1) * step, bar.width, step});
-  }
-  cairo_restore(cr);
-  canvas.colour(colours.ink);
-  canvas.text(bar.right() + 4 * unit, bar.y + 9 * unit, tick_text(cells.range.y()), 12 * unit);
-  canvas.text(bar.right() + 4 * unit, bar.bottom(), tick_text(cells.range.x()), 12 * unit);
-}
-
-}  // namespace
-
 void draw_curve(const Canvas& canvas, const Rect& place, double unit, const Curve& curve, const PageColours& colours) {
   canvas.colour(colours.ink);
   const double size = 13 * unit;
@@ -48,11 +12,7 @@ void draw_curve(const Canvas& canvas, const Rect& place, double unit, const Curv
               size * std::min(1.0, place.width / canvas.text_width(curve.title, size)));
   double left = 26 * unit;
   for (const Tick& tick : curve.y_ticks) left = std::max(left, canvas.text_width(tick.text, 12 * unit) + 6 * unit);
-  Rect plot{place.x + left, place.y + 28 * unit, place.width - left, place.height - 50 * unit};
-  if (curve.cells) {
-    plot.width = plot.height = std::min(plot.height, plot.width - 48 * unit);  // which leaves room for the scale
-    draw_cells(canvas, plot, unit, *curve.cells, colours);
-  }
+  const Rect plot{place.x + left, place.y + 28 * unit, place.width - left, place.height - 50 * unit};
   const auto along = [](double value, const std::vector<Tick>& ticks) {
     const double low = ticks.front().at, high = ticks.back().at;
     return (value - low) / (high > low ? high - low : 1);
@@ -61,10 +21,8 @@ void draw_curve(const Canvas& canvas, const Rect& place, double unit, const Curv
   const auto y_of = [&](double y) { return plot.bottom() - along(y, curve.y_ticks) * plot.height; };
 
   for (const Tick& tick : curve.y_ticks) {
-    if (!curve.cells) {
-      canvas.colour(colours.faint, tick.at == 0 ? 0.9 : 0.3);
-      canvas.line(plot.x, y_of(tick.at), plot.right(), y_of(tick.at), unit);
-    }
+    canvas.colour(colours.faint, tick.at == 0 ? 0.9 : 0.3);
+    canvas.line(plot.x, y_of(tick.at), plot.right(), y_of(tick.at), unit);
     canvas.colour(colours.ink);
     canvas.text(plot.x - 6 * unit, y_of(tick.at) + 4 * unit, tick.text, 12 * unit, Canvas::Align::kRight);
   }

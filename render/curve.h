@@ -17,7 +17,7 @@ struct Tick {
   std::string text;
 };
 
-/// A line, or cells, over two axes, as small plots beside the rods have it.
+/// A line over two axes, as small plots beside the rods have it.
 struct Curve {
   std::string title{};
   std::vector<double> x{}, y{};            ///< points; the line has a gap where y is NaN
@@ -30,15 +30,6 @@ struct Curve {
   std::optional<Vec2> ring{};  ///< round one of them
   std::optional<Vec2> dot{};   ///< the present
   bool is_area = false;        ///< filled down to 0
-
-  /// Coloured cells that fill the plot, which is a square then, with their scale beside it.
-  struct Cells {
-    std::size_t columns = 0;
-    std::vector<double> values{};  ///< (rows, columns), the lowest row first; nothing is drawn where NaN
-    Vec2 range = Vec2::Zero();     ///< ends of the scale
-    Colour (*colour)(double value, const Vec2& range, Palette palette) = nullptr;
-  };
-  std::optional<Cells> cells{};
 };
 
 /// Draws it so that title and marks lie within `place`; `unit` as in Layout.

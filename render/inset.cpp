@@ -7,9 +7,6 @@
 #include <cmath>
 
 #include "analysis/angles.h"
-#include "analysis/g2.h"
-#include "analysis/pair_map.h"
-#include "analysis/region.h"
 #include "render/colourings.h"
 #include "render/ticks.h"
 
@@ -57,50 +54,6 @@ Curve angle_curve(const RodPicture& picture) {
   return curve;
 }
 
-Curve g2_curve(const RodPicture& picture) {
-  constexpr int kBins = 40;
-  const std::vector<Vec3> positions = picture.cell.of_species(0, picture.frame.position);
-  analysis::OrientationCorrelation correlation(kBins, picture.cell.box.shorter() / 2);
-  correlation.accumulate(positions, picture.cell.of_species(0, picture.frame.director),
-                         analysis::Region(picture.cell.box, picture.cell.walls));
-  analysis::OrientationCurve pairs = correlation.reduce();
-  const double r_max = picture.cell.box.shorter() / 2, step = tick_step(r_max, 3);
-  Curve curve{.title = "G\u2082(r)", .x = std::move(pairs.r), .y = std::move(pairs.g2), .y_ticks = kHalves};
-  for (const double r : ticks(0, r_max, step)) curve.x_ticks.push_back({r, tick_text(r)});
-  curve.x_ticks.back().text += " mm";
-  // The axis ends where the curve does, which need not be at a round number.
-  if (curve.x_ticks.back().at < r_max) curve.x_ticks.push_back({r_max, ""});
-  const bool is_below = std::any_of(curve.y.begin(), curve.y.end(), [](double value) { return value < -0.02; });
-  if (is_below) curve.y_ticks = {{-1, tick_text(-1)}, {0, "0"}, {1, "1"}};
-  return curve;
-}
-
-Curve g2_map(const RodPicture& picture) {
-  const std::vector<Vec3> positions = picture.cell.of_species(0, picture.frame.position);
-  const double range = std::min(2 * picture.rod_length(), picture.cell.box.shorter() / 2);
-  // As fine as leaves some twenty pairs to a bin; odd, so that one is about 0.
-  const double per_area = static_cast<double>(positions.size()) / picture.cell.box.area();
-  const double pairs = per_area * static_cast<double>(positions.size()) * (2 * range) * (2 * range);
-  const int bins = 2 * std::clamp(static_cast<int>(std::sqrt(pairs / 20) / 2), 4, 20) + 1;
-  analysis::PairMap map({.bins = bins, .range = range, .strip = range, .box = picture.cell.box});
-  map.accumulate(positions, picture.cell.of_species(0, picture.frame.director));
-  const std::vector<double> g2 = map.reduce().g2;
-  // The part of the scale that most cells need: among aligned rods all are near 1.
-  std::vector<double> known;
-  std::copy_if(g2.begin(), g2.end(), std::back_inserter(known), [](double value) { return !std::isnan(value); });
-  std::sort(known.begin(), known.end());
-  const double low = known.empty() ? 0 : known[known.size() / 50];
-  const double bottom = low >= 0.8 ? 0.8 : low >= 0.5 ? 0.5 : low >= -0.1 ? 0 : -1;
-  const std::string end = fmt::format("{:.3g}", range);
-  return {.title = "G\u2082 along (\u2194) and across N (mm)",
-          .x_ticks = {{-range, "\u2212" + end}, {0, "0"}, {range, end}},
-          .y_ticks = {{-range, "\u2212" + end}, {0, "0"}, {range, end}},
-          .cells = Curve::Cells{.columns = static_cast<std::size_t>(bins),
-                                .values = g2,
-                                .range = Vec2(bottom, 1),
-                                .colour = find_colouring("order")->colour}};
-}
-
 namespace {
 
 /// An axis that holds all of `values`, from one round number to another.
@@ -146,10 +99,6 @@ bool has_inset(const RodPicture& picture, const PictureStyle& style) {
       return !picture.captions.history.time.empty();
     case Inset::kSweep:
       return picture.captions.sweep != nullptr;
-    case Inset::kG2Map:
-      return picture.count(0) > 1 && !picture.cell.walls && picture.cell.posts.centres.empty();
-    case Inset::kG2:  // posts would stand in the lines of sight
-      return picture.count(0) > 1 && picture.cell.posts.centres.empty();
     case Inset::kAngles:
       break;
   }
@@ -171,11 +120,9 @@ void draw_inset(const Canvas& canvas, const Rect& place, double unit, const RodP
   const double edge = is_on_rods ? 8 * unit : 0;
   const Rect inner{place.x + edge, place.y + edge, place.width - 2 * edge, place.height - 1.5 * edge};
   draw_curve(canvas, inner, unit,
-             style.inset == Inset::kOrder    ? order_curve(picture)
-             : style.inset == Inset::kSweep  ? sweep_curve(picture.captions)
-             : style.inset == Inset::kAngles ? angle_curve(picture)
-             : style.inset == Inset::kG2Map  ? g2_map(picture)
-                                             : g2_curve(picture),
+             style.inset == Inset::kOrder   ? order_curve(picture)
+             : style.inset == Inset::kSweep ? sweep_curve(picture.captions)
+                                            : angle_curve(picture),
              colours);
 }
 

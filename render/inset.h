@@ -12,13 +12,6 @@ namespace shaken::render {
 Curve order_curve(const RodPicture& picture);
 /// P(theta) of this instant, as a run measures it (analysis/angles.h) [1/degree], against degrees.
 Curve angle_curve(const RodPicture& picture);
-/// G2(r) of this instant, as a run measures it (analysis/g2.h), up to half a box [mm].
-Curve g2_curve(const RodPicture& picture);
-
-/// G2(x, y) of this instant, as a run measures it (analysis/pair_map.h), over two lengths of a rod each way, or half a
-/// box if that is less: x along the director, y across it [mm]. Of a periodic box only.
-Curve g2_map(const RodPicture& picture);
-
 /// The points of the sweep, coloured by S, with a ring round this run's.
 Curve sweep_curve(const Captions& captions);
 

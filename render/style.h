@@ -41,8 +41,6 @@ enum class Inset {
   kNone,
   kAngles,  ///< P(theta) of the instant
   kOrder,   ///< S(t)
-  kG2,      ///< G2(r) of the instant
-  kG2Map,   ///< G2(x, y) of the instant, along and across the director
   kSweep,   ///< the points of the sweep by their S, with a ring round the run's own
 };
 

@@ -140,8 +140,8 @@ std::vector<StyleKey> rows() {
                              keys::Dimension::kTime),
       number<&Style::displacements>("displacements", "S", 0, 1e6,
                                     "Arrows from where each rod's centre was so long before", keys::Dimension::kTime),
-      word<&Style::inset>("inset", {"none", "angles", "order", "g2", "g2-map", "sweep"},
-                          "A plot in a corner of the rods: P(theta), G2(r) and the map G2(x, y) of this instant; S(t), "
+      word<&Style::inset>("inset", {"none", "angles", "order", "sweep"},
+                          "A plot in a corner of the rods: P(theta) of this instant; S(t), "
                           "which then stands there only; the points of the sweep with a ring round this one"),
       on_or_off("caption", at<&Style::caption>, "Headline, numbers and S(t)"),
       on_or_off("legend", at<&Style::legend>, "The colour scale, with how many rods have which colour"),

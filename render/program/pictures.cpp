@@ -112,7 +112,7 @@ void make_live_picture(const Options& options) {
     throw Failure(ExitCode::kBadInput, "the inset of a sweep is drawn with recorded frames, not with a running job's");
   }
   if (style.inset == Inset::kOrder) {
-    throw Failure(ExitCode::kBadInput, "messages do not tell S(t): of a running job the inset is angles, g2 or g2-map");
+    throw Failure(ExitCode::kBadInput, "messages do not tell S(t): of a running job the inset is angles");
   }
   check_picture_name(options, style);
   const auto timeout = std::chrono::milliseconds(std::llround(options.timeout_s * 1000));

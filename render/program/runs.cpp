@@ -77,10 +77,6 @@ Result<RodPicture> Runs::joint_picture(const PictureStyle& style,
 }
 
 void check_picture(const PictureStyle& style, const RodPicture& picture) {
-  if (style.inset == Inset::kG2Map && picture.cell.walls) {
-    throw Failure(ExitCode::kBadInput,
-                  "the map of G2 is of pairs in a periodic box, and these rods are between side walls: use g2, G2(r)");
-  }
   if (style.followed && static_cast<std::size_t>(*style.followed) >= picture.n_rods()) {
     throw Failure(ExitCode::kBadInput, fmt::format("there is no rod {}: they are numbered from 0 to {}",
                                                    *style.followed, static_cast<std::ptrdiff_t>(picture.n_rods()) - 1));

@@ -132,8 +132,6 @@ const Case kCases[] = {
      },
      R"({"colour": "angle", "defects": true})"},
     {"inset_angles", layered, R"({"colour": "angle", "defects": false, "inset": "angles"})"},
-    {"inset_g2", paired, R"({"theme": "dark", "caption": false, "legend": false, "scale_bar": false, "inset": "g2"})"},
-    {"inset_g2_map", layered, R"({"caption": false, "legend": false, "scale_bar": false, "inset": "g2-map"})"},
     {"inset_order",
      [] {
        RodPicture first = layered(), second = paired();

@@ -60,56 +60,6 @@ TEST(FilmAxes, StandStillWhereEachFrameAloneWouldHaveItsOwn) {
   EXPECT_EQ(angle_curve(low).y_ticks.back().at, angle_curve(high).y_ticks.back().at);
 }
 
-TEST(Inset, G2OfParallelRodsIsOneAndOfCrossedOnesFallsBelowZero) {
-  const Curve parallel = g2_curve(two_angles(0.4, 0.4));
-  EXPECT_TRUE(std::all_of(parallel.y.begin(), parallel.y.end(),
-                          [](double g2) { return std::isnan(g2) || std::abs(g2 - 1) < 1e-9; }));
-  EXPECT_EQ(parallel.y_ticks.front().at, 0);
-  EXPECT_LE(parallel.x.back(), 20) << "half a box";
-  // Columns 2 mm apart are crossed, so all pairs at (2 mm, 2 mm) are; of the twelve at 4 mm and at
-  // (2 mm, 4 mm), four are.
-  const Curve crossed = g2_curve(two_angles(0, kPi / 2));
-  const auto at = [&](double r) { return crossed.y[static_cast<std::size_t>(r / 0.5)]; };  // 40 bins up to 20 mm
-  EXPECT_NEAR(at(2 * std::sqrt(2.0)), -1, 1e-9);
-  EXPECT_NEAR(at(4.2), (8.0 - 4.0) / 12, 1e-9);
-  EXPECT_EQ(crossed.y_ticks.front().at, -1);
-}
-
-TEST(Inset, TheMapOfG2IsAlongAndAcrossTheDirector) {
-  const double angle = 0.3, apart = std::cos(2 * 2 * angle);
-  // Neighbours along x are at +-angle, neighbours along y are parallel.
-  for (const bool along_x : {true, false}) {
-    const double director = along_x ? 0 : kPi / 2;
-    const Curve curve = g2_map(two_angles(director + angle, director - angle));
-    ASSERT_TRUE(curve.cells);
-    const std::size_t n = curve.cells->columns;
-    ASSERT_EQ(curve.cells->values.size(), n * n);
-    ASSERT_EQ(n % 2, 1U) << "a cell is about 0";
-    const double width = 2 * curve.x_ticks.back().at / static_cast<double>(n);
-    const auto at = [&](double along, double across) {
-      const auto cell = [&](double d) { return static_cast<std::size_t>(std::floor(d / width + 0.5 * n)); };
-      return curve.cells->values[cell(across) * n + cell(along)];
-    };
-    EXPECT_NEAR(at(2, 0), along_x ? apart : 1, 1e-9);
-    EXPECT_NEAR(at(-2, 0), along_x ? apart : 1, 1e-9);
-    EXPECT_NEAR(at(0, 2), along_x ? 1 : apart, 1e-9);
-    EXPECT_NEAR(at(2, 2), apart, 1e-9);
-    EXPECT_TRUE(std::isnan(at(0, 0))) << "no two rods are at one place";
-    EXPECT_EQ(curve.cells->range, Vec2(0, 1)) << "as cos 1.2 = 0.36 needs";
-  }
-  EXPECT_EQ(g2_map(two_angles(0.05, -0.05)).cells->range, Vec2(0.8, 1));
-  EXPECT_EQ(g2_map(two_angles(kPi / 4, -kPi / 4)).cells->range, Vec2(-1, 1));
-}
-
-TEST(Inset, TheMapOfG2NeedsAPeriodicBox) {
-  RodPicture picture = two_angles(0.1, -0.1);
-  PictureStyle style;
-  style.inset = Inset::kG2Map;
-  EXPECT_TRUE(has_inset(picture, style));
-  picture.cell.walls = SideWalls{};
-  EXPECT_FALSE(has_inset(picture, style));
-}
-
 TEST(Inset, TheOrderOfTheRunEndsAtThePresent) {
   RodPicture picture = two_angles(0, 0);
   PictureStyle style;

@@ -29,7 +29,7 @@ TEST(Layout, NothingOverlapsOrLeavesThePicture) {
         PictureStyle style;
         if (more >= 4) {
           style.tracks = 2;
-          style.inset = Inset::kG2;
+          style.inset = Inset::kAngles;
         }
         style.width = width;
         style.height = height;
@@ -70,7 +70,7 @@ TEST(Layout, TheInsetIsInTheColumnOrLiesOnTheRods) {
   };
   PictureStyle style;
   EXPECT_EQ(layout_of(style, {}).inset.width, 0);
-  style.inset = Inset::kG2;
+  style.inset = Inset::kAngles;
   for (const auto& [width, height] : std::vector<std::pair<int, int>>{{480, 270}, {1280, 720}, {270, 480}}) {
     style.width = width;
     style.height = height;
