@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <set>
 
 #include "client/live/api_client.h"
 #include "client/live/target.h"
@@ -120,23 +119,6 @@ std::string sweep_of(const Context& context, const std::vector<Drawn>& drawn) {
       throw Failure(ExitCode::kBadInput, fmt::format("job {} does not belong to sweep {}", one.name, sweep));
     }
     said["here"].push_back(place_of(*row, axes));
-  }
-  return said.dump();
-}
-
-std::string map_of(const Context& context, const std::string& sweep) {
-  ApiClient session(context.root());
-  const Target target = find_target(session, sweep);
-  if (!target.is_sweep) throw Failure(ExitCode::kBadInput, fmt::format("--map takes a sweep, and {} is a job", sweep));
-  const std::vector<ResultRow> rows = result_rows(session, target);
-  const std::vector<std::string> axes = axes_of(rows, sweep);
-  Json said = {{"x", axes.front()}, {"y", axes.size() > 1 ? axes[1] : ""}, {"cells", Json::array()}};
-  std::set<std::string> seen;  // of replicas, and of runs that differ in more, one is shown
-  for (const ResultRow& row : rows) {
-    Json cell = place_of(row, axes);
-    if (!seen.insert(cell.dump()).second) continue;
-    cell.push_back(row.fields.value("directory", ""));
-    said["cells"].push_back(std::move(cell));
   }
   return said.dump();
 }

@@ -46,8 +46,6 @@ std::vector<Drawn> find_drawn(const Context& context, const std::vector<std::str
 /// The sweep of the first of them, with the place of each, as shaken-render takes it: S by the first two parameters
 /// that differ. Throws Failure.
 std::string sweep_of(const Context& context, const std::vector<Drawn>& drawn);
-/// The runs of a sweep by the first two numbers that differ, as `shaken-render map` takes them. Throws Failure.
-std::string map_of(const Context& context, const std::string& sweep);
 std::vector<std::string> labels_of(const std::vector<Drawn>& drawn);
 
 }  // namespace shaken::client

@@ -37,13 +37,6 @@ std::string symbol_of(const std::string& path) {
   return symbol != std::end(kSymbols) ? symbol->second : path.substr(path.rfind('.') + 1);
 }
 
-std::string axis_of(const std::string& path) {
-  const int field = scene::field_index(path);
-  const keys::Dimension dimension = field < 0 ? keys::Dimension::kPlain : scene::field_at(path).dimension;
-  const std::vector<keys::Unit> units = keys::units_of(dimension);
-  return units.empty() ? symbol_of(path) : fmt::format("{} ({})", symbol_of(path), units.front().name);
-}
-
 namespace {
 
 /// One setting, or nothing if `word` is none.

@@ -19,9 +19,6 @@ Notes settings_of(const RodPicture& picture);
 /// several the settings that differ between them, or their numbers if none does.
 void name_runs(const std::vector<Captions*>& runs);
 
-/// The same for an axis, with the unit that its numbers have in sweeps: "ℓ (mm)".
-std::string axis_of(const std::string& path);
-
 /// What a key of a scene is called where it is swept: "ℓ" of "rods.length"; its last word if it has no symbol.
 std::string symbol_of(const std::string& path);
 

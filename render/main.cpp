@@ -8,7 +8,6 @@
 #include "base/program.h"
 #include "render/colourings.h"
 #include "render/program/films.h"
-#include "render/program/maps.h"
 #include "render/program/options.h"
 #include "render/program/pictures.h"
 #include "run/files/version.h"
@@ -47,8 +46,6 @@ int main(int argc, char** argv) {
   declare_picture(*app.get_subcommand("picture"), options);
   const CLI::App* film = app.add_subcommand("movie", "A recorded run as a film");
   declare_film(*app.get_subcommand("movie"), options);
-  const CLI::App* map = app.add_subcommand("map", "The last frames of the runs of a sweep as one picture");
-  declare_map(*app.get_subcommand("map"), options);
   const CLI::App* live = app.add_subcommand("live", "The present state of a running job as a picture, from LCM");
   declare_live(*app.get_subcommand("live"), options);
   app.add_subcommand("style", "Lists the presets, or prints one as a style file")
@@ -58,8 +55,6 @@ int main(int argc, char** argv) {
       make_picture(options);
     } else if (film->parsed()) {
       make_film(options);
-    } else if (map->parsed()) {
-      make_map(options);
     } else if (live->parsed()) {
       make_live_picture(options);
     } else {

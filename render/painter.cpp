@@ -105,26 +105,6 @@ Result<ClearImage> Painter::paint_clear(const RodPicture& picture, PictureStyle 
   return clear;
 }
 
-Result<Image> Painter::paint_map(const PhaseMap& map, const PictureStyle& style) {
-  if (auto done = render::check(style); !done) return done.error();
-  const MapLayout layout = map_layout(map, style);
-  if (layout.side < kLeastSide) {
-    return Error{"there is no room for " + std::to_string(map.x.values.size()) + " x " +
-                 std::to_string(map.y.values.size()) + " pictures: make the map larger"};
-  }
-  Sheet<std::uint8_t> sheet(style.width, style.height, page_colours(style.theme).page);
-  for (const PhaseMap::Cell& cell : map.cells) {
-    if (!cell.picture) continue;
-    const Result<Image> rods = rods_.draw<std::uint8_t>(*cell.picture, style, layout.side, layout.side);
-    if (!rods) return rods.error();
-    const Vec2 at = layout.corner(cell);
-    sheet.paste(*rods, static_cast<int>(at.x()), static_cast<int>(at.y()), 1);
-  }
-  draw_map_words(sheet.over(), layout, map, style);
-  if (auto whole = sheet.check(); !whole) return whole.error();
-  return sheet.image();
-}
-
 template <class Channel>
 Result<void> Painter::paint_one(Sheet<Channel>& sheet, const RodPicture& picture, const PictureStyle& style) {
   const Layout layout = layout_for(picture, style);

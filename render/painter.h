@@ -7,7 +7,6 @@
 #include "base/core/result.h"
 #include "render/canvas.h"
 #include "render/image.h"
-#include "render/phase_map.h"
 #include "render/picture.h"
 #include "render/picture_layout.h"
 #include "render/rods_pass.h"
@@ -27,9 +26,6 @@ class Painter {
 
   /// Without page and floor; shadows are dark and half clear. `style.transparent` need not be set.
   Result<ClearImage> paint_clear(const RodPicture& picture, PictureStyle style);
-
-  /// The rods of each point of a sweep over its place on the axes. Fails if there is no room for so many.
-  Result<Image> paint_map(const PhaseMap& map, const PictureStyle& style);
 
  private:
   explicit Painter(RodsPass rods) : rods_(std::move(rods)) {}

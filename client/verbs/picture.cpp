@@ -17,7 +17,6 @@ class Picture : public Verb {
             "  shaken picture 1f0c 22ab 77c0 --time 20s -o three.png  three runs side by side\n"
             "  shaken picture runs/first --bare --inset angles       P(theta) in a corner of the rods\n"
             "  shaken picture runs/first --view follow:17            rod 17 in the middle\n"
-            "  shaken picture s1 --map -o map.png                    the last frame of every run of sweep s1\n"
             "Styles, colours and style files: docs/pictures.md",
             kExitCodesOfDaemon};
   }
@@ -26,24 +25,12 @@ class Picture : public Verb {
     options_.declare(arguments, false);
     arguments.option("--frame", frame_, "N|last", "The frame, counted from 0; the last if left out");
     arguments.option("--time", time_, "TIME", "The frame nearest to this simulated time: 12.5, 500ms");
-    arguments.flag("--map", map_, "JOB is a sweep: the last frames of its runs, by one or two swept numbers");
     arguments.option("--depth", depth_, "8|16", "Bits a colour of a PNG; 8 if left out");
   }
 
   ExitCode run(const Context& context) override {
     if (!frame_.empty() && !time_.empty()) {
       throw Failure(ExitCode::kBadInput, "--frame and --time exclude each other");
-    }
-    if (map_) {
-      if (!frame_.empty() || !time_.empty() || !depth_.empty() || options_.jobs.size() > 1) {
-        throw Failure(ExitCode::kBadInput, "--map takes one sweep, and neither --frame, --time nor --depth");
-      }
-      const std::string& sweep = options_.jobs.front();
-      std::vector<std::string> words{sibling_program("shaken-render").string(), "map", map_of(context, sweep), "-o",
-                                     options_.out.empty() ? sweep + ".png" : options_.out};
-      const std::vector<std::string> style = options_.words({});
-      words.insert(words.end(), style.begin(), style.end());
-      become(words);
     }
     const std::vector<Drawn> drawn = find_drawn(context, options_.jobs);
     std::vector<std::string> command{sibling_program("shaken-render").string(), "picture"};
@@ -61,7 +48,6 @@ class Picture : public Verb {
  private:
   PictureOptions options_;
   std::string frame_, time_, depth_;
-  bool map_ = false;
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/plots_by_python.h"
+#include "base/process.h"
 #include "base/text.h"
 #include "client/live/target.h"
 #include "client/results.h"
@@ -27,6 +28,7 @@ class Plot : public Verb {
             "  shaken plot s3 --x rods.area_fraction --y theta_m_deg -o theta.pdf\n"
             "  shaken plot s3 --where 'rods.length=4.5 and box.gap<2mm' --width 183mm\n"
             "  shaken plot s3 --format svg   as PDF or SVG instead of PNG\n"
+            "  shaken plot s3 --map -o map.png               the last frames of its runs, by one or two swept numbers\n"
             "  shaken plot runs/first        what `shaken run` has left there",
             kExitCodesOfDaemon};
   }
@@ -39,9 +41,10 @@ class Plot : public Verb {
                      "One figure: of this field of `results --csv`, or scalar; order.mean if left out", Names::kField);
     arguments.repeatable("-w,--where", where_, "CONDITION",
                          "Only points that match, as of `results`; repeatable, all must hold");
-    arguments.option("-o,--out", out_, "DIR", "Where to write; plots-ID if left out. With --x or --y also a file",
+    arguments.flag("--map", map_, "One figure: the last frames of the runs over the first one or two swept numbers");
+    arguments.option("-o,--out", out_, "DIR", "Where to write; plots-ID if left out. Of one figure also a file",
                      Names::kFolder);
-    arguments.option("--format", format_, "png|pdf|svg", "png if left out; with --x or --y also by the suffix of --out",
+    arguments.option("--format", format_, "png|pdf|svg", "png if left out; of one figure also by the suffix of --out",
                      Names::kAnything);
     arguments.option("--width", width_, "89mm|120mm|183mm",
                      "A column, one and a half, or a page; as the panels need it if left out", Names::kAnything);
@@ -55,7 +58,7 @@ class Plot : public Verb {
                 {"rows", Json::array()}};
     if (!id_.empty() && is_run_directory(id_)) {
       if (one_figure() || !where_.empty()) {
-        throw Failure(ExitCode::kBadInput, "--x, --y and --where are for sweeps, not for a run directory");
+        throw Failure(ExitCode::kBadInput, "--x, --y, --map and --where are for sweeps, not for a run directory");
       }
       if (out_.empty()) out_ = (fs::path(id_) / "plots").string();
       wanted["runs"].push_back({{"directory", url_encoded(id_)}, {"parameters", Json::object()}});
@@ -76,7 +79,7 @@ class Plot : public Verb {
   }
 
  private:
-  bool one_figure() const { return !x_.empty() || !y_.empty(); }
+  bool one_figure() const { return map_ || !x_.empty() || !y_.empty(); }
 
   static bool is_format(std::string_view word) { return word == "png" || word == "pdf" || word == "svg"; }
 
@@ -93,8 +96,10 @@ class Plot : public Verb {
       problems += fmt::format("--width takes 89mm, 120mm or 183mm, not '{}'\n", width_);
     }
     if (is_picture && !one_figure()) {
-      problems += fmt::format("{} is one picture, and this draws several: give a folder, or --x and --y\n", out_);
+      problems +=
+          fmt::format("{} is one picture, and this draws several: give a folder, or --x and --y, or --map\n", out_);
     }
+    if (map_ && !(x_ + y_).empty()) problems += "--map goes with neither --x nor --y\n";
     std::error_code unknown;
     if (one_figure() && !suffix.empty() && !is_picture && !fs::is_directory(out, unknown)) {
       problems += fmt::format("{}: a plot is a .png, .pdf or .svg\n", out_);
@@ -141,10 +146,11 @@ class Plot : public Verb {
       if (!kept.contains(row.parameters.dump())) continue;
       wanted["rows"].push_back({{"id", field_text(row, "job")}, {"version", version_text(row)}});
     }
-    if (one_figure()) return;
+    if (map_) wanted["renderer"] = url_encoded(sibling_program("shaken-render").string());
+    if (one_figure() && !map_) return;
     std::set<std::string> met;  // a run that several points of a sweep ask for is one run
     for (const Json& job : jobs_of(target)) {
-      if (text_of(job, "state") == "queued" || !kept.contains(job.at("parameters").dump()) ||
+      if ((text_of(job, "state") == "queued" && !map_) || !kept.contains(job.at("parameters").dump()) ||
           !met.insert(text_of(job, "id")).second) {
         continue;
       }
@@ -184,6 +190,7 @@ class Plot : public Verb {
 
   std::string x_;
   std::string y_;
+  bool map_ = false;
   std::vector<std::string> where_;
   std::string format_;
   std::string width_;

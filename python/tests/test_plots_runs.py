@@ -16,8 +16,9 @@ import pytest
 pytest.importorskip("matplotlib")
 from figures_whole import assert_whole  # noqa: E402
 
+from shaken.errors import ShakenError  # noqa: E402
 from shaken.estimate import Estimate, replica_mean  # noqa: E402
-from shaken.plots import names, runs, series, style, sweeps  # noqa: E402
+from shaken.plots import names, pictures, runs, series, style, sweeps  # noqa: E402
 
 NAN = float("nan")
 TILT = {"/tilt/n_z": [-0.1, 0.1], "/tilt/v_along_mm_s": [1.0, 2.0]}
@@ -112,6 +113,34 @@ def test_maps_of_the_density_in_time(tmp_path: Path) -> None:
     assert [names.plain(panel.title) for panel in panels] == ["t = 1 s", "t = 3 s", "t = 4 s", "mean"]
     assert list(panels[1].drawn[0].z[1:]) == [13, 14, 15, 16, 17]  # the fifth is not on the disk yet
     assert_whole(found["density_maps"].finish())
+
+
+def test_a_map_has_the_first_run_of_each_point_at_its_place(tmp_path: Path) -> None:
+    from PIL import Image
+    renderer = tmp_path / "renderer"
+    renderer.write_text('#!/bin/sh\ncp "$2/rods.png" "$8" 2>/dev/null || { echo torn; exit 1; }\n')
+    renderer.chmod(0o755)
+    sweep = []
+    for k, (phi, length) in enumerate([(0.8, "2.5 mm"), (0.4, "2.5 mm"), (0.4, "2.5 mm"), (0.4, "4.5 mm"),
+                                       (0.6, "2.5 mm"), (0.6, "4.5 mm")]):
+        folder = tmp_path / str(k)
+        folder.mkdir()
+        if k != 3:
+            (folder / "trajectory.h5").touch()
+        if k != 4:
+            Image.new("RGB", (9, 9), (40 * k, 0, 0)).save(folder / "rods.png")
+        sweep.append((str(folder), {"wall": "rough", "rods.area_fraction": phi, "rods.length": length}))
+    sheet, missing = pictures.picture_map(sweep, str(renderer))
+    assert missing == ["nothing was recorded", "torn"]
+    red = [round(float(panel.axes.images[0].get_array()[4, 4, 0]) * 255) if panel.has_picture else panel.absent
+           for panel in sheet]
+    assert red == ["no frame", 200, "no data", 40, "no frame", 0]  # long rods above; two of (0.4, 2.5 mm)
+    assert names.plain(sheet[1].title) == "φ = 0.6, ℓ = 4.5 mm" and not sheet[2].is_used
+    assert_whole(sheet.finish())
+    row, _ = pictures.picture_map([one for one in sweep if one[1]["rods.length"] == "2.5 mm"], str(renderer))
+    assert [panel.has_picture for panel in row] == [True, False, True]
+    with pytest.raises(ShakenError, match="no number is swept"):
+        pictures.picture_map(sweep[1:3], str(renderer))
 
 
 def test_replicas_are_a_mean_with_its_error() -> None:

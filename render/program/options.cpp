@@ -88,16 +88,6 @@ void declare_film(CLI::App& command, Options& options) {
   declare_style(command, options, true);
 }
 
-void declare_map(CLI::App& command, Options& options) {
-  command
-      .add_option("sweep", options.sweep,
-                  R"({"x", "y": names, "cells": [[X, Y, run directory]]}; y is "", and Y null, of one parameter)")
-      ->required()
-      ->type_name("JSON");
-  command.add_option("-o,--out", options.out, "File: .png")->required()->type_name("FILE");
-  declare_style(command, options, false);
-}
-
 void declare_live(CLI::App& command, Options& options) {
   options.lcm_url = proto::default_url();
   command.add_option("job", options.sources, "The job's id, or the beginning of it")->required()->expected(1);

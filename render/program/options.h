@@ -42,7 +42,6 @@ struct Options {
 /// Options of one subcommand each, and of all that draw. The options must outlive the command line.
 void declare_picture(CLI::App& command, Options& options);
 void declare_film(CLI::App& command, Options& options);
-void declare_map(CLI::App& command, Options& options);
 void declare_live(CLI::App& command, Options& options);
 
 /// The style that the command line asks for, over `style`. Fails with everything that is wrong with it.

@@ -38,15 +38,22 @@ def draw_runs(wanted: Mapping[str, Any]) -> None:
     x, y:    of that figure; x empty: the longest parameter
     over:    {x, y}: the times over which these are taken [s], each a list
     rows:    [{id, version}]: what the points are made of
+    renderer: the program that draws rods; if given, the figure is a map of the runs' pictures
     folder, name, format, width: of the command line; name: of the one figure, where it has one
-    Paths (directory, folder, name) are percent-encoded: their bytes may be no UTF-8.
+    Paths (directory, folder, name, renderer) are percent-encoded: their bytes may be no UTF-8.
     software, sweep: what asks, and the sweep's name
     """
-    from . import runs, sweeps
+    from . import pictures, runs, sweeps
     width, one_figure = wanted.get("width") or None, not wanted.get("runs")
     x, y = wanted.get("x") or "", wanted.get("y") or "order.mean"
-    figures = []
-    if wanted.get("points") is not None:
+    figures, left_out, renderer = [], {}, wanted.get("renderer")
+    if renderer:
+        sheet, missing = pictures.picture_map([(_path(of["directory"]), of["parameters"]) for of in wanted["runs"]],
+                                              _path(renderer), width)
+        figures, left_out = [("map", sheet)], {reason: missing.count(reason) for reason in missing}
+        if not any(panel.has_picture for panel in sheet):
+            raise Nothing(missing[0])
+    elif wanted.get("points") is not None:
         points = [sweeps.PlottedPoint(of["parameters"], _number(of.get("y")), _number(of.get("error")),
                                       of.get("steady", True), _number(of.get("x")), of.get("version") or "")
                   for of in wanted["points"]]
@@ -57,8 +64,8 @@ def draw_runs(wanted: Mapping[str, Any]) -> None:
             path = x or sweeps.longest_parameter(points)
             raise Nothing(f"no point has both {path} and {y} as numbers" if path else
                           "no numeric parameter is swept: --x names a field to plot against")
-    drawn, left_out = [], {}
-    for of in wanted.get("runs") or []:
+    drawn = []
+    for of in [] if renderer else wanted.get("runs") or []:
         try:
             drawn.append(runs.read_run(_path(of["directory"]), of["parameters"], of.get("state", "")))
         except runs.Unreadable as reason:
@@ -75,7 +82,8 @@ def draw_runs(wanted: Mapping[str, Any]) -> None:
     folder, suffix = Path(_path(wanted["folder"])), "." + (wanted.get("format") or "png")
     n = 0
     for name, sheet in [*figures, *(runs.run_figures(drawn, width) if drawn else [])]:
-        print(sheet.save(folder / ((_path(wanted.get("name") or "") or name) + suffix), origin), flush=True)
+        path = folder / ((_path(wanted.get("name") or "") or name) + suffix)
+        print(sheet.save(path, origin, data=any(panel.drawn for panel in sheet)), flush=True)
         n += 1
     if n == 0:
         raise Nothing("there is nothing to plot yet")

@@ -92,7 +92,7 @@ TEST(BadArguments, AreAllExitCodeTwo) {
                                                                      {"movie", "x", "--frame", "-3"},
                                                                      {"movie", "x", "--frame", "1", "--live"},
                                                                      {"picture", "x", "--frame", "1", "--time", "2"},
-                                                                     {"picture", "s1", "--map", "--time", "2"},
+                                                                     {"plot", "s1", "--map", "--x", "rods.length"},
                                                                      {"calibrate", "no/such/scene.json", "-d", "40"},
                                                                      {"calibrate", "-s", "rods.lenght=3", "-d", "40"},
                                                                      {"import"},

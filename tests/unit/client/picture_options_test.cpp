@@ -86,33 +86,5 @@ TEST(SweepInset, HasThePointsOfTheSweepAndWhereTheRunsAre) {
   EXPECT_THROW(sweep_of(context, {drawn("a", "s1")}), Failure) << "nothing differs";
 }
 
-TEST(MapOfASweep, HasOneRunForEachPointQueuedOnesToo) {
-  ScratchFolder root;
-  FakeDaemon daemon(root.path());
-  Json rows = Json::array();
-  const auto add = [&](const char* id, int replica, const char* length) {
-    rows.push_back({{"job", id},
-                    {"sweep", "s1"},
-                    {"state", "queued"},
-                    {"label", ""},
-                    {"replica", replica},
-                    {"directory", std::string("/runs/") + id},
-                    {"parameters", {{"rods.length", length}}},
-                    {"summary", nullptr}});
-  };
-  add("a", 1, "2.5 mm");
-  add("b", 2, "2.5 mm");
-  add("c", 1, "4.5 mm");
-  daemon.on("GET /v1/sweeps/s1", Json{{"sweep", {{"id", "s1"}, {"name", "x"}}}, {"jobs", Json::array()}}.dump());
-  daemon.on("GET /v1/results?sweep=s1", Json{{"rows", rows}}.dump());
-  std::ostringstream out;
-  Console console{.out = out, .err = out};
-  const CLI::App app;
-  const Json said = Json::parse(map_of({console, root.path().string(), app}, "s1"));
-  EXPECT_EQ(said.at("x"), "rods.length");
-  EXPECT_EQ(said.at("y"), "");
-  EXPECT_EQ(said.at("cells"), (Json{{2.5, nullptr, "/runs/a"}, {4.5, nullptr, "/runs/c"}}));
-}
-
 }  // namespace
 }  // namespace shaken::client

@@ -10,10 +10,8 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <string>
 
-#include "render/phase_map.h"
 #include "tests/unit/render/render_support.h"
 
 namespace shaken::render {
@@ -59,46 +57,6 @@ TEST(RenderProgram, PicturesDoNotDependOnTheNumberOfThreads) {
     images.push_back(read_png(out));
     EXPECT_EQ(images.back(), images.front()) << threads;
   }
-}
-
-TEST(RenderProgram, AMapHasTheLastFrameOfEachRunAtItsPlace) {
-  const ScratchFolder folder;
-  std::filesystem::create_directory(folder / "a");
-  plant_trajectory(folder / "a", 2);
-  const std::string run = (folder / "a").string(), out = (folder / "map.png").string();
-  const auto map = [&](const std::string& json) {
-    return run_program("map '" + json + "' --size 400x300 -c angle -o " + out);
-  };
-  // One of four points has a run, another one that has not begun.
-  const Ended ended = map(R"({"x": "rods.area_fraction", "y": "rods.length", "cells": [[0.8, 4.5, ")" + run +
-                          R"("], [0.4, 2.5, "/nowhere"]]})");
-  ASSERT_EQ(ended.code, 0) << ended.said;
-  const Image image = read_png(out);
-  PhaseMap shape;
-  shape.x = {"\u03c6", {"0.4", "0.8"}};
-  shape.y = {"\u2113 (mm)", {"2.5", "4.5"}};
-  PictureStyle style;
-  style.width = 400;
-  style.height = 300;
-  const MapLayout layout = map_layout(shape, style);
-  const auto n_colours = [&](std::size_t column, std::size_t row) {
-    const Vec2 at = layout.corner({column, row, {}});
-    std::set<std::array<std::uint8_t, 3>> colours;
-    for (int y = 3; y + 3 < layout.side; ++y) {
-      for (int x = 3; x + 3 < layout.side; ++x) {
-        const std::uint8_t* pixel = image.pixel(static_cast<int>(at.x()) + x, static_cast<int>(at.y()) + y);
-        if (std::max({pixel[0], pixel[1], pixel[2]}) - std::min({pixel[0], pixel[1], pixel[2]}) > 40) {
-          colours.insert({pixel[0], pixel[1], pixel[2]});
-        }
-      }
-    }
-    return colours.size();
-  };
-  EXPECT_GT(n_colours(1, 1), 50u) << "rods";
-  EXPECT_EQ(n_colours(0, 0), 0u) << "words";
-  EXPECT_EQ(n_colours(0, 1), 0u) << "not of the sweep";
-  EXPECT_EQ(map("{}").code, 2);
-  EXPECT_EQ(map(R"({"x": "rods.length", "y": "", "cells": [[1, null, "/nowhere"]]})").code, 1) << "nothing to show";
 }
 
 TEST(RenderProgram, FrameAndTimeChooseTheFrame) {
