@@ -41,6 +41,10 @@ std::string joined(const std::vector<std::string>& words) {
   return all;
 }
 
+std::string shown_value(const std::string& value_name, Names names) {
+  return names == Names::kAnything ? value_name : value_name_of(names);
+}
+
 /// The help shows a positional by its own name; the type beside it would repeat it.
 constexpr const char* kNothing = " ";
 
@@ -122,13 +126,56 @@ void Arguments::option(const std::string& flags, std::optional<double>& value, c
 void Arguments::repeatable(const std::string& flags, std::vector<std::string>& values, const std::string& value_name,
                            const std::string& help, Names names) {
   // Without this, "-s a=1 FILE" would take FILE for a second value.
-  app_.add_option(flags, values, help)
-      ->type_name(names == Names::kAnything ? value_name : std::string(value_name_of(names)))
-      ->allow_extra_args(false);
+  app_.add_option(flags, values, help)->type_name(shown_value(value_name, names))->allow_extra_args(false);
 }
 
 void Arguments::flag(const std::string& flags, bool& value, const std::string& help) {
   app_.add_flag(flags, value, help);
+}
+
+void Arguments::optional(const std::string& name, const std::string& help, Names names) {
+  without_variable_.push_back(app_.add_option(name, help)->type_name(value_name_of(names))->option_text(kNothing));
+}
+
+void Arguments::list(const std::string& name, const std::string& help, const std::vector<std::string>& words) {
+  without_variable_.push_back(app_.add_option(name, help)
+                                  ->expected(0, CLI::detail::expected_max_vector_size)
+                                  ->type_name(joined(words))
+                                  ->option_text(kNothing));
+}
+
+void Arguments::option(const std::string& flags, const std::string& value_name, const std::string& help, Names names) {
+  without_variable_.push_back(app_.add_option(flags, help)->type_name(shown_value(value_name, names)));
+}
+
+void Arguments::repeatable(const std::string& flags, const std::string& value_name, const std::string& help,
+                           Names names) {
+  without_variable_.push_back(app_.add_option(flags, help)
+                                  ->type_name(shown_value(value_name, names))
+                                  ->expected(1, CLI::detail::expected_max_vector_size)
+                                  ->allow_extra_args(false));
+}
+
+void Arguments::flag(const std::string& flags, const std::string& help) {
+  without_variable_.push_back(app_.add_flag(flags, help));
+}
+
+void Arguments::hand_on(std::vector<std::string>& words) {
+  app_.parse_complete_callback([options = without_variable_, &words] {
+    std::vector<std::string> positionals{"--"};
+    for (const CLI::Option* option : options) {
+      if (option->get_positional()) {
+        for (const std::string& value : option->results()) positionals.push_back(value);
+      } else if (option->count() > 0 && option->get_items_expected_max() == 0) {
+        words.push_back("--" + option->get_lnames().front());
+      } else {
+        for (const std::string& value : option->results()) {
+          words.push_back("--" + option->get_lnames().front() + "=" + value);
+        }
+      }
+    }
+    words.insert(words.end(), positionals.begin(), positionals.end());
+  });
 }
 
 }  // namespace shaken::client

@@ -47,6 +47,17 @@ class Arguments {
   void list(const std::string& name, std::vector<std::string>& values, const std::string& help,
             const std::vector<std::string>& words);
 
+  /// The same without a variable, of a verb that hands its words on.
+  void optional(const std::string& name, const std::string& help, Names names);
+  void list(const std::string& name, const std::string& help, const std::vector<std::string>& words);
+  void option(const std::string& flags, const std::string& value_name, const std::string& help,
+              Names names = Names::kAnything);
+  void repeatable(const std::string& flags, const std::string& value_name, const std::string& help,
+                  Names names = Names::kAnything);
+  void flag(const std::string& flags, const std::string& help);
+  /// What was given of those that were declared so: "--name=value", "--flag", then "--" and the positionals.
+  void hand_on(std::vector<std::string>& words);
+
   /// Everything from the first word on, options too, as it stands: for a verb that hands its words on.
   void rest(std::vector<std::string>& words);
 
@@ -64,6 +75,7 @@ class Arguments {
 
  private:
   CLI::App& app_;
+  std::vector<CLI::Option*> without_variable_;
 };
 
 /// How an argument's meaning is kept in its CLI11 option, for completion.cpp to read.

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <iostream>
 
+#include "base/process.h"
 #include "base/terminal.h"
 
 namespace shaken::client {
@@ -59,6 +60,7 @@ bool Console::agrees(const std::string& question, bool otherwise) const {
 
 Console process_console() {
   Console console{.out = std::cout, .err = std::cerr};
+  console.run_instead = [](const Console&, const std::vector<std::string>& command) -> ExitCode { become(command); };
   const char* terminal = std::getenv("TERM");
   const bool dumb = terminal == nullptr || std::string_view(terminal) == "dumb";
   const char* no_colour = std::getenv("NO_COLOR");

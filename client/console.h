@@ -5,6 +5,9 @@
 #include <ostream>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "base/failure.h"
 
 namespace shaken::client {
 
@@ -20,6 +23,8 @@ struct Console {
   bool colour = false;  ///< `out` understands colours and the user has not set NO_COLOR
   int width = 0;        ///< columns of the terminal; 0: not a terminal, lines may be of any length
   int height = 24;      ///< lines of the terminal
+  /// Runs a program that goes on in place of this one, and returns its exit code.
+  ExitCode (*run_instead)(const Console& console, const std::vector<std::string>& command) = nullptr;
 
   /// Asks `question`, to be answered with y or n; an empty answer, or none, is `otherwise`.
   bool agrees(const std::string& question, bool otherwise) const;

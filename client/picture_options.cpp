@@ -4,13 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 
+#include "base/plots_by_python.h"
+#include "base/process.h"
 #include "client/live/api_client.h"
 #include "client/live/target.h"
-#include "client/results.h"
 #include "client/verb.h"
+#include "client/verbs/in_python.h"
 #include "render/style_keys.h"
 
 namespace shaken::client {
@@ -73,22 +74,6 @@ Drawn find_one(const Context& context, const std::string& job) {
   return drawn;
 }
 
-/// The first two numbers that differ between the rows.
-std::vector<std::string> axes_of(const std::vector<ResultRow>& rows, const std::string& sweep) {
-  std::vector<std::string> axes;
-  for (const std::string& path : swept_parameters(rows)) {
-    if (axes.size() < 2 && !std::isnan(rows.front().number(path))) axes.push_back(path);
-  }
-  if (axes.empty()) {
-    throw Failure(ExitCode::kBadInput, fmt::format("no number is swept in sweep {}, so it has no diagram", sweep));
-  }
-  return axes;
-}
-
-Json place_of(const ResultRow& row, const std::vector<std::string>& axes) {
-  return Json::array({row.number(axes.front()), axes.size() > 1 ? Json(row.number(axes[1])) : Json(nullptr)});
-}
-
 }  // namespace
 
 std::vector<Drawn> find_drawn(const Context& context, const std::vector<std::string>& jobs) {
@@ -101,26 +86,13 @@ std::vector<Drawn> find_drawn(const Context& context, const std::vector<std::str
 std::string sweep_of(const Context& context, const std::vector<Drawn>& drawn) {
   const std::string& sweep = drawn.front().sweep;
   if (sweep.empty()) throw Failure(ExitCode::kBadInput, "--inset sweep takes jobs of a sweep, not run directories");
-  ApiClient session(context.root());
-  const std::vector<ResultRow> rows = result_rows(session, find_target(session, sweep));
-  const std::vector<std::string> axes = axes_of(rows, sweep);
-  Json said = {
-      {"x", axes.front()}, {"y", axes.size() > 1 ? axes[1] : ""}, {"points", Json::array()}, {"here", Json::array()}};
-  for (const ResultRow& row : aggregated(rows)) {
-    Json point = place_of(row, axes);
-    const double order = row.number("order.mean");
-    point.push_back(std::isnan(order) ? Json(nullptr) : Json(order));
-    said["points"].push_back(std::move(point));
-  }
-  for (const Drawn& one : drawn) {
-    const auto row = std::find_if(rows.begin(), rows.end(),
-                                  [&](const ResultRow& each) { return text_of(each.source, "job") == one.id; });
-    if (row == rows.end()) {
-      throw Failure(ExitCode::kBadInput, fmt::format("job {} does not belong to sweep {}", one.name, sweep));
-    }
-    said["here"].push_back(place_of(*row, axes));
-  }
-  return said.dump();
+  std::vector<std::string> command = python_command("tables");
+  command.insert(command.end(), {"inset", root_option(context)});
+  for (const Drawn& one : drawn) command.push_back("--job=" + one.id);
+  command.insert(command.end(), {"--", sweep});
+  const Captured said = run_captured(command);
+  if (said.exit_code != 0) throw Failure(static_cast<ExitCode>(said.exit_code), said.output);
+  return said.output;
 }
 
 std::vector<std::string> labels_of(const std::vector<Drawn>& drawn) {

@@ -3,15 +3,10 @@
 // (python/shaken/calibration/app.py).
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cstdlib>
 #include <span>
-#include <utility>
 
-#include "base/paths.h"
-#include "base/plots_by_python.h"
-#include "base/process.h"
 #include "client/scene_input.h"
+#include "client/verbs/in_python.h"
 #include "client/verbs/verbs.h"
 #include "scene/canonical.h"
 #include "scene/derived.h"
@@ -33,7 +28,7 @@ Json species_json(const scene::RunPlan& plan, std::size_t number) {
           {"scene", scene::to_json(alone)}};
 }
 
-class Calibrate : public Verb {
+class Calibrate : public InPython {
  public:
   VerbInfo info() const override {
     return {
@@ -50,22 +45,22 @@ class Calibrate : public Verb {
         "--area-fraction then."};
   }
 
-  void declare(Arguments& arguments) override {
+  void declare_options(Arguments& arguments) override {
     arguments.optional("SCENE", scene_, "A scene file; the paper's scene if left out", Names::kFile);
-    arguments.repeatable("-d,--rotational-diffusion", wanted_, "D",
+    arguments.repeatable("-d,--rotational-diffusion", "D",
                          "Rotational diffusion coefficient that the rods are to have, in rad^2/s; repeatable");
-    arguments.repeatable("--of", of_, "rods|rods_2|rods_3", "Of this species; of all if left out; repeatable");
-    arguments.option("--area-fraction", area_fraction_, "F",
+    arguments.repeatable("--of", "rods|rods_2|rods_3", "Of this species; of all if left out; repeatable");
+    arguments.option("--area-fraction", "F",
                      "Area fraction at which rods of the species are among their like; alone if left out");
-    arguments.option("--precision", precision_, "P", "Relative standard error of D_r, 0.05 if left out");
-    arguments.option("--threads", threads_, "N", "Runs at a time; as many as there are cores if left out");
-    arguments.option("--plot", plot_, "FILE", "Draw D_r against the noise: a .png, .pdf or .svg", Names::kFile);
+    arguments.option("--precision", "P", "Relative standard error of D_r, 0.05 if left out");
+    arguments.option("--threads", "N", "Runs at a time; as many as there are cores if left out");
+    arguments.option("--plot", "FILE", "Draw D_r against the noise: a .png, .pdf or .svg", Names::kFile);
     arguments.repeatable("-s,--set", settings_, "PATH=VALUE", "Change one value of the scene; repeatable",
                          Names::kSetting);
-    arguments.flag("--json", json_, "Print JSON, with every level of noise that was measured");
+    arguments.flag("--json", "Print JSON, with every level of noise that was measured");
   }
 
-  ExitCode run(const Context&) override {
+  ExitCode run(const Context& context) override {
     const SceneInput input = scene_.empty() ? SceneInput{"the paper's scene", "{}"} : read_scene_input(scene_);
     const auto plan = scene::load_scene(input.text, input.file, settings_);
     if (!plan) throw Failure(ExitCode::kBadInput, refusal_text(plan.error()));
@@ -73,25 +68,12 @@ class Calibrate : public Verb {
     for (std::size_t number = 0; number < kMostSpecies; ++number) {
       if (plan->system.has_species(number)) species.push_back(species_json(*plan, number));
     }
-    std::vector<std::string> command = python_command("calibration");
-    command.push_back("--species=" + species.dump());
-    for (const std::string& wanted : wanted_) command.push_back("--rotational-diffusion=" + wanted);
-    for (const std::string& name : of_) command.push_back("--of=" + name);
-    if (area_fraction_) command.push_back(fmt::format("--area-fraction={}", *area_fraction_));
-    if (precision_) command.push_back(fmt::format("--precision={}", *precision_));
-    if (threads_) command.push_back(fmt::format("--threads={}", *threads_));
-    if (!plot_.empty()) command.push_back("--plot=" + plot_);
-    if (json_) command.emplace_back("--json");
-    setenv("SHAKEN_PROGRAM", sibling_program("shaken").c_str(), 1);
-    become(command);
+    return go_on(context, "calibration", {"--species=" + species.dump()});
   }
 
  private:
-  std::vector<std::string> wanted_, of_, settings_;
-  std::string scene_, plot_;
-  std::optional<double> area_fraction_, precision_;
-  std::optional<int> threads_;
-  bool json_ = false;
+  std::string scene_;
+  std::vector<std::string> settings_;
 };
 
 }  // namespace

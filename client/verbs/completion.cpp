@@ -8,8 +8,9 @@
 #include <set>
 #include <string_view>
 
+#include "base/plots_by_python.h"
 #include "client/live/target.h"
-#include "client/results.h"
+#include "client/verbs/in_python.h"
 #include "client/verbs/verbs.h"
 
 namespace shaken::client {
@@ -52,10 +53,9 @@ class Completion : public Verb {
       if (what_ != "jobs") print_sweeps(session, out);
       if (what_ != "sweeps") print_jobs(session, out);
     } else if (what_ == "fields") {
-      ApiClient session(context.root());
-      for (const std::string& name : field_names(result_rows(session, find_target_or_newest(session, "")))) {
-        out << short_field(name) << "\n";
-      }
+      std::vector<std::string> command = python_command("tables");
+      command.insert(command.end(), {"fields", root_option(context)});
+      return context.console.run_instead(context.console, command);
     } else {
       throw Failure(ExitCode::kBadInput,
                     fmt::format("no completion for '{}': bash, zsh, ids, sweeps, jobs or fields", what_));
@@ -78,13 +78,6 @@ class Completion : public Verb {
   static void print_jobs(ApiClient& session, std::ostream& out) {
     const Json jobs = session.get("/v1/jobs");
     for (const Json& job : jobs.at("jobs")) out << short_id(job.at("id").get<std::string>()) << "\n";
-  }
-
-  /// "dip" of "measured.dip.value", as options take it.
-  static std::string short_field(const std::string& name) {
-    constexpr std::string_view kBefore = "measured.", kAfter = ".value";
-    if (!name.starts_with(kBefore) || !name.ends_with(kAfter)) return name;
-    return name.substr(kBefore.size(), name.size() - kBefore.size() - kAfter.size());
   }
 
   std::string what_;

@@ -1,14 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The options of `shaken figures`, for help and completion; the Python package does the work (shaken/study/app.py).
-#include <cstdlib>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include "base/paths.h"
-#include "base/plots_by_python.h"
-#include "base/process.h"
 #include "base/text.h"
+#include "client/verbs/in_python.h"
 #include "client/verbs/verbs.h"
 
 namespace shaken::client {
@@ -23,7 +16,7 @@ std::vector<std::string> figures() {
       ' ');
 }
 
-class Figures : public Verb {
+class Figures : public InPython {
  public:
   VerbInfo info() const override {
     return {
@@ -46,74 +39,40 @@ class Figures : public Verb {
         kExitCodesOfDaemon};
   }
 
-  void declare(Arguments& arguments) override {
-    arguments.list("FIGURE", words_, "A number of the paper, 2 to 14, or a name of --list; all if left out", figures());
-    arguments.option("--scale", scale_, "tiny|desk|paper", "Size of the runs; desk if left out");
-    arguments.option("--budget", budget_, "TIME", "CPU time after which it stops: 10h; it runs everything if left out");
-    arguments.option("--archive", archive_, "DIR", "Archive of finished runs; OUT/archive if left out", Names::kFolder);
-    arguments.option("-o,--out", out_, "DIR", "Where to draw; figures-SCALE if left out", Names::kFolder);
-    arguments.option("--format", format_, "png|pdf|svg", "png if left out", Names::kAnything);
-    arguments.option("--width", width_, "89mm|120mm|183mm", "Width of the figures; 183mm if left out",
-                     Names::kAnything);
-    arguments.option("--configs", configs_, "DIR", "Folder that holds the sweeps of the sets", Names::kFolder);
-    arguments.flag("--list", list_, "List the figures and the sets that they need, and do nothing");
-    arguments.flag("--dry-run", dry_run_, "Say what is open and what it would cost, and start nothing");
-    arguments.flag("--collect", collect_, "First archive every run of the daemon that is done");
-    arguments.flag("--draw-only", draw_only_, "Run nothing: draw from the archive");
-    arguments.option("--cores", cores_, "N", "Cores that a plan is made for", Names::kAnything);
-    arguments.option("--plan", plan_, "FILE",
+  void declare_options(Arguments& arguments) override {
+    arguments.list("FIGURE", "A number of the paper, 2 to 14, or a name of --list; all if left out", figures());
+    arguments.option("--scale", "tiny|desk|paper", "Size of the runs; desk if left out");
+    arguments.option("--budget", "TIME", "CPU time after which it stops: 10h; it runs everything if left out");
+    arguments.option("--archive", "DIR", "Archive of finished runs; OUT/archive if left out", Names::kFolder);
+    arguments.option("-o,--out", "DIR", "Where to draw; figures-SCALE if left out", Names::kFolder);
+    arguments.option("--format", "png|pdf|svg", "png if left out", Names::kAnything);
+    arguments.option("--width", "89mm|120mm|183mm", "Width of the figures; 183mm if left out", Names::kAnything);
+    arguments.option("--configs", "DIR", "Folder that holds the sweeps of the sets", Names::kFolder);
+    arguments.flag("--list", "List the figures and the sets that they need, and do nothing");
+    arguments.flag("--dry-run", "Say what is open and what it would cost, and start nothing");
+    arguments.flag("--collect", "First archive every run of the daemon that is done");
+    arguments.flag("--draw-only", "Run nothing: draw from the archive");
+    arguments.option("--cores", "N", "Cores that a plan is made for", Names::kAnything);
+    arguments.option("--plan", "FILE",
                      "Start nothing: write what a computing centre wants to know (Markdown), and the sweeps beside it",
                      Names::kFile);
-    arguments.option("--executor", executor_, "local|slurm", "Where the runs run; as the daemon has it if left out");
-    arguments.option("--partition", partition_, "NAME", "In Slurm: partition, or several with commas",
+    arguments.option("--executor", "local|slurm", "Where the runs run; as the daemon has it if left out");
+    arguments.option("--partition", "NAME", "In Slurm: partition, or several with commas", Names::kAnything);
+    arguments.option("--account", "NAME", "In Slurm: account that is charged", Names::kAnything);
+    arguments.option("--time", "TIME", "In Slurm: wall time of a task (4h); what is left goes on in another",
                      Names::kAnything);
-    arguments.option("--account", account_, "NAME", "In Slurm: account that is charged", Names::kAnything);
-    arguments.option("--time", time_, "TIME", "In Slurm: wall time of a task (4h); what is left goes on in another",
-                     Names::kAnything);
-    arguments.option("--memory", memory_, "SIZE", "In Slurm: memory of a task (2G)", Names::kAnything);
-    arguments.option("--runs-per-task", runs_per_task_, "N", "In Slurm: runs that a task does one after the other",
-                     Names::kAnything);
-    arguments.repeatable("--slurm-option", slurm_options_, "OPTION", "In Slurm: any option of sbatch; repeatable");
+    arguments.option("--memory", "SIZE", "In Slurm: memory of a task (2G)", Names::kAnything);
+    arguments.option("--runs-per-task", "N", "In Slurm: runs that a task does one after the other", Names::kAnything);
+    arguments.repeatable("--slurm-option", "OPTION", "In Slurm: any option of sbatch; repeatable");
     arguments.repeatable(
-        "--report", reports_, "FILE",
+        "--report", "FILE",
         "Write what the marks of this Markdown file ask for between them (docs/validation.md); repeatable",
         Names::kFile);
-    arguments.flag("-y,--yes", yes_, "Start without asking, also on a terminal");
-    arguments.flag("--json", json_, "Print what was made, and the verdicts, as JSON");
+    arguments.flag("-y,--yes", "Start without asking, also on a terminal");
+    arguments.flag("--json", "Print what was made, and the verdicts, as JSON");
   }
 
-  ExitCode run(const Context& context) override {
-    std::vector<std::string> command = python_command("study");
-    const std::pair<const char*, const std::string&> options[] = {
-        {"--scale", scale_},       {"--budget", budget_},       {"--archive", archive_},
-        {"--out", out_},           {"--format", format_},       {"--width", width_},
-        {"--configs", configs_},   {"--cores", cores_},         {"--plan", plan_},
-        {"--executor", executor_}, {"--partition", partition_}, {"--account", account_},
-        {"--time", time_},         {"--memory", memory_},       {"--runs-per-task", runs_per_task_}};
-    for (const auto& [name, value] : options) {
-      if (!value.empty()) command.push_back(std::string(name) + "=" + value);
-    }
-    for (const std::string& option : slurm_options_) command.push_back("--slurm-option=" + option);
-    for (const std::string& report : reports_) command.push_back("--report=" + report);
-    const std::pair<const char*, bool> flags[] = {{"--list", list_},       {"--dry-run", dry_run_},
-                                                  {"--collect", collect_}, {"--draw-only", draw_only_},
-                                                  {"--yes", yes_},         {"--json", json_}};
-    for (const auto& [name, given] : flags) {
-      if (given) command.emplace_back(name);
-    }
-    command.push_back("--root=" + context.root().string());
-    command.emplace_back("--");
-    command.insert(command.end(), words_.begin(), words_.end());
-    setenv("SHAKEN_PROGRAM", sibling_program("shaken").c_str(), 1);
-    setenv("SHAKEN_CONFIGS", shipped_configs().c_str(), 1);
-    become(command);
-  }
-
- private:
-  std::vector<std::string> words_, slurm_options_, reports_;
-  std::string scale_, budget_, archive_, out_, format_, width_, configs_, cores_, plan_, executor_, partition_,
-      account_, time_, memory_, runs_per_task_;
-  bool list_ = false, dry_run_ = false, collect_ = false, draw_only_ = false, yes_ = false, json_ = false;
+  ExitCode run(const Context& context) override { return go_on(context, "study", {root_option(context)}); }
 };
 
 }  // namespace

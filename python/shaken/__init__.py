@@ -7,18 +7,30 @@
     lag = run["/msd/total_mm2"].axis
     for frame in run.frames(every="0.1 s"): print(frame.time, frame.order)
 """
-from .about import FieldAbout, field_about
-from .archive import ArchivedRun, Snapshot, archived_runs
-from .bus import LiveFrame, LiveObservables, live
-from .daemon import Daemon
-from .errors import NoDaemon, ShakenError, UnknownName
-from .estimate import Estimate, replica_mean
-from .frames import Frame, Trajectory
-from .run import Array, DirectoryRun, Run
-from .run import open_run as open  # noqa: A001, as in numpy's and h5py's own names
-from .sweep import Point, Sweep, results
+from __future__ import annotations
+
+import importlib
+from typing import Any
+
+#: Module -> what it has for users. They are imported when they are asked for: most need numpy, some programs do not.
+_PARTS = {"about": "FieldAbout field_about", "archive": "ArchivedRun Snapshot archived_runs",
+          "bus": "LiveFrame LiveObservables live", "daemon": "Daemon", "errors": "NoDaemon ShakenError UnknownName",
+          "estimate": "Estimate replica_mean", "frames": "Frame Trajectory", "run": "Array DirectoryRun Run open_run",
+          "sweep": "Point Sweep results"}
+_HOMES = {"open" if name == "open_run" else name: (module, name)
+          for module, names in _PARTS.items() for name in names.split()}
 
 __version__ = "0.1.0"
-__all__ = ["ArchivedRun", "Array", "Daemon", "DirectoryRun", "Estimate", "FieldAbout", "Frame", "LiveFrame",
-           "LiveObservables", "NoDaemon", "Point", "Run", "ShakenError", "Snapshot", "Sweep", "Trajectory",
-           "UnknownName", "archived_runs", "field_about", "live", "open", "replica_mean", "results"]
+__all__ = sorted(_HOMES)
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"module 'shaken' has no attribute '{name}'")
+    module, its_name = _HOMES[name]
+    found = globals()[name] = getattr(importlib.import_module("." + module, __name__), its_name)
+    return found
+
+
+def __dir__() -> list[str]:
+    return [*globals(), *__all__]

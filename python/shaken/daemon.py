@@ -12,7 +12,7 @@ import urllib.parse
 from pathlib import Path
 from typing import Any, Callable, Mapping
 
-from .errors import NoDaemon, ShakenError
+from .errors import DaemonFailed, NoDaemon, ShakenError
 from .root import root_folder
 from .quantities import seconds
 
@@ -67,12 +67,13 @@ class Daemon:
             # it has ended meanwhile; whatever can be asked may be asked twice
             raise NoDaemon(f"the daemon at {self.root} gave no answer: {error}") from None
         except (OSError, ValueError, http.client.HTTPException) as error:
-            raise ShakenError(f"the daemon at {self.root} gave no answer: {error}") from None
+            raise DaemonFailed(f"the daemon at {self.root} gave no answer: {error}") from None
         finally:
             connection.close()
         if response.status >= 400:
             problems = [_problem_text(problem) for problem in answer.get("problems", [])]
-            raise ShakenError("\n".join(problems or [answer.get("error", f"HTTP {response.status}")]))
+            refusal = DaemonFailed if response.status >= 500 else ShakenError
+            raise refusal("\n".join(problems or [answer.get("error", f"HTTP {response.status}")]))
         return answer
 
     def status(self) -> dict[str, Any]:

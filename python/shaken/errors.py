@@ -2,16 +2,50 @@
 """What goes wrong, in one sentence with the way out."""
 from __future__ import annotations
 
-import difflib
-from typing import Iterable
+from typing import Iterable, Sequence
 
 
 class ShakenError(Exception):
-    """Something that the caller can mend: a path, a name, an option, a daemon that does not run."""
+    """Something that the caller can mend: a path, a name, an option, a daemon that does not run.
+
+    exit_code: of a program that ends for it, as `shaken --help` has them
+    """
+
+    exit_code = 2
 
 
 class NoDaemon(ShakenError):
     """No daemon answers at its root: none runs there, or it has just ended."""
+
+    exit_code = 3
+
+
+class DaemonFailed(ShakenError):
+    """A daemon whose answer is none, or which could not do what it was asked for."""
+
+    exit_code = 1
+
+
+def _distance(a: str, b: str) -> int:
+    """Letters to change, to put in, to take out, or neighbours to swap, for one word to become the other."""
+    before, last = [0] * (len(b) + 1), list(range(len(b) + 1))
+    for i, letter in enumerate(a, 1):
+        row = [i]
+        for j, other in enumerate(b, 1):
+            row.append(min(last[j] + 1, row[-1] + 1, last[j - 1] + (letter != other)))
+            if i > 1 and j > 1 and letter == b[j - 2] and a[i - 2] == other:
+                row[j] = min(row[j], before[j - 2] + 1)
+        before, last = last, row
+    return last[-1]
+
+
+def nearest(word: str, known: Iterable[str], otherwise: Sequence[str] = ()) -> str:
+    """"; did you mean NAME?" with the first of the names that are nearest, whatever their case, to a word of at most
+    100 letters; else with the first of `otherwise`; "" where a third of it or more would have to change."""
+    found = min(known, key=lambda name: _distance(word.lower(), name.lower()), default="") if len(word) <= 100 else ""
+    away = _distance(word.lower(), found.lower())
+    near = [found] if away <= max(1, max(len(word), len(found)) // 3) and away < len(found) else otherwise
+    return f"; did you mean {near[0]}?" if near else ""
 
 
 class UnknownName(ShakenError, KeyError):
@@ -19,8 +53,6 @@ class UnknownName(ShakenError, KeyError):
 
     def __init__(self, said: str, name: str, known: Iterable[str], of: str = "there are") -> None:
         names = list(known)
-        near = difflib.get_close_matches(name, names, 1)
-        hint = f"; did you mean {near[0]}?" if near else ""
-        super().__init__(f"{said}{hint} ({of} {', '.join(names) or 'none'})")
+        super().__init__(f"{said}{nearest(name, names)} ({of} {', '.join(names) or 'none'})")
 
     __str__ = Exception.__str__  # a KeyError's is that of its repr

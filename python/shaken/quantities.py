@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
+from decimal import Decimal
 from typing import Any
 
-from .errors import ShakenError
+from .errors import ShakenError, nearest
 
 #: Unit -> (what it measures, how many of the default unit, which comes first, it is): those of base/keys/units.cpp.
 UNITS: dict[str, tuple[str, float]] = {
@@ -35,6 +36,29 @@ def number_of(value: Any) -> Any:
     if not match or (match[2] and match[2] not in UNITS):
         return value
     return float(match[1]) * (UNITS[match[2]][1] if match[2] else 1.0)
+
+
+def quantity(text: str, dimension: str) -> float:
+    """A text of a number in the default unit of what it measures: "length", "time", ..., or "plain number", which takes
+    no unit. Raises ShakenError with what is wrong with it."""
+    match = _QUANTITY.fullmatch(text)
+    if not match:
+        raise ShakenError(f'"{text}" is not a number')
+    unit = match[2]
+    if not unit:
+        return float(match[1])
+    if unit in UNITS and UNITS[unit][0] == dimension:
+        try:  # in decimals: 4.1 us is what a scene with 4.1e-6 s has
+            return float(Decimal(match[1]) * Decimal(repr(UNITS[unit][1])))
+        except ArithmeticError:
+            raise ShakenError(f"{text} has too many digits") from None
+    if dimension == "plain number":
+        raise ShakenError(f'"{unit}": a plain number takes no unit')
+    if decimals := re.match(r",(\d+)", unit):
+        raise ShakenError(f'"{text}": a decimal comma; write {match[1]}.{decimals[1]}')
+    use = [name for name, (of, _) in UNITS.items() if of == dimension and name.isascii()]
+    other = f"a unit of {UNITS[unit][0]}, not of {dimension}" if unit in UNITS else f"not a unit of {dimension}"
+    raise ShakenError(f'"{unit}" is {other}; use {", ".join(use)}{"" if unit in UNITS else nearest(unit, use)}')
 
 
 def seconds(time: float | str) -> float:

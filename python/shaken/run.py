@@ -203,14 +203,6 @@ def numbers_of(summary: Mapping[str, Any]) -> Numbers:
     return Numbers(numbers)
 
 
-def version_text(versions: Any) -> str:
-    """"shaken 0.1.0, physics 3" of the member `versions` of a summary; empty where it is not known."""
-    if not isinstance(versions, dict):
-        return ""
-    words = [f"{what} {versions[what]}" for what in ("shaken", "physics") if versions.get(what) is not None]
-    return ", ".join(words)
-
-
 def _float(value: Any) -> float:
     return NAN if value is None else float(value)
 

@@ -12,7 +12,8 @@ from .errors import ShakenError, UnknownName
 from .estimate import Estimate, replica_mean
 from .plots import names
 from .quantities import UNITS, number_of, unit_in
-from .run import DirectoryRun, Run, version_text
+from .run import DirectoryRun, Run
+from .summary import has_results, version_text
 
 
 class Point:
@@ -280,7 +281,7 @@ def results(source: "Daemon | str | Path | None" = None, sweep: str | None = Non
     def runs() -> Iterator[tuple[Mapping[str, Any], Run | None]]:
         for row in daemon.rows(sweep):
             summary = row.get("summary") or {}
-            done = row["state"] == "done" or (summary.get("exit") or {}).get("state") == "done"
-            yield row["parameters"], DirectoryRun(row["directory"], row["parameters"]) if done and summary else None
+            done = summary and has_results(row["state"], summary)
+            yield row["parameters"], DirectoryRun(row["directory"], row["parameters"]) if done else None
 
     return grouped(runs(), name)

@@ -16,7 +16,6 @@ import pytest
 pytest.importorskip("matplotlib")
 from figures_whole import assert_whole  # noqa: E402
 
-from shaken.errors import ShakenError  # noqa: E402
 from shaken.estimate import Estimate, replica_mean  # noqa: E402
 from shaken.plots import names, pictures, runs, series, style, sweeps  # noqa: E402
 
@@ -130,17 +129,16 @@ def test_a_map_has_the_first_run_of_each_point_at_its_place(tmp_path: Path) -> N
         if k != 4:
             Image.new("RGB", (9, 9), (40 * k, 0, 0)).save(folder / "rods.png")
         sweep.append((str(folder), {"wall": "rough", "rods.area_fraction": phi, "rods.length": length}))
-    sheet, missing = pictures.picture_map(sweep, str(renderer))
+    sheet, missing = pictures.picture_map(sweep, ["rods.area_fraction", "rods.length"], str(renderer))
     assert missing == ["nothing was recorded", "torn"]
     red = [round(float(panel.axes.images[0].get_array()[4, 4, 0]) * 255) if panel.has_picture else panel.absent
            for panel in sheet]
     assert red == ["no frame", 200, "no data", 40, "no frame", 0]  # long rods above; two of (0.4, 2.5 mm)
     assert names.plain(sheet[1].title) == "φ = 0.6, ℓ = 4.5 mm" and not sheet[2].is_used
     assert_whole(sheet.finish())
-    row, _ = pictures.picture_map([one for one in sweep if one[1]["rods.length"] == "2.5 mm"], str(renderer))
+    row, _ = pictures.picture_map([one for one in sweep if one[1]["rods.length"] == "2.5 mm"], ["rods.area_fraction"],
+                                  str(renderer))
     assert [panel.has_picture for panel in row] == [True, False, True]
-    with pytest.raises(ShakenError, match="no number is swept"):
-        pictures.picture_map(sweep[1:3], str(renderer))
 
 
 def test_replicas_are_a_mean_with_its_error() -> None:
@@ -284,38 +282,6 @@ def test_many_points_can_be_told_apart(n_fractions: int, n_lengths: int, width: 
     assert_whole(sheet)
     assert all(panel.axes.get_window_extent(renderer).width > 8 / 25.4 * sheet.figure.dpi for panel in sheet)
 
-
-def test_the_program_draws_what_a_description_says(tmp_path: Path) -> None:
-    h5py = pytest.importorskip("h5py")
-    directory = tmp_path / "run"
-    directory.mkdir()
-    with h5py.File(directory / "observables.h5", "w") as file:
-        for name, values in {"/order/time_s": [0.0, 1.0], "/order/order": [1.0, 0.5]}.items():
-            file[name] = values
-    (directory / "summary.json").write_text(json.dumps({"run_id": "1f0c59d16ab8b7d7", "steady": True,
-                                                        "versions": {"shaken": "0.1.0", "physics": 3}}))
-    wanted = {"folder": str(tmp_path / "out"), "format": "svg", "software": "shaken plot 0.1.0", "sweep": "ℓ",
-              "runs": [{"directory": str(directory), "parameters": {}},
-                       {"directory": str(tmp_path / "none"), "parameters": {}, "state": "failed"}]}
-
-    def call(description: Any) -> subprocess.CompletedProcess[str]:
-        program = Path(style.__file__).parent / "__main__.py"
-        return subprocess.run([sys.executable, program, "runs"], input=json.dumps(description), text=True,
-                              capture_output=True, check=False)
-
-    done = call(wanted)
-    assert done.returncode == 0, done.stdout + done.stderr
-    assert done.stdout == f"left out: failed before anything was measured\n{tmp_path}/out/order_time.svg\n"
-    assert "1f0c59d16ab8b7d7" in (tmp_path / "out/order_time.svg").read_text()
-    assert (tmp_path / "out/order_time.csv").read_text().startswith(
-        "# Software: shaken plot 0.1.0\n# Computed by: shaken 0.1.0, physics 3\n# Sweep: ℓ\n# Runs: 1f0c59d16ab8b7d7\n")
-    nothing = call({**wanted, "runs": []})
-    assert nothing.returncode == 1 and "nothing to plot" in nothing.stdout
-    one = call({**wanted, "runs": [], "points": [{"parameters": {"box.gap": 1.2}, "y": 0.5}]})
-    assert one.returncode == 1 and "no numeric parameter is swept" in one.stdout
-    windowed = call({**wanted, "runs": [], "y": "measured.velocity_rms_mm_s.value", "over": {"x": [], "y": [0.4]},
-                     "points": [{"parameters": {"box.gap": gap}, "y": gap} for gap in (1.0, 1.2)]})
-    assert "over 0.4 s (mm/s)" in Path(windowed.stdout.split()[-1]).with_suffix(".csv").read_text()
 
 
 def test_curves_of_shorter_runs_look_as_those_of_longer_ones() -> None:

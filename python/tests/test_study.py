@@ -39,12 +39,12 @@ def figures(programs, *arguments, check=True):
 
 def test_a_figure_is_run_archived_gone_on_with_and_drawn_again(programs, tmp_path):
     out = tmp_path / "figures"
-    first = figures(programs, 10, "-o", out, "--budget", "0.5s", check=False)
+    first = figures(programs, 10, "--out", out, "--budget", "0.5s", check=False)
     assert "no daemon served" in first.stderr
     archive = out / "archive"
     archived = {path.name for path in archive.iterdir()} if archive.exists() else set()
     assert ("still open:" in first.stderr) == (len(archived) < 6), "how far it comes depends on the machine"
-    second = figures(programs, 10, "-o", out, "--json")
+    second = figures(programs, 10, "--out", out, "--json")
     assert "still open" not in second.stderr
     answer = json.loads(second.stdout)
     assert [Path(path).name for path in answer["made"]] == ["fig10-tilt.png"]
@@ -53,12 +53,12 @@ def test_a_figure_is_run_archived_gone_on_with_and_drawn_again(programs, tmp_pat
     again = {path.name for path in (out / "archive").iterdir()}
     assert archived <= again and len(again) == 6
     # drawn again from the archive, on a machine that never ran anything
-    drawn = figures(programs, 10, "--draw-only", "--archive", out / "archive", "-o", tmp_path / "again", "--format",
+    drawn = figures(programs, 10, "--draw-only", "--archive", out / "archive", "--out", tmp_path / "again", "--format",
                     "pdf", "--width", "89mm")
     assert (tmp_path / "again" / "fig10-tilt.pdf").read_bytes()[:4] == b"%PDF" and "fig10" in drawn.stdout
     table = (out / "fig10-tilt.csv").read_text()
     assert "n_z" in table and len(table.splitlines()) > 50
-    third = figures(programs, 10, "-o", out)
+    third = figures(programs, 10, "--out", out)
     assert "runs, about" not in third.stderr, "what is archived is not done again"
 
 
@@ -104,7 +104,8 @@ def test_an_empty_archive_is_said_to_be_one(programs, tmp_path):
 
 def test_a_figure_without_runs_is_said_to_have_none(programs, tmp_path):
     add_run(made_up_run(tmp_path / "run"), tmp_path / "archive", sweeps=["mechanism-tiny"])
-    done = figures(programs, 4, "--draw-only", "--archive", tmp_path / "archive", "-o", tmp_path / "out", check=False)
+    done = figures(programs, 4, "--draw-only", "--archive", tmp_path / "archive", "--out", tmp_path / "out",
+                   check=False)
     assert done.returncode == 1 and "no runs of these figures" in done.stderr
 
 

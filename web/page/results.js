@@ -40,7 +40,7 @@ export function valueText(mark, value, error) {
   return `${mark}${value.toFixed(digits)} ± ${error.toFixed(digits)}`;
 }
 
-/** Mean of replicas and its error: the rule of client/replicas.h, and as there NaN is not known (tests/vectors/). */
+/** Mean of replicas and its error: the rule of python/shaken/estimate.py, and as there NaN is not known (tests/vectors/). */
 export function replicaMean(values, errors) {
   const n = values.length, mean = values.reduce((sum, one) => sum + one, 0) / n, known = errors.filter(Number.isFinite);
   const within = Math.sqrt(known.reduce((sum, one) => sum + one * one, 0)) / n;

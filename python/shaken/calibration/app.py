@@ -19,15 +19,15 @@ _PICTURES = (".png", ".pdf", ".svg")
 
 
 def parser() -> argparse.ArgumentParser:
-    found = argparse.ArgumentParser(prog="shaken calibrate", description="The rotational noise with which rods have a "
-                                    "wanted rotational diffusion coefficient")
-    found.add_argument("--species", required=True, help="the scenes of all species, JSON of the program `shaken`")
-    found.add_argument("--rotational-diffusion", action="append", default=[], help="D_r [rad^2/s]")
-    found.add_argument("--of", action="append", default=[], help="of this species only")
-    found.add_argument("--area-fraction", type=float, help="at which rods are among their like; alone if left out")
-    found.add_argument("--precision", type=float, default=0.05, help="relative standard error of D_r")
-    found.add_argument("--threads", type=int, default=len(os.sched_getaffinity(0)), help="runs at a time")
-    found.add_argument("--plot", type=Path, help="picture of D_r against the noise")
+    """The options that client/verbs/calibrate.cpp hands on, where they are described."""
+    found = argparse.ArgumentParser(prog="shaken calibrate")
+    found.add_argument("--species", required=True)  # the scenes of all species, JSON
+    for name in ("rotational-diffusion", "of"):
+        found.add_argument(f"--{name}", action="append", default=[])
+    found.add_argument("--area-fraction", type=float)
+    found.add_argument("--precision", type=float, default=0.05)
+    found.add_argument("--threads", type=int, default=len(os.sched_getaffinity(0)))
+    found.add_argument("--plot", type=Path)
     found.add_argument("--json", action="store_true")
     return found
 

@@ -1,19 +1,14 @@
 # SPDX-License-Identifier: MIT
 """python3 -m shaken.plots; or this file by its path, which also tells what is not installed."""
-import importlib.util
 import logging
 import sys
 from pathlib import Path
 
-#: Module -> the Debian package that has it.
-NEEDED = {"matplotlib": "python3-matplotlib", "numpy": "python3-numpy", "h5py": "python3-h5py"}
-
 
 def run() -> int:
-    missing = [name for name in NEEDED if importlib.util.find_spec(name) is None]
-    if missing:
-        print(f"figures need {' and '.join(missing)} of {sys.executable}: "
-              f"`apt install {' '.join(NEEDED[name] for name in missing)}`")
+    from shaken.needed import not_installed
+    if missing := not_installed():
+        print(missing)
         return 2
     logging.getLogger("matplotlib").setLevel(logging.ERROR)  # that it lists the fonts, the first time
     from shaken.plots.app import main

@@ -2,7 +2,6 @@
 """A sweep in pictures: the last frames of its runs, each at its place over the numbers that are swept."""
 from __future__ import annotations
 
-import math
 import subprocess
 from pathlib import Path
 from typing import Any, Mapping, Sequence
@@ -10,28 +9,21 @@ from typing import Any, Mapping, Sequence
 from matplotlib.image import imread
 
 from ..children import scratch_folder
-from ..errors import ShakenError
 from . import style
 from .series import label_of, number_of
 from .sheet import Sheet
 
 
-def picture_map(runs: Sequence[tuple[str, Mapping[str, Any]]], renderer: str,
+def picture_map(runs: Sequence[tuple[str, Mapping[str, Any]]], axes: Sequence[str], renderer: str,
                 width: str | None = None) -> tuple[Sheet, list[str]]:
-    """The map, and why some of its places have no picture. The first two swept keys that are numbers are its axes, or
-    the only one; of replicas, and of runs that differ in more, the first is shown.
+    """The map, and why some of its places have no picture. Of replicas, and of runs that differ in more than the axes,
+    the first is shown.
 
     runs:     (directory, parameters): the swept keys as they were asked for
+    axes:     one or two of them that are numbers
     renderer: the program shaken-render
-
-    Raises ShakenError where no number is swept.
     """
-    keys = dict.fromkeys(key for _, parameters in runs for key in parameters)
-    values = {key: [number_of(parameters.get(key)) for _, parameters in runs] for key in keys}
-    axes = [key for key, found in values.items() if len(set(found)) > 1 and all(map(math.isfinite, found))][:2]
-    if not axes:
-        raise ShakenError("no number is swept among these runs, so they have no map")
-    x, y = values[axes[0]], values[axes[1]] if len(axes) > 1 else [0.0] * len(runs)
+    x, y = ([number_of(parameters[key]) if key else 0.0 for _, parameters in runs] for key in (*axes, "")[:2])
     across, up = sorted(set(x)), sorted(set(y), reverse=True)
     size = style.inches(width or "183mm") * 25.4 / len(across)
     sheet = style.sheet(width or "183mm", len(up), len(across), size + 4, letters=False)

@@ -11,7 +11,8 @@ import numpy as np
 
 from ..errors import ShakenError
 from ..hdf5 import open_file
-from ..run import error_name, version_text
+from ..run import error_name
+from ..summary import version_text
 from . import maps, names
 from .series import VERSION, Arrangement, label_of, mean_curve
 from .sheet import Sheet

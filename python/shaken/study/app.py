@@ -28,34 +28,22 @@ OK, FAILED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 
 
 def parser() -> argparse.ArgumentParser:
-    found = argparse.ArgumentParser(prog="shaken figures", description="The figures of Sharma & Soni (2024), and some "
-                                    "beyond: runs what they need, archives it, draws, judges")
-    found.add_argument("figures", nargs="*", metavar="FIGURE", help="a number of the paper, 2 to 14, or a name; all if "
-                       "left out")
-    found.add_argument("--scale", default="desk", help=", ".join(f"{s.name}: {s.shown}" for s in SCALES.values()))
-    found.add_argument("--budget", help="CPU time after which it stops, \"10h\"; without one it runs all")
-    found.add_argument("--archive", type=Path, help="folder of the archive of finished runs; OUT/archive if left out")
-    found.add_argument("-o", "--out", type=Path, help="folder of the figures; figures-SCALE if left out")
-    found.add_argument("--configs", type=Path, help="folder of the sweeps of the sets")
-    found.add_argument("--root", type=Path, help="root of the daemon")
-    found.add_argument("--list", action="store_true", help="the figures and their sets, and nothing else")
-    found.add_argument("--dry-run", action="store_true", help="what is open and what it would cost, and nothing else")
-    found.add_argument("--draw-only", action="store_true", help="draw from the archive; no daemon is asked")
-    found.add_argument("--collect", action="store_true", help="first archive all runs of the daemon that are done")
-    found.add_argument("--format", default="png", help="png, pdf or svg")
-    found.add_argument("--width", default="183mm", help="89mm, 120mm, 183mm or another from 40mm to 500mm")
-    found.add_argument("--cores", type=int, default=len(os.sched_getaffinity(0)), help="cores that a plan is made for")
-    found.add_argument("--plan", type=Path, help="file of a plan for a computing centre; nothing is started")
-    found.add_argument("--executor", help="local or slurm: where the runs run")
-    for name in ("partition", "account", "time", "memory"):
-        found.add_argument(f"--{name}", help="of a task of Slurm")
-    found.add_argument("--runs-per-task", type=int, help="runs that a task of Slurm does, one after the other")
-    found.add_argument("--slurm-option", action="append", help="any option of sbatch")
-    found.add_argument("--report", type=Path, action="append", default=[],
-                       help="Markdown file whose marked sections are written anew, and those of the pages in the "
-                       "folder of its name; may be given several times")
-    found.add_argument("--json", action="store_true", help="what was made, and the verdicts, as JSON")
-    found.add_argument("-y", "--yes", action="store_true", help="do not ask before a start on a terminal")
+    """The options that client/verbs/figures.cpp hands on, where they are described."""
+    found = argparse.ArgumentParser(prog="shaken figures")
+    found.add_argument("figures", nargs="*")
+    found.add_argument("--scale", default="desk")
+    found.add_argument("--format", default="png")
+    found.add_argument("--width", default="183mm")
+    found.add_argument("--cores", type=int, default=len(os.sched_getaffinity(0)))
+    found.add_argument("--runs-per-task", type=int)
+    for name in ("budget", "executor", "partition", "account", "time", "memory"):
+        found.add_argument(f"--{name}")
+    for name in ("archive", "out", "configs", "root", "plan"):
+        found.add_argument(f"--{name}", type=Path)
+    for name in ("list", "dry-run", "draw-only", "collect", "json", "yes"):
+        found.add_argument(f"--{name}", action="store_true")
+    found.add_argument("--slurm-option", action="append")
+    found.add_argument("--report", type=Path, action="append", default=[])
     return found
 
 

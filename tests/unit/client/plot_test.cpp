@@ -187,14 +187,10 @@ TEST(Plot, SaysWhatIsNotInstalled) {
   std::filesystem::permissions(bare, std::filesystem::perms::owner_all);
   setenv("SHAKEN_PYTHON", bare.c_str(), 1);
   const Outcome outcome = run_client({"plot", folder.path().string()});
-  setenv("SHAKEN_PYTHON", "/no/such/python", 1);
-  const Outcome none = run_client({"plot", folder.path().string()});
   unsetenv("SHAKEN_PYTHON");
   EXPECT_EQ(outcome.code, ExitCode::kBadInput);
   EXPECT_THAT(outcome.err, HasSubstr("`apt install python3-matplotlib python3-numpy python3-h5py`"));
   EXPECT_THAT(outcome.err, Not(HasSubstr("Traceback")));
-  EXPECT_EQ(none.code, ExitCode::kBadInput);
-  EXPECT_THAT(none.err, HasSubstr("/no/such/python cannot be run"));
 }
 
 }  // namespace

@@ -565,7 +565,7 @@ TEST_F(ChosenResults, EveryProblemOfWhereIsTold) {
 
 Json results_with(const Json& rows) { return {{"rows", rows}}; }
 
-TEST_F(Verbs, ResultsMarkWhatStillRelaxesAndFitTheTerminal) {
+TEST_F(Verbs, ResultsMarkWhatStillRelaxes) {
   const auto summary = [](bool steady) {
     return Json{{"n_rods", 271},
                 {"sim_seconds", 2.0},
@@ -596,20 +596,15 @@ TEST_F(Verbs, ResultsMarkWhatStillRelaxesAndFitTheTerminal) {
   daemon_.on("GET /v1/sweeps/s1", text(sweep({})));
   daemon_.on("GET /v1/results?sweep=s1", text(results_with(rows)));
 
-  const Outcome table = run({"results", "s1"}, 80);
+  const Outcome table = run({"results", "s1"});
   EXPECT_EQ(table.code, ExitCode::kOk) << table.err;
-  std::istringstream lines(table.out);
-  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80U) << line;
-  EXPECT_THAT(table.out, Not(HasSubstr("…")));
   EXPECT_THAT(table.out, HasSubstr("1f0c5e2a"));
   EXPECT_THAT(table.out, HasSubstr(" ~0.9496  0.0009234"));
   EXPECT_THAT(table.out, HasSubstr("  0.9496  0.0009234"));
   EXPECT_THAT(table.out, HasSubstr(" ~8.5"));
   EXPECT_THAT(table.out, HasSubstr("\n~ still relaxing: "));
-  EXPECT_THAT(table.err, HasSubstr("no room for "));
-  EXPECT_THAT(table.err, HasSubstr("OVERLAP mm"));
 
-  const Outcome chosen = run({"results", "s1", "--columns", "order.mean,theta_m_deg,order.steady"}, 80);
+  const Outcome chosen = run({"results", "s1", "--columns", "order.mean,theta_m_deg,order.steady"});
   EXPECT_EQ(chosen.out,
             "order.mean  measured.theta_m_deg.value  order.steady\n"
             "   ~0.9496                        ~8.5  false\n"

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include "client/verbs/in_python.h"
+
+#include <cstdlib>
+
+#include "base/keys/units.h"
+#include "base/paths.h"
+#include "base/plots_by_python.h"
+#include "base/process.h"
+#include "client/live/json.h"
+#include "scene/canonical.h"
+#include "scene/fields.h"
+#include "scene/load.h"
+
+namespace shaken::client {
+
+std::string keys_option() {
+  const scene::RunPlan plain = *scene::load_scene("{}", "");  // the paper's
+  Json keys = Json::object();
+  for (const scene::Field& field : scene::fields()) {
+    const Json value = to_json(field, scene::fields().value(plain, field));
+    keys[field.path] = Json::array({keys::name_of(field.dimension), value});
+  }
+  return "--keys=" + keys.dump();
+}
+
+std::string root_option(const Context& context) { return "--root=" + context.root().string(); }
+
+ExitCode InPython::go_on(const Context& context, const std::string& part,
+                         std::initializer_list<std::string> first) const {
+  std::vector<std::string> command = python_command(part);
+  command.insert(command.end(), first);
+  command.insert(command.end(), words_.begin(), words_.end());
+  setenv("SHAKEN_PROGRAM", sibling_program("shaken").c_str(), 1);
+  setenv("SHAKEN_CONFIGS", shipped_configs().c_str(), 1);
+  return context.console.run_instead(context.console, command);
+}
+
+}  // namespace shaken::client

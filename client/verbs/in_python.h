@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// Verbs whose work the Python package does: here they have their help and their options, which it is handed on.
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include "client/verb.h"
+
+namespace shaken::client {
+
+/// A verb that goes on as a part of the package, with its options that have no variable here.
+class InPython : public Verb {
+ public:
+  void declare(Arguments& arguments) final {
+    declare_options(arguments);
+    arguments.hand_on(words_);
+  }
+
+ protected:
+  virtual void declare_options(Arguments& arguments) = 0;
+  /// Goes on as `python3 -m shaken.PART FIRST WORDS`.
+  ExitCode go_on(const Context& context, const std::string& part, std::initializer_list<std::string> first) const;
+
+ private:
+  std::vector<std::string> words_;
+};
+
+/// The daemon's root, as --root of all of them.
+std::string root_option(const Context& context);
+/// The keys of a scene, what each measures and its value in a scene that does not say it, as --keys of shaken.tables:
+/// {"rods.length": ["length", 4.5]}.
+std::string keys_option();
+
+}  // namespace shaken::client

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""What `shaken results` and `shaken plot` do: rows of results, conditions on them, tables."""

@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: MIT
+"""`shaken plot`: figures of a sweep, a job or a run directory."""
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections import Counter
+from pathlib import Path
+from typing import Any, Mapping, Sequence
+
+from .. import __version__
+from ..daemon import Daemon
+from ..errors import ShakenError
+from ..plots import pictures, runs, sweeps
+from ..plots.save import origin_list
+from ..summary import version_text
+from .conditions import read
+from .rows import Row, Target, aggregated, axes_of, error_field, resolved, target_of
+from .selected import selected
+
+_FORMATS, _WIDTHS = ("png", "pdf", "svg"), ("89mm", "120mm", "183mm")
+
+
+class Nothing(ShakenError):
+    """There is nothing to draw, and why."""
+
+    exit_code = 1
+
+
+def _picture(options: argparse.Namespace) -> Path | None:
+    """Sets the format and `is_one`, whether one figure is asked for; returns the picture that --out names, if it names
+    one. Raises ShakenError with all that is wrong."""
+    suffix, is_one = Path(options.out).suffix[1:], bool(options.map or options.x or options.y)
+    options.is_one = is_one
+    is_picture, problems = suffix in _FORMATS, []
+    if options.format not in ("", *_FORMATS):
+        problems.append(f"--format takes png, pdf or svg, not '{options.format}'")
+    if options.width not in ("", *_WIDTHS):
+        problems.append(f"--width takes 89mm, 120mm or 183mm, not '{options.width}'")
+    if is_picture and not is_one:
+        problems.append(f"{options.out} is one picture, and this draws several: give a folder, or --x and --y, or "
+                        "--map")
+    if options.map and (options.x or options.y):
+        problems.append("--map goes with neither --x nor --y")
+    if is_one and suffix and not is_picture and not Path(options.out).is_dir():
+        problems.append(f"{options.out}: a plot is a .png, .pdf or .svg")
+    if is_picture and options.format in _FORMATS and suffix != options.format:
+        problems.append(f"--format {options.format} does not go with {options.out}")
+    if problems:
+        raise ShakenError("\n".join(problems))
+    options.format = options.format or (suffix if is_picture else "png")
+    return Path(options.out) if is_picture else None
+
+
+def _version(row: Row) -> str:
+    return version_text((row.source.get("summary") or {}).get("versions"))
+
+
+def _times_over(points: Sequence[Row], name: str) -> list[float]:
+    """The times over which a number is taken in the points [s]; none if it depends on none."""
+    over = name[:-len("value")] + "over_s"
+    times = {point.number(over) for point in points} if name.endswith(".value") else set()
+    return sorted(time for time in times if time == time)
+
+
+def _plotted(point: Row, x: str, y: str) -> sweeps.PlottedPoint:
+    return sweeps.PlottedPoint(point.parameters, point.number(y), point.number(error_field(y)), point.steady(y),
+                               point.number(x), _version(point))
+
+
+def _sweep_figure(points: Sequence[Row], options: argparse.Namespace) -> list[tuple[str, Any]]:
+    """(name, sheet) of a number against a parameter, if there is one to draw."""
+    plotted = [_plotted(point, options.x, options.y) for point in points]
+    figure = sweeps.sweep_figure(plotted, options.x, options.y, options.width or None,
+                                 {"x": _times_over(points, options.x), "y": _times_over(points, options.y)})
+    if figure is None and options.is_one:
+        path = options.x or sweeps.longest_parameter(plotted)
+        raise Nothing(f"no point has both {path} and {options.y} as numbers" if path else
+                      "no numeric parameter is swept: --x names a field to plot against")
+    return [figure] if figure else []
+
+
+def _runs(wanted: Sequence[tuple[Path, Mapping[str, Any], str]]) -> list[runs.PlottedRun]:
+    """The runs of these directories, with their parameters and the states of their jobs, as far as they have been
+    measured."""
+    drawn, left_out = [], []
+    for directory, parameters, state in wanted:
+        try:
+            drawn.append(runs.read_run(directory, parameters, state))
+        except runs.Unreadable as reason:
+            left_out.append(str(reason))
+    _say_left_out(left_out)
+    return drawn
+
+
+def _say_left_out(reasons: Sequence[str]) -> None:
+    for why, n in Counter(reasons).items():
+        print(f"left out: {f'{n} runs, ' if n > 1 else ''}{why}", file=sys.stderr, flush=True)
+
+
+def _map(jobs: Sequence[Mapping[str, Any]], rows: Sequence[Row], options: argparse.Namespace) -> list[tuple[str, Any]]:
+    """(name, sheet) of the last frames of runs."""
+    renderer = Path(os.environ["SHAKEN_PROGRAM"]).with_name("shaken-render")
+    sheet, missing = pictures.picture_map([(job["directory"], job["parameters"]) for job in jobs],
+                                          axes_of(rows), str(renderer), options.width or None)
+    if not any(panel.has_picture for panel in sheet):
+        raise Nothing(missing[0])
+    _say_left_out(missing)
+    return [("map", sheet)]
+
+
+def _asked(options: argparse.Namespace) -> tuple[Target, list[Row]]:
+    """A sweep or a job, and its points for which --where holds; x and y become fields of theirs."""
+    conditions = read(options.where)
+    target = target_of(Daemon(options.root), options.id)
+    everything = aggregated(target.rows)
+    options.x = resolved(everything, options.x) if options.x else ""
+    options.y = resolved(everything, options.y) if options.y else "order.mean"
+    points = selected(target, conditions, options.keys, True)
+    if conditions and not points:
+        raise Nothing("there is nothing to plot: no point matches --where")
+    return target, points
+
+
+def plot(options: argparse.Namespace) -> None:
+    picture, origin = _picture(options), {"Software": f"shaken plot {__version__}"}
+    figures: list[tuple[str, Any]] = []
+    rows: list[Row] = []
+    if options.id and (Path(options.id) / "scene.json").exists():
+        if options.is_one or options.where:
+            raise ShakenError("--x, --y, --map and --where are for sweeps, not for a run directory")
+        folder, drawn = Path(options.id) / "plots", _runs([(Path(options.id), {}, "")])
+    else:
+        target, points = _asked(options)
+        folder, drawn = Path("plots-" + target.id[:8]), []
+        if target.is_sweep:  # by its name: its number says when it was submitted, and equal runs make equal files
+            origin["Sweep"] = target.name
+        kept = {point.key for point in points}
+        rows = [row for row in target.rows if row.key in kept]
+        ids = {row.fields["job"] for row in rows}  # a run that several points of a sweep ask for is one run
+        jobs = [job for job in {job["id"]: job for job in target.jobs}.values() if job["id"] in ids]
+        figures = _map(jobs, rows, options) if options.map else _sweep_figure(points, options)
+        if not options.is_one:
+            drawn = _runs([(Path(job["directory"]), job["parameters"], job["state"]) for job in jobs
+                           if job["state"] != "queued"])
+    for name, of in (("Computed by", {run.version for run in drawn} | {_version(row) for row in rows}),
+                     ("Runs", {run.id for run in drawn} | {row.fields["job"] for row in rows})):
+        if of - {""}:
+            origin[name] = origin_list(sorted(of - {""}))
+    folder = picture.parent if picture else Path(options.out) if options.out else folder
+    figures += runs.run_figures(drawn, options.width or None) if drawn else []
+    for name, sheet in figures:
+        path = folder / f"{picture.stem if picture else name}.{options.format}"
+        print(sheet.save(path, origin, data=any(panel.drawn for panel in sheet)), flush=True)
+    if not figures:
+        raise Nothing("there is nothing to plot yet")
