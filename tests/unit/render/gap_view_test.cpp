@@ -76,20 +76,6 @@ TEST(GapView, ARodIsWhereAndAsLargeAsItIs) {
   }
 }
 
-TEST(GapView, ATiltedRodHasItsHeadUp) {
-  RodPicture picture = empty_picture(kBox);
-  add_rod(picture, kBox / 2, kBox / 2 + 2, 0, 0.1);
-  const Image image = look(picture);
-  const auto top_at = [&](int x) {
-    for (int y = 0; y < kHeight; ++y) {
-      if (is_rod(image.pixel(x, y))) return y;
-    }
-    return kHeight;
-  };
-  const Extent extent = extent_of(image);
-  EXPECT_LT(top_at(extent.right - 15), top_at(extent.left + 15) - 5) << "higher on the stage";
-}
-
 TEST(GapView, ThePlatesAreDrawnWhereTheyAre) {
   RodPicture picture = empty_picture(kBox);
   struct Heights {
@@ -141,19 +127,6 @@ TEST(GapView, APeriodicBoxGoesOnAndAnArenaDoesNot) {
   const int alone = coloured();
   EXPECT_GT(alone, 500);
   EXPECT_GT(repeated, alone + 200);
-}
-
-TEST(GapView, TheNearerRodHidesTheFarther) {
-  RodPicture picture = empty_picture(kBox);
-  picture.cell.shapes.push_back(picture.cell.shapes[0]);
-  add_rod(picture, kBox / 2, kBox / 2 + 4, 0);
-  add_rod(picture, kBox / 2, kBox / 2 + 2, 0);
-  for (const bool orange_in_front : {true, false}) {
-    picture.cell.shape_of_rod = orange_in_front ? std::vector<std::uint8_t>{1, 0} : std::vector<std::uint8_t>{0, 1};
-    const Image image = look(picture);
-    const Vec2 middle = pixel_of(picture, picture.frame.position[1]);
-    EXPECT_EQ(is_rod(image.pixel(int(middle.x()), int(middle.y()))), orange_in_front);
-  }
 }
 
 TEST(GapView, EachLightGoesOutAlone) {

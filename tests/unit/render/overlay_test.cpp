@@ -80,39 +80,6 @@ TEST(Typeset, MinusAndMicroAreThoseOfPrint) {
   EXPECT_EQ(typeset("run-2 of 3 users"), "run-2 of 3 users");
 }
 
-TEST(Overlay, APlusHalfIsACometWithItsTailAlongItsDirection) {
-  for (const double direction : {0.0, 2.0, -1.2}) {
-    RodPicture picture = empty_picture(kBox);
-    const Vec2 place(6, 15);
-    picture.found.defects = {{place, 0.5, direction}};
-    const Image image = painter().paint(picture, bare()).value();
-    EXPECT_GE(grey_at(image, place, 0, 0), kWhite) << "the core";
-    EXPECT_LT(grey_at(image, place, 5, direction + kPi), kDark);
-    EXPECT_GT(grey_at(image, place, 15, direction), kDark) << "the axis";
-    EXPECT_LT(grey_at(image, place, 10, direction), kDark);
-    EXPECT_LT(grey_at(image, place, 23, direction), kDark);
-    EXPECT_GT(grey_at(image, place, 15, direction + kPi), kDark);
-    EXPECT_GT(grey_at(image, place, 15, direction + kPi / 2), kDark);
-    EXPECT_GT(grey_at(image, place, 38, direction), kDark);
-  }
-}
-
-TEST(Overlay, AMinusHalfHasThreeArms) {
-  for (const double direction : {0.0, 0.9}) {
-    RodPicture picture = empty_picture(kBox);
-    const Vec2 place(12, 4);
-    picture.found.defects = {{place, -0.5, direction}};
-    const Image image = painter().paint(picture, bare()).value();
-    EXPECT_GE(grey_at(image, place, 0, 0), kWhite);
-    for (int arm = 0; arm < 3; ++arm) {
-      const double along = direction + arm * 2 * kPi / 3;
-      EXPECT_GE(grey_at(image, place, 12, along), kWhite) << arm;
-      EXPECT_LT(grey_at(image, place, 12, along + kPi / 3), kWhite) << arm;
-      EXPECT_LT(grey_at(image, place, 6.1, along + kPi / 3), 120) << arm;  // the rim in the waist
-    }
-  }
-}
-
 TEST(Overlay, AMarkAcrossTheBorderShowsOnBothSides) {
   RodPicture picture = empty_picture(kBox);
   picture.found.defects = {{Vec2(0.02, 10), 0.5, kPi}};
@@ -203,35 +170,6 @@ TEST(Overlay, TheLegendShowsHowManyRodsLeanEachWay) {
   for (const double empty : {-85.0, -45.0, 3.0, 33.0, 85.0}) EXPECT_EQ(height_at(empty), 0) << empty;
 }
 
-TEST(Overlay, TheLegendCountsRodsAcrossTheDirector) {
-  // Every rod is somewhere in it, also those at right angles to the director.
-  RodPicture picture = empty_picture(kBox);
-  for (int i = 0; i < 36; ++i) add_rod(picture, 0.5 * i, 0.5 * i, (5 * i + 2.5) * kPi / 180);
-  PictureStyle style;
-  style.colour = "layers";
-  const Image image = painter().paint(picture, style).value();
-  const Layout layout = layout_of(style, {});
-  // Grey or pale bars have an outline, so the bar is found by what is not page.
-  const double left = 26 * layout.unit;
-  for (double degrees = -85; degrees < 90; degrees += 10) {
-    const int x = static_cast<int>(layout.legend.x + left + (degrees + 90) / 180 * (layout.legend.width - left)) + 3;
-    const std::uint8_t* p = image.pixel(x, static_cast<int>(layout.legend.bottom() - 45));
-    EXPECT_LT(p[0] + p[1] + p[2], 3 * 248) << degrees;
-  }
-}
-
-TEST(Overlay, ValuesBeyondTheScaleStandInTheOuterBars) {
-  RodPicture picture = empty_picture(kBox);
-  for (int i = 0; i < 20; ++i) add_rod(picture, i, i, 0.3, i % 2 ? 0.6 : -0.6);
-  PictureStyle style;
-  style.colour = "tilt";
-  const Image image = painter().paint(picture, style).value();
-  const Layout layout = layout_of(style, {});
-  EXPECT_GT(bar_height(image, layout, 0.29, -0.3, 0.3), 50);
-  EXPECT_GT(bar_height(image, layout, -0.29, -0.3, 0.3), 50);
-  EXPECT_EQ(bar_height(image, layout, 0.15, -0.3, 0.3), 0);
-}
-
 TEST(Overlay, FilmsSayHowFastTheyPlay) {
   EXPECT_EQ(playback_text(0.1), "1/10 speed");
   EXPECT_EQ(playback_text(1.0 / 30), "1/30 speed");
@@ -291,18 +229,6 @@ TEST(Overlay, EachSpeciesIsShownWithItsNumberAndItsOrder) {
     EXPECT_NE(number.name, "order S") << "of which of them?";
     EXPECT_NE(number.name, "length \u2113");
     EXPECT_TRUE(number.name != "bodies" || number.value == "6");
-  }
-  const Layout layout = layout_of(style, {.species = 3});
-  const Image image = painter().paint(picture, style).value();
-  // The second row begins with a disc, the first with a pale rod.
-  const double row = layout.species.height / 3;
-  const auto at = [&](int k) {
-    return image.pixel(static_cast<int>(layout.species.x + 8), static_cast<int>(layout.species.y + (k + 0.5) * row));
-  };
-  const Colour dull = species_colour(1), pale = layer_colour(0);
-  for (std::size_t c = 0; c < 3; ++c) {
-    EXPECT_NEAR(at(1)[c], 255 * dull[c], 2) << c;
-    EXPECT_NEAR(at(0)[c], 255 * pale[c], 2) << c;
   }
 }
 

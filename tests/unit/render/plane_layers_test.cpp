@@ -90,17 +90,6 @@ TEST(PlantedPair, IsDrawnWhereAndAsItIsInEveryStyle) {
   }
 }
 
-TEST(PlantedPair, TheBackgroundIsDarkInItsCores) {
-  RodPicture picture = planted_pair(0.3);
-  measure(picture, {.field = true});
-  PictureStyle style = bare();
-  style.mark_defects = false;
-  style.rods = 0;
-  style.background = Background::kOrder;
-  const Image image = painter().paint(picture, style).value();
-  for (const Vec2& core : {kPlus, kMinus}) EXPECT_LT(grey_at(image, core), grey_at(image, Vec2(30, 55)) - 60);
-}
-
 TEST(Streamlines, FollowTheDirectorAndCoverTheField) {
   RodPicture picture = planted_pair(0.4);
   measure(picture, {.field = true});
@@ -171,24 +160,6 @@ TEST(Displacements, AreArrowsOfTrueLengthToTheRods) {
   EXPECT_FALSE(is_dark(kBox - 5, kBox / 2)) << "it began at " << kBox - 4;
   EXPECT_FALSE(is_dark(5, kBox / 2)) << "it ends at 4";
   EXPECT_FALSE(is_dark(20, 10)) << "what has not moved has no arrow";
-}
-
-TEST(Tracks, FadeWithAge) {
-  RodPicture picture = empty_picture(kBox);
-  const double y = kBox / 6;
-  picture.found.tracks = {{0.5, {{Vec2(5, y), 0.95}, {Vec2(15, y), 0.85}, {Vec2(20, y), 0.15}, {Vec2(22, y), 0.05}}},
-                          {-0.5, {{Vec2(28, y), 0.15}, {Vec2(32, y), 0.05}}}};
-  const Image image = painter().paint(picture, bare()).value();
-  const auto at = [&](double x) { return image.pixel(static_cast<int>(x / kBox * kSide), kSide - kSide / 6); };
-  const auto vividness = [](const std::uint8_t* p) {
-    return std::max({p[0], p[1], p[2]}) - std::min({p[0], p[1], p[2]});
-  };
-  EXPECT_GT(vividness(at(21)), 2 * vividness(at(10)));
-  EXPECT_GT(vividness(at(10)), vividness(at(36)) + 5) << "a line, and not only its points";
-  EXPECT_GT(vividness(at(18)), 2 * vividness(at(10)));
-  EXPECT_LT(vividness(at(25)), 5) << "nothing links one defect's track to another's";
-  EXPECT_GT(at(21)[0], at(21)[2]) << "orange";
-  EXPECT_LT(at(30)[0], at(30)[2]) << "blue";
 }
 
 std::string bytes_of(const std::filesystem::path& file) {
