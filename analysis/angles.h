@@ -3,8 +3,6 @@
 
 #include <cstdint>
 #include <span>
-#include <string_view>
-#include <tuple>
 #include <vector>
 
 #include "analysis/summed.h"
@@ -27,8 +25,8 @@ class AngleDistribution : public Summed<AngleDistribution> {
   void accumulate(std::span<const Vec3> directors);
   AnglePdf reduce() const;
 
-  static constexpr std::string_view kName = "AngleDistribution";
-  static constexpr auto fields() { return std::tuple(&AngleDistribution::counts_); }
+  static constexpr const char* kName = "AngleDistribution";
+  static auto fields(auto& self) { return listed(self.counts_); }
 
  private:
   std::vector<std::int64_t> counts_;

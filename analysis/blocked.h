@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/saved.h"
 #include "analysis/steady.h"
-#include "base/core/state_io.h"
 
 namespace shaken::analysis {
 
@@ -18,7 +18,7 @@ namespace shaken::analysis {
 /// long. Accumulator: copyable, with accumulate(args...), merge(const Accumulator&), save and restore; where what it
 /// takes depends on the number of the sample, also start_at(samples before its first).
 template <class Accumulator>
-class Blocked {
+class Blocked : public Saved<Blocked<Accumulator>> {
  public:
   /// Every stretch starts as a copy of `empty`.
   explicit Blocked(Accumulator empty) : empty_(std::move(empty)) {}
@@ -62,28 +62,13 @@ class Blocked {
   /// All samples.
   Accumulator all() const { return after(-std::numeric_limits<double>::max()); }
 
-  void save(StateWriter& writer) const {
-    writer.tag("Blocked");
-    writer.put(calls_per_block_);
-    writer.put(static_cast<std::int64_t>(blocks_.size()));
-    for (const Block& block : blocks_) {
-      writer.put(block.start);
-      writer.put(block.calls);
-      block.content.save(writer);
-    }
+  static constexpr const char* kName = "Blocked";
+  static auto fields(auto& self) {
+    return listed(self.calls_per_block_, Length{self.blocks_, Block{0, 0, self.empty_}}, self.blocks_);
   }
-
-  void restore(StateReader& reader) {
-    reader.tag("Blocked");
-    const std::int64_t calls_per_block = reader.integer(1, std::numeric_limits<std::int64_t>::max() / 2);
-    std::vector<Block> blocks(static_cast<std::size_t>(reader.integer(0, kMaxBlocks)), Block{0, 0, empty_});
-    for (Block& block : blocks) {
-      block.start = reader.real();
-      block.calls = reader.integer(1, calls_per_block);
-      block.content.restore(reader);
-    }
-    calls_per_block_ = calls_per_block;
-    blocks_ = std::move(blocks);
+  bool is_sound() const {
+    const auto is_part = [&](const Block& block) { return block.calls >= 1 && block.calls <= calls_per_block_; };
+    return calls_per_block_ >= 1 && blocks_.size() <= kMaxBlocks && std::ranges::all_of(blocks_, is_part);
   }
 
  private:
@@ -92,6 +77,7 @@ class Blocked {
     double start;        // time of the first sample
     std::int64_t calls;  // samples
     Accumulator content;
+    static auto fields(auto& self) { return listed(self.start, self.calls, self.content); }
   };
 
   void merge_pairs() {

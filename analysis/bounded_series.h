@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/saved.h"
 #include "base/core/check.h"
-#include "base/core/state_io.h"
 
 namespace shaken::analysis {
 
@@ -19,7 +19,7 @@ namespace shaken::analysis {
 /// if the samples are. The mean of a column keeps its meaning; its spread is from then on that of the averaged points.
 /// Samples of a point not yet complete are counted once it is.
 template <std::size_t Columns>
-class BoundedSeries {
+class BoundedSeries : public Saved<BoundedSeries<Columns>> {
  public:
   static constexpr std::size_t kMaxPoints = 65536;
   explicit BoundedSeries(std::size_t max_points = kMaxPoints) : max_points_(max_points) {
@@ -44,28 +44,12 @@ class BoundedSeries {
   const std::vector<double>& times() const { return columns_[0]; }                    ///< (n) [s]
   const std::vector<double>& column(std::size_t k) const { return columns_[k + 1]; }  ///< (n)
 
-  void save(StateWriter& writer) const {
-    writer.tag("BoundedSeries");
-    writer.put(samples_per_point_);
-    writer.put(pending_samples_);
-    writer.put(last_time_);
-    writer.put(pending_);
-    for (const std::vector<double>& column : columns_) writer.put(column);
+  static constexpr const char* kName = "BoundedSeries";
+  static auto fields(auto& self) {
+    return listed(self.samples_per_point_, self.pending_samples_, self.last_time_, self.pending_,
+                  Growing{self.columns_});
   }
-
-  void restore(StateReader& reader) {
-    reader.tag("BoundedSeries");
-    BoundedSeries saved(max_points_);
-    saved.samples_per_point_ = reader.integer(1, std::numeric_limits<std::int64_t>::max() / 4);
-    saved.pending_samples_ = reader.integer(0, saved.samples_per_point_ - 1);
-    saved.last_time_ = reader.real();
-    const std::vector<double> pending = reader.reals(Columns + 1);
-    std::copy(pending.begin(), pending.end(), saved.pending_.begin());
-    saved.columns_[0] = reader.reals();
-    if (saved.columns_[0].size() >= max_points_) throw StateError("BoundedSeries overfull");
-    for (std::size_t k = 1; k <= Columns; ++k) saved.columns_[k] = reader.reals(saved.columns_[0].size());
-    *this = std::move(saved);
-  }
+  bool is_sound() const { return pending_samples_ < samples_per_point_ && columns_[0].size() < max_points_; }
 
  private:
   void average_pairs() {

@@ -5,14 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string_view>
-#include <tuple>
 #include <vector>
 
 #include "analysis/bounded_series.h"
 #include "analysis/region.h"
 #include "analysis/summed.h"
-#include "base/core/state_io.h"
 #include "base/core/types.h"
 
 namespace shaken::analysis {
@@ -56,11 +53,10 @@ class ClusterStatistics : public Summed<ClusterStatistics> {
   void accumulate(const std::vector<std::size_t>& sizes);
   ClusterNumbers reduce() const;
 
-  static constexpr std::string_view kName = "ClusterStatistics";
-  static constexpr auto fields() {
-    return std::tuple(&ClusterStatistics::samples_, &ClusterStatistics::largest_, &ClusterStatistics::rods_,
-                      &ClusterStatistics::squares_, &ClusterStatistics::alone_, &ClusterStatistics::clusters_of_,
-                      &ClusterStatistics::rods_of_);
+  static constexpr const char* kName = "ClusterStatistics";
+  static auto fields(auto& self) {
+    return listed(self.samples_, self.largest_, self.rods_, self.squares_, self.alone_, self.clusters_of_,
+                  self.rods_of_);
   }
 
  private:
@@ -74,7 +70,7 @@ class ClusterStatistics : public Summed<ClusterStatistics> {
 };
 
 /// The largest cluster and the mean size against time, in bounded memory (see BoundedSeries).
-class ClusterSeries {
+class ClusterSeries : public Saved<ClusterSeries> {
  public:
   /// Takes a sample at `time` [s], later than all before: sizes as of cluster_sizes().
   void accumulate(double time, const std::vector<std::size_t>& sizes);
@@ -83,8 +79,7 @@ class ClusterSeries {
   const std::vector<double>& largest() const { return series_.column(0); }  ///< (n) share of all rods
   const std::vector<double>& sizes() const { return series_.column(1); }    ///< (n) mean over rods
 
-  void save(StateWriter& writer) const { series_.save(writer); }
-  void restore(StateReader& reader) { series_.restore(reader); }
+  static auto fields(auto& self) { return listed(self.series_); }
 
  private:
   BoundedSeries<2> series_;

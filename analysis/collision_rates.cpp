@@ -2,7 +2,6 @@
 #include "analysis/collision_rates.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "base/core/check.h"
 
@@ -33,27 +32,6 @@ void CollisionSeries::accumulate(double time, const CollisionTotals& totals) {
   ++samples_;
   time_ = time;
   last_ = totals.since_start;
-}
-
-void CollisionSeries::save(StateWriter& writer) const {
-  writer.tag("CollisionSeries");
-  writer.put(samples_);
-  writer.put(time_);
-  writer.put(last_);
-  series_.save(writer);
-  sums_.save(writer);
-}
-
-void CollisionSeries::restore(StateReader& reader) {
-  reader.tag("CollisionSeries");
-  CollisionSeries saved;
-  saved.samples_ = reader.integer(0, std::numeric_limits<std::int64_t>::max() / 2);
-  saved.time_ = reader.real();
-  const std::vector<double> last = reader.reals(kCollisionCounts);
-  std::copy(last.begin(), last.end(), saved.last_.begin());
-  saved.series_.restore(reader);
-  saved.sums_.restore(reader);
-  *this = saved;
 }
 
 }  // namespace shaken::analysis

@@ -4,14 +4,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <string_view>
-#include <tuple>
 #include <vector>
 
 #include "analysis/blocked.h"
 #include "analysis/bounded_series.h"
 #include "analysis/summed.h"
-#include "base/core/state_io.h"
 
 namespace shaken::analysis {
 
@@ -45,8 +42,8 @@ class CollisionSums : public Summed<CollisionSums> {
   /// NaN without any time.
   CollisionRates reduce() const;
 
-  static constexpr std::string_view kName = "CollisionSums";
-  static constexpr auto fields() { return std::tuple(&CollisionSums::rod_time_, &CollisionSums::added_); }
+  static constexpr const char* kName = "CollisionSums";
+  static auto fields(auto& self) { return listed(self.rod_time_, self.added_); }
 
  private:
   double rod_time_ = 0;  // of all rods [s]
@@ -55,7 +52,7 @@ class CollisionSums : public Summed<CollisionSums> {
 
 /// Rates of impacts and of the energy that they move, from the totals of a run at successive instants: each rate is a
 /// mean over the time from one to the next.
-class CollisionSeries {
+class CollisionSeries : public Saved<CollisionSeries> {
  public:
   /// Totals at `time` [s], later than all before.
   void accumulate(double time, const CollisionTotals& totals);
@@ -67,8 +64,8 @@ class CollisionSeries {
   /// By the beginning of these times.
   const Blocked<CollisionSums>& sums() const { return sums_; }
 
-  void save(StateWriter& writer) const;
-  void restore(StateReader& reader);
+  static constexpr const char* kName = "CollisionSeries";
+  static auto fields(auto& self) { return listed(self.samples_, self.time_, self.last_, self.series_, self.sums_); }
 
  private:
   std::int64_t samples_ = 0;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "analysis/estimate_curve.h"
@@ -15,11 +14,6 @@ namespace {
 
 /// Places in a bin at which it is asked whether it lies within walls, each way.
 constexpr int kPlacesInBin = 4;
-
-/// Columns of rods and places, for loops over all of them.
-std::array<std::vector<double>*, 5> columns(DefectMapSums::Rods& rods) {
-  return {&rods.x, &rods.y, &rods.cos2, &rods.sin2, &rods.n_z};
-}
 
 double over(double sum, double n) { return n > 0 ? sum / n : kNaN; }
 
@@ -159,7 +153,8 @@ void DefectMaps::accumulate(double time, std::span<const Vec3> positions, std::s
     places_.erase(places_.begin());
   }
   places_.push_back(std::move(now));
-  for (std::vector<double>* column : columns(rods_)) column->clear();
+  rods_ = {};
+  n_rods_ = positions.size();
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const Vec2 angle = double_angle(directors[i]);
     rods_.x.push_back(positions[i].x());
@@ -169,46 +164,6 @@ void DefectMaps::accumulate(double time, std::span<const Vec3> positions, std::s
     rods_.n_z.push_back(directors[i].z());
   }
   defects_.assign(defects.begin(), defects.end());
-}
-
-void DefectMaps::save(StateWriter& writer) const {
-  writer.tag("DefectMaps");
-  writer.put(static_cast<std::int64_t>(places_.size()));
-  writer.put(static_cast<std::int64_t>(rods_.x.size()));
-  for (const Places& places : places_) {
-    writer.put(places.time);
-    writer.put(places.x);
-    writer.put(places.y);
-  }
-  DefectMapSums::Rods rods = rods_;
-  for (const std::vector<double>* column : columns(rods)) writer.put(*column);
-  std::vector<double> defects;
-  for (const Defect& defect : defects_) {
-    defects.insert(defects.end(), {defect.position.x(), defect.position.y(), defect.charge, defect.direction});
-  }
-  writer.put(defects);
-  sums_.save(writer);
-}
-
-void DefectMaps::restore(StateReader& reader) {
-  reader.tag("DefectMaps");
-  DefectMaps saved = *this;
-  saved.places_.resize(static_cast<std::size_t>(reader.integer(0, 2)));
-  const auto n_rods = static_cast<std::size_t>(reader.integer(0, std::numeric_limits<int>::max()));
-  for (Places& places : saved.places_) {
-    places.time = reader.real();
-    places.x = reader.reals(n_rods);
-    places.y = reader.reals(n_rods);
-  }
-  for (std::vector<double>* column : columns(saved.rods_)) *column = reader.reals(n_rods);
-  const std::vector<double> defects = reader.reals();
-  if (defects.size() % 4 != 0) throw StateError("DefectMaps with a part of a defect");
-  saved.defects_.clear();
-  for (std::size_t i = 0; i < defects.size(); i += 4) {
-    saved.defects_.push_back({{defects[i], defects[i + 1]}, defects[i + 2], defects[i + 3]});
-  }
-  saved.sums_.restore(reader);
-  *this = std::move(saved);
 }
 
 }  // namespace shaken::analysis

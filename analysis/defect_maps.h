@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
-#include <string_view>
-#include <tuple>
 #include <vector>
 
 #include "analysis/blocked.h"
 #include "analysis/defects.h"
 #include "analysis/region.h"
 #include "analysis/summed.h"
-#include "base/core/state_io.h"
 #include "base/core/types.h"
 
 namespace shaken::analysis {
@@ -45,13 +43,14 @@ class DefectMapSums : public Summed<DefectMapSums> {
     double range;   ///< [mm]; at most half of a side along which the region is periodic
     double core;    ///< radius of the core, at most the range [mm]
     friend bool operator==(const Shape&, const Shape&) = default;
-    static constexpr auto fields() { return std::tuple(&Shape::range, &Shape::core); }
+    static auto fields(auto& self) { return listed(self.range, self.core); }
   };
   /// Rods at one instant; all of the same length (n_rods).
   struct Rods {
     std::vector<double> x, y;        ///< in the box [mm]
     std::vector<double> cos2, sin2;  ///< of twice the angle in the plane; both 0 of a rod exactly upright
     std::vector<double> n_z;
+    static auto fields(auto& self) { return listed(Growing{self.x, self.y, self.cos2, self.sin2, self.n_z}); }
   };
 
   explicit DefectMapSums(const Shape& shape);
@@ -64,10 +63,9 @@ class DefectMapSums : public Summed<DefectMapSums> {
   DefectMap plus() const { return reduced(plus_, 1); }
   DefectMap minus() const { return reduced(minus_, 3); }
 
-  static constexpr std::string_view kName = "DefectMapSums";
-  static constexpr auto fields() {
-    return std::tuple(Setting{"shape", &DefectMapSums::shape_}, &DefectMapSums::samples_, &DefectMapSums::plus_,
-                      &DefectMapSums::minus_);
+  static constexpr const char* kName = "DefectMapSums";
+  static auto fields(auto& self) {
+    return listed(Setting{"shape", self.shape_}, self.samples_, self.plus_, self.minus_);
   }
 
  private:
@@ -78,10 +76,9 @@ class DefectMapSums : public Summed<DefectMapSums> {
     std::int64_t core_rods = 0;
     double core_expected = 0, core_along = 0, core_across = 0;
     explicit Sums(std::size_t n) : rods(n), expected(n), cos2(n), sin2(n), along(n), across(n), tilt2(n) {}
-    static constexpr auto fields() {
-      return std::tuple(&Sums::frames, &Sums::rods, &Sums::expected, &Sums::cos2, &Sums::sin2, &Sums::along,
-                        &Sums::across, &Sums::tilt2, &Sums::core_rods, &Sums::core_expected, &Sums::core_along,
-                        &Sums::core_across);
+    static auto fields(auto& self) {
+      return listed(self.frames, self.rods, self.expected, self.cos2, self.sin2, self.along, self.across, self.tilt2,
+                    self.core_rods, self.core_expected, self.core_along, self.core_across);
     }
   };
   void add_frame(Sums& sums, const Rods& rods, std::span<const Vec2> velocities, const Vec2& origin, double psi,
@@ -100,7 +97,7 @@ std::vector<Defect> lone_defects(std::span<const Defect> defects, double separat
 
 /// Maps about defects, with velocities that are displacements from the sample before to the one after, over the time
 /// between: twice the interval of the samples, about the instant at which the defects and the places are taken.
-class DefectMaps {
+class DefectMaps : public Saved<DefectMaps> {
  public:
   explicit DefectMaps(const DefectMapSums::Shape& shape) : sums_(DefectMapSums(shape)) {}
 
@@ -111,17 +108,26 @@ class DefectMaps {
   /// By the time of the sample in the middle.
   const Blocked<DefectMapSums>& sums() const { return sums_; }
 
-  void save(StateWriter& writer) const;
-  void restore(StateReader& reader);
+  static constexpr const char* kName = "DefectMaps";
+  static auto fields(auto& self) {
+    return listed(Length{self.places_}, self.n_rods_, self.places_, self.rods_, Length{self.defects_, Defect(), 4},
+                  self.defects_, self.sums_);
+  }
+  bool is_sound() const {
+    const auto of_all_rods = [&](const auto& each) { return each.x.size() == n_rods_; };
+    return places_.size() <= 2 && std::ranges::all_of(places_, of_all_rods) && of_all_rods(rods_);
+  }
 
  private:
   /// Unwrapped centres.
   struct Places {
     double time = 0;
     std::vector<double> x, y;
+    static auto fields(auto& self) { return listed(self.time, Growing{self.x, self.y}); }
   };
   std::vector<Places> places_;  // at most two: the sample before, and that in the middle
   // of that in the middle
+  std::size_t n_rods_ = 0;
   DefectMapSums::Rods rods_;
   std::vector<Defect> defects_;
   Blocked<DefectMapSums> sums_;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "analysis/defect_series.h"
 
-#include <utility>
-
 #include "analysis/steady.h"
 #include "base/core/check.h"
 
@@ -38,34 +36,6 @@ DefectSeries::MeanCounts DefectSeries::reduce(double t_steady) const {
     mean.n_minus /= points;
   }
   return mean;
-}
-
-void DefectSeries::save(StateWriter& writer) const {
-  writer.tag("DefectSeries");
-  counts_.save(writer);
-  writer.put(std::int64_t{keeps_list_});
-  if (!keeps_list_) return;
-  for (const auto* array : {&list_.time, &list_.x, &list_.y, &list_.charge, &list_.direction, &list_.track}) {
-    writer.put(*array);
-  }
-}
-
-void DefectSeries::restore(StateReader& reader) {
-  reader.tag("DefectSeries");
-  DefectSeries saved(keeps_list_);
-  saved.counts_.restore(reader);
-  if ((reader.integer(0, 1) == 1) != keeps_list_) {
-    throw StateError("DefectSeries with the list of defects where none is kept, or without");
-  }
-  if (keeps_list_) {
-    saved.list_.time = reader.reals();
-    const std::size_t n_defects = saved.list_.time.size();
-    for (auto* array :
-         {&saved.list_.x, &saved.list_.y, &saved.list_.charge, &saved.list_.direction, &saved.list_.track}) {
-      *array = reader.reals(n_defects);
-    }
-  }
-  *this = std::move(saved);
 }
 
 }  // namespace shaken::analysis

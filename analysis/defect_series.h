@@ -7,7 +7,7 @@
 
 #include "analysis/bounded_series.h"
 #include "analysis/defects.h"
-#include "base/core/state_io.h"
+#include "analysis/saved.h"
 
 namespace shaken::analysis {
 
@@ -18,11 +18,14 @@ struct DefectList {
   std::vector<double> charge;     ///< +1/2 or -1/2
   std::vector<double> direction;  ///< [rad], see Defect
   std::vector<double> track;      ///< see DefectTracks
+  static auto fields(auto& self) {
+    return listed(Growing{self.time, self.x, self.y, self.charge, self.direction, self.track});
+  }
 };
 
 /// Numbers of defects against time, in bounded memory; and the list of all of them if it is asked for, which grows by
 /// six numbers a defect.
-class DefectSeries {
+class DefectSeries : public Saved<DefectSeries> {
  public:
   explicit DefectSeries(bool keeps_list = false) : keeps_list_(keeps_list) {}
 
@@ -40,8 +43,11 @@ class DefectSeries {
   bool keeps_list() const { return keeps_list_; }
   const DefectList& list() const { return list_; }
 
-  void save(StateWriter& writer) const;
-  void restore(StateReader& reader);
+  static constexpr const char* kName = "DefectSeries";
+  static auto fields(auto& self) {
+    return listed(self.counts_, Setting{"choice of a list", self.keeps_list_},
+                  Unless{!self.keeps_list_, listed(self.list_)});
+  }
 
  private:
   bool keeps_list_;

@@ -2,7 +2,6 @@
 #include "analysis/defect_tracks.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <functional>
 #include <tuple>
@@ -12,25 +11,6 @@
 
 namespace shaken::analysis {
 namespace {
-
-using SumsAsArray = std::array<double, sizeof(TrackSums) / sizeof(double)>;
-using TracksAsArray = std::array<double, sizeof(TrackSums::Tracks) / sizeof(double)>;
-
-template <class Array, class Sums>
-void add(Sums& to, const Sums& from) {
-  auto sum = std::bit_cast<Array>(to);
-  const auto more = std::bit_cast<Array>(from);
-  for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += more[k];
-  to = std::bit_cast<Sums>(sum);
-}
-
-template <class Array>
-Array read(StateReader& reader) {
-  Array array;
-  const std::vector<double> values = reader.reals(array.size());
-  std::copy(values.begin(), values.end(), array.begin());
-  return array;
-}
 
 /// Pairs (i, j), i < n_first, j < n_second, the closest first; every index at most once.
 /// @param distance  of a pair, or infinity if it must not be
@@ -57,12 +37,6 @@ std::vector<std::pair<std::size_t, std::size_t>> closest_first(
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 }  // namespace
-
-void TrackSums::merge(const TrackSums& other) { add<SumsAsArray>(*this, other); }
-
-void TrackSums::save(StateWriter& writer) const { writer.put(std::bit_cast<SumsAsArray>(*this)); }
-
-void TrackSums::restore(StateReader& reader) { *this = std::bit_cast<TrackSums>(read<SumsAsArray>(reader)); }
 
 DefectTracks::DefectTracks(const Settings& settings) : settings_(settings) {
   SHAKEN_CHECK(settings.area > 0 && settings.interval > 0 && settings.max_step > 0,
@@ -164,7 +138,7 @@ void DefectTracks::let_last(double time, TrackSums& sums) {
   for (Track& track : tracks_) {
     if (track.lasting || time - track.born < settings_.min_lifetime - 1e-6 * settings_.interval) continue;
     track.lasting = true;
-    add<TracksAsArray>(sums.lasting, track.pending);
+    sums.lasting.merge(track.pending);
     track.pending = {};
     if (track.birth_seen) now.push_back(&track);
   }
@@ -271,54 +245,6 @@ TrackSummary DefectTracks::reduce(double t_steady) const {
     }
   }
   return summary;
-}
-
-void DefectTracks::save(StateWriter& writer) const {
-  writer.tag("DefectTracks");
-  writer.put(next_id_);
-  writer.put(last_time_);
-  writer.put(static_cast<std::int64_t>(tracks_.size()));
-  for (const Track& track : tracks_) {
-    writer.put(track.id);
-    writer.put(track.charge);
-    writer.put(track.born);
-    writer.put(std::int64_t{track.birth_seen});
-    writer.put(track.partner);
-    writer.put(std::int64_t{track.lasting});
-    std::vector<double> trail;
-    for (const Place& place : track.trail) {
-      trail.insert(trail.end(), {place.time, place.position.x(), place.position.y(), place.ray.x(), place.ray.y()});
-    }
-    writer.put(trail);
-    if (!track.lasting) writer.put(std::bit_cast<TracksAsArray>(track.pending));
-  }
-  blocks_.save(writer);
-}
-
-void DefectTracks::restore(StateReader& reader) {
-  reader.tag("DefectTracks");
-  DefectTracks saved(settings_);
-  saved.next_id_ = reader.integer(0, std::numeric_limits<std::int64_t>::max() / 2);
-  saved.last_time_ = reader.real();
-  const std::int64_t n = reader.integer(0, saved.next_id_);
-  for (std::int64_t k = 0; k < n; ++k) {
-    Track track{};
-    track.id = reader.integer(0, saved.next_id_ - 1);
-    track.charge = reader.real();
-    track.born = reader.real();
-    track.birth_seen = reader.integer(0, 1) == 1;
-    track.partner = reader.integer(-1, saved.next_id_ - 1);
-    track.lasting = reader.integer(0, 1) == 1;
-    const std::vector<double> trail = reader.reals();
-    if (trail.empty() || trail.size() % 5 != 0) throw StateError("DefectTracks without a place");
-    for (std::size_t i = 0; i < trail.size(); i += 5) {
-      track.trail.push_back({trail[i], {trail[i + 1], trail[i + 2]}, {trail[i + 3], trail[i + 4]}});
-    }
-    if (!track.lasting) track.pending = std::bit_cast<TrackSums::Tracks>(read<TracksAsArray>(reader));
-    saved.tracks_.push_back(std::move(track));
-  }
-  saved.blocks_.restore(reader);
-  *this = std::move(saved);
 }
 
 }  // namespace shaken::analysis

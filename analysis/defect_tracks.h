@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -10,7 +11,7 @@
 #include "analysis/blocked.h"
 #include "analysis/defects.h"
 #include "analysis/jackknife.h"
-#include "base/core/state_io.h"
+#include "analysis/summed.h"
 #include "base/core/types.h"
 
 namespace shaken::analysis {
@@ -21,28 +22,34 @@ inline constexpr std::array<int, 5> kTrackSpans{1, 2, 4, 8, 16};
 inline constexpr std::size_t kTrackSpan = 2;
 
 /// Sums over the tracks in a stretch of time; nothing but doubles.
-struct TrackSums {
+struct TrackSums : Summed<TrackSums> {
   struct Speeds {
     double n = 0;                             // displacements
     double speed = 0, along = 0, across = 0;  // sums [mm/s]
+    static auto fields(auto& self) { return listed(self.n, self.speed, self.along, self.across); }
   };
-  struct Tracks {
+  struct Tracks : Summed<Tracks> {
     double creations = 0, annihilations = 0;        // pairs
     double births_alone = 0, deaths_alone = 0;      // defects without a partner
     double deaths = 0;                              // defects, with or without
     double lived = 0;                               // by all defects together [s]
     std::array<Speeds, kTrackSpans.size()> plus{};  // by span
     std::array<Speeds, kTrackSpans.size()> minus{};
+    static auto fields(auto& self) {
+      return listed(self.creations, self.annihilations, self.births_alone, self.deaths_alone, self.deaths, self.lived,
+                    self.plus, self.minus);
+    }
   };
   double samples = 0;
   double duration = 0;  // [s]
   double charge = 0;    // sum over all defects of all samples
   Tracks all, lasting;
 
-  void merge(const TrackSums& other);
   void accumulate(const TrackSums& other) { merge(other); }
-  void save(StateWriter& writer) const;
-  void restore(StateReader& reader);
+  static auto fields(auto& self) {
+    return listed(Setting{"number of sums", sizeof(TrackSums) / sizeof(double)}, self.samples, self.duration,
+                  self.charge, self.all, self.lasting);
+  }
 };
 
 /// What the tracks come down to.
@@ -88,7 +95,7 @@ struct TrackSummary {
 /// interval.
 ///
 /// Memory: the defects alive, with their last 17 places each, and sums in 64 blocks.
-class DefectTracks {
+class DefectTracks : public Saved<DefectTracks> {
  public:
   struct Settings {
     Vec2 period;          ///< distances are those to the nearest image; 0: plain ones, where walls stand [mm]
@@ -109,14 +116,22 @@ class DefectTracks {
   /// From `t_steady` [s] on, errors from the stretches of time.
   TrackSummary reduce(double t_steady) const;
 
-  void save(StateWriter& writer) const;
-  void restore(StateReader& reader);
+  static constexpr const char* kName = "DefectTracks";
+  static auto fields(auto& self) {
+    return listed(self.next_id_, self.last_time_, Length{self.tracks_}, self.tracks_, self.blocks_);
+  }
+  bool is_sound() const {
+    return std::ranges::all_of(tracks_, [&](const Track& track) {
+      return track.id < next_id_ && track.partner < next_id_ && !track.trail.empty();
+    });
+  }
 
  private:
   struct Place {
-    double time;
-    Vec2 position;  // without the jumps at the border of a periodic box
-    Vec2 ray;       // unit vector of the direction
+    double time = 0;
+    Vec2 position = Vec2::Zero();  // without the jumps at the border of a periodic box
+    Vec2 ray = Vec2::Zero();       // unit vector of the direction
+    static auto fields(auto& self) { return listed(self.time, self.position, self.ray); }
   };
   struct Track {
     std::int64_t id;
@@ -127,6 +142,12 @@ class DefectTracks {
     bool lasting;
     std::vector<Place> trail;   // the last samples, latest at the end
     TrackSums::Tracks pending;  // its own sums until it is lasting
+    static auto fields(auto& self) {
+      return listed(
+          self.id, self.charge, self.born, self.birth_seen, IndexOrNone{self.partner}, self.lasting,
+          Length{self.trail, Place(), 5}, self.trail,
+          Unless{self.lasting, listed(Setting{"number of sums", sizeof(self.pending) / sizeof(double)}, self.pending)});
+    }
   };
   Track begin(double time, const Defect& defect);
   void extend(Track& track, double time, const Defect& defect, TrackSums& sums) const;

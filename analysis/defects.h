@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "analysis/director_field.h"
+#include "analysis/saved.h"
 #include "base/core/types.h"
 
 namespace shaken::analysis {
@@ -15,6 +16,7 @@ struct Defect {
   /// Angle of the ray from the core along which the director is radial [rad]: one ray for +1/2, in [-pi, pi); one of
   /// three for -1/2, in [-pi/3, pi/3). 0 for charge +-1.
   double direction = 0;
+  static auto fields(auto& self) { return listed(self.position, self.charge, self.direction); }
 };
 
 /// All defects of the field: every plaquette of the grid round whose four edges the director turns by +-pi, each step

@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
-#include <utility>
 
 #include "analysis/lag_fits.h"
 #include "analysis/parts.h"
@@ -123,29 +121,6 @@ DensitySummary DensityMaps::reduce(double t_steady) const {
   }
   summary.correlation_time = decay_time(summary.lag, summary.correlation);
   return summary;
-}
-
-void DensityMaps::save(StateWriter& writer) const {
-  writer.tag("DensityMaps");
-  writer.put(samples_);
-  writer.put(time_);
-  writer.put(counts_);
-  writer.put(times_);
-  writer.put(densities_);
-}
-
-void DensityMaps::restore(StateReader& reader) {
-  reader.tag("DensityMaps");
-  DensityMaps saved = *this;
-  saved.samples_ = reader.integer(0, samples_per_map_ - 1);
-  saved.time_ = reader.real();
-  saved.counts_ = reader.integers(counts_.size());
-  const auto is_count = [](std::int64_t count) { return count >= 0 && count <= kMostCounted; };
-  if (!std::ranges::all_of(saved.counts_, is_count)) throw StateError("DensityMaps that count no rods");
-  saved.times_ = reader.reals();
-  saved.densities_ = reader.reals();
-  if (saved.densities_.size() != saved.times_.size() * counts_.size()) throw StateError("DensityMaps of another grid");
-  *this = std::move(saved);
 }
 
 }  // namespace shaken::analysis

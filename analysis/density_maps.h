@@ -8,7 +8,7 @@
 #include "analysis/director_field.h"
 #include "analysis/estimate_curve.h"
 #include "analysis/region.h"
-#include "base/core/state_io.h"
+#include "analysis/saved.h"
 #include "base/core/types.h"
 
 namespace shaken::analysis {
@@ -27,7 +27,7 @@ struct DensitySummary {
 /// Numbers of centres in the cells of a grid over the box, averaged over times of `samples_per_map` samples, one after
 /// the other; all maps are kept. A cell's area is what of it lies within walls, counted at 32 x 32 places; a cell of
 /// which less than a tenth does is left out, with the rods in it.
-class DensityMaps {
+class DensityMaps : public Saved<DensityMaps> {
  public:
   /// Of less than this share of a cell nothing is said.
   static constexpr double kLeastShare = 0.1;
@@ -45,8 +45,11 @@ class DensityMaps {
   /// Over the maps that begin at `t_steady` [s] or later.
   DensitySummary reduce(double t_steady) const;
 
-  void save(StateWriter& writer) const;
-  void restore(StateReader& reader);
+  static constexpr const char* kName = "DensityMaps";
+  static auto fields(auto& self) {
+    return listed(self.samples_, self.time_, self.counts_, Growing{self.times_}, Growing{self.densities_});
+  }
+  bool is_sound() const { return samples_ < samples_per_map_ && densities_.size() == times_.size() * counts_.size(); }
 
  private:
   /// Products of delta at map `a` and at map `b`, mean over cells.

@@ -217,7 +217,7 @@ void DirectorFluctuations::accumulate(std::span<const Vec3> positions, std::span
 
   const double theta = 0.5 * std::atan2(axis.y(), axis.x());
   const auto place = static_cast<std::int64_t>(std::floor((theta / kPi + 0.5) * kSectors));
-  Sector& sector = sectors_[std::clamp<std::int64_t>(place, 0, kSectors - 1)];
+  Sector& sector = sector_at(std::clamp<std::int64_t>(place, 0, kSectors - 1));
   ++sector.samples;
   sector.cosine += axis.x();
   sector.sine += axis.y();
@@ -225,15 +225,22 @@ void DirectorFluctuations::accumulate(std::span<const Vec3> positions, std::span
   for (std::size_t k = 0; k < powers.size(); ++k) sector.power[k] += powers[k] - floor;
 }
 
+DirectorFluctuations::Sector& DirectorFluctuations::sector_at(std::int64_t place) {
+  auto at = std::ranges::lower_bound(sectors_, place, {}, &Sector::place);
+  if (at == sectors_.end() || at->place != place) at = sectors_.insert(at, Sector{});
+  at->place = place;
+  return *at;
+}
+
 void DirectorFluctuations::merge(const DirectorFluctuations& other) {
   SHAKEN_CHECK(box_side_ == other.box_side_, "fluctuations in different boxes");
-  for (const auto& [place, from] : other.sectors_) sectors_[place].merge(from);
+  for (const Sector& from : other.sectors_) sector_at(from.place).merge(from);
 }
 
 std::vector<DirectorFluctuations::Point> DirectorFluctuations::points() const {
   std::vector<Point> points;
   const double unit = 2 * kPi / box_side_;
-  for (const auto& [place, sector] : sectors_) {
+  for (const Sector& sector : sectors_) {
     const double theta = 0.5 * std::atan2(sector.sine, sector.cosine);
     const Vec2 along(std::cos(theta), std::sin(theta));
     const auto samples = static_cast<double>(sector.samples);
@@ -262,7 +269,7 @@ std::vector<double> DirectorFluctuations::numbers() const {
   const Constants k = fit_constants(fitted).value_or(Constants{kNaN, kNaN});
 
   double samples = 0, floor = 0;
-  for (const auto& [place, sector] : sectors_) {
+  for (const Sector& sector : sectors_) {
     samples += static_cast<double>(sector.samples);
     floor += sector.floor;
   }
@@ -316,30 +323,6 @@ DirectorSpectrum DirectorFluctuations::reduce(const Blocked<DirectorFluctuations
   }
   spectrum.chi2 = n > 2 ? chi2 / (n - 2) : kNaN;
   return spectrum;
-}
-
-void DirectorFluctuations::save(StateWriter& writer) const {
-  writer.tag("DirectorFluctuations");
-  writer.put(box_side_);
-  writer.put(q_max_);
-  writer.put(static_cast<std::int64_t>(sectors_.size()));
-  for (const auto& [place, sector] : sectors_) {
-    writer.put(place);
-    sector.save(writer);
-  }
-}
-
-void DirectorFluctuations::restore(StateReader& reader) {
-  reader.tag("DirectorFluctuations");
-  const double box_side = reader.real();
-  const double q_max = reader.real();
-  if (box_side != box_side_ || q_max != q_max_) {
-    throw StateError("DirectorFluctuations of another box or range");
-  }
-  std::map<std::int64_t, Sector> sectors;
-  const std::int64_t n_sectors = reader.integer(0, kSectors);
-  for (std::int64_t k = 0; k < n_sectors; ++k) sectors[reader.integer(0, kSectors - 1)].restore(reader);
-  sectors_ = std::move(sectors);
 }
 
 }  // namespace shaken::analysis

@@ -3,10 +3,7 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <span>
-#include <string_view>
-#include <tuple>
 #include <vector>
 
 #include "analysis/blocked.h"
@@ -53,7 +50,7 @@ struct DirectorSpectrum {
 ///
 /// The director may wander: samples are summed in sectors of 5 degrees of its angle, and every sector has its own
 /// wave vectors along and across.
-class DirectorFluctuations {
+class DirectorFluctuations : public Saved<DirectorFluctuations> {
  public:
   /// Samples with less order have no director to speak of and are left out.
   static constexpr double kMinOrder = 0.3;
@@ -72,19 +69,21 @@ class DirectorFluctuations {
   /// negative; waves well below the floor hardly count. NaN where there is no fit.
   static DirectorSpectrum reduce(const Blocked<DirectorFluctuations>& blocks, double t_steady);
 
-  void save(StateWriter& writer) const;
-  void restore(StateReader& reader);
+  static constexpr const char* kName = "DirectorFluctuations";
+  static auto fields(auto& self) {
+    return listed(Setting{"box", self.box_side_}, Setting{"range", self.q_max_}, Length{self.sectors_}, self.sectors_);
+  }
 
  private:
   static constexpr int kModes = 84;  // |m|, |n| <= 6; q and -q are one
   struct Sector : Summed<Sector> {
+    std::int64_t place = 0;  // of the director's angle
     std::int64_t samples = 0;
     double cosine = 0, sine = 0;         // sums of cos, sin of twice the director's angle
     double floor = 0;                    // sum
     std::array<double, kModes> power{};  // sums, without the floor
-    static constexpr std::string_view kName = "";
-    static constexpr auto fields() {
-      return std::tuple(&Sector::samples, &Sector::cosine, &Sector::sine, &Sector::floor, &Sector::power);
+    static auto fields(auto& self) {
+      return listed(Largest{self.place}, self.samples, self.cosine, self.sine, self.floor, self.power);
     }
   };
   struct Point {
@@ -92,11 +91,12 @@ class DirectorFluctuations {
     double power, floor;     // mean [mm^2]
     double samples;
   };
+  Sector& sector_at(std::int64_t place);
   std::vector<Point> points() const;
   std::vector<double> numbers() const;
 
   double box_side_, q_max_;
-  std::map<std::int64_t, Sector> sectors_;  // by the director's angle
+  std::vector<Sector> sectors_;  // those with samples, by place
 };
 
 }  // namespace shaken::analysis

@@ -15,20 +15,4 @@ void Drift::accumulate(double time, std::span<const Vec3> unwrapped) {
   last_time_ = time;
 }
 
-void Drift::save(StateWriter& writer) const {
-  writer.tag("Drift");
-  writer.put(std::int64_t{has_first_});
-  for (const double value : {first_.x(), first_.y(), last_.x(), last_.y(), last_time_}) writer.put(value);
-  series_.save(writer);
-  statistics_.save(writer);
-}
-
-void Drift::restore(StateReader& reader) {
-  reader.tag("Drift");
-  has_first_ = reader.integer(0, 1) != 0;
-  for (double* value : {&first_.x(), &first_.y(), &last_.x(), &last_.y(), &last_time_}) *value = reader.real();
-  series_.restore(reader);
-  statistics_.restore(reader);
-}
-
 }  // namespace shaken::analysis

@@ -3,14 +3,11 @@
 
 #include <cstdint>
 #include <span>
-#include <string_view>
-#include <tuple>
 #include <vector>
 
 #include "analysis/blocked.h"
 #include "analysis/bounded_series.h"
 #include "analysis/summed.h"
-#include "base/core/state_io.h"
 #include "base/core/types.h"
 
 namespace shaken::analysis {
@@ -27,10 +24,8 @@ class DriftStatistics : public Summed<DriftStatistics> {
   /// Mean velocity [mm/s]; NaN without time.
   Vec2 reduce() const { return Vec2(x_, y_) / time_; }
 
-  static constexpr std::string_view kName = "DriftStatistics";
-  static constexpr auto fields() {
-    return std::tuple(&DriftStatistics::x_, &DriftStatistics::y_, &DriftStatistics::time_);
-  }
+  static constexpr const char* kName = "DriftStatistics";
+  static auto fields(auto& self) { return listed(self.x_, self.y_, self.time_); }
 
  private:
   double x_ = 0, y_ = 0, time_ = 0;
@@ -39,7 +34,7 @@ class DriftStatistics : public Summed<DriftStatistics> {
 /// Where rods drift together: the displacement in the plane of the mean of their centres since the first sample. It is
 /// followed through the periodic border, so the mean velocity between two samples is exact, whatever rods do between
 /// them, and none of the vibration is left in it after a whole number of periods.
-class Drift {
+class Drift : public Saved<Drift> {
  public:
   /// At `time` [s], later than all before: unwrapped centres (n_rods) [mm], the same rods in every call.
   void accumulate(double time, std::span<const Vec3> unwrapped);
@@ -49,8 +44,10 @@ class Drift {
   const std::vector<double>& y() const { return series_.column(1); }    ///< (n) [mm]
   const Blocked<DriftStatistics>& statistics() const { return statistics_; }
 
-  void save(StateWriter& writer) const;
-  void restore(StateReader& reader);
+  static constexpr const char* kName = "Drift";
+  static auto fields(auto& self) {
+    return listed(self.has_first_, self.first_, self.last_, self.last_time_, self.series_, self.statistics_);
+  }
 
  private:
   bool has_first_ = false;

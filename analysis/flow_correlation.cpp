@@ -124,25 +124,4 @@ void FlowCorrelation::accumulate(double time, std::span<const Vec3> positions, s
   }
 }
 
-void FlowCorrelation::save(StateWriter& writer) const {
-  writer.tag("FlowCorrelation");
-  writer.put(time_);
-  writer.put(director_);
-  for (const std::vector<double>* column : {&x_, &y_, &unwrapped_x_, &unwrapped_y_}) writer.put(*column);
-  sums_.save(writer);
-}
-
-void FlowCorrelation::restore(StateReader& reader) {
-  reader.tag("FlowCorrelation");
-  FlowCorrelation saved = *this;
-  saved.time_ = reader.real();
-  saved.director_ = reader.real();
-  saved.x_ = reader.reals();
-  for (std::vector<double>* column : {&saved.y_, &saved.unwrapped_x_, &saved.unwrapped_y_}) {
-    *column = reader.reals(saved.x_.size());
-  }
-  saved.sums_.restore(reader);
-  *this = saved;
-}
-
 }  // namespace shaken::analysis

@@ -3,14 +3,11 @@
 
 #include <cstdint>
 #include <span>
-#include <string_view>
-#include <tuple>
 #include <vector>
 
 #include "analysis/blocked.h"
 #include "analysis/region.h"
 #include "analysis/summed.h"
-#include "base/core/state_io.h"
 #include "base/core/types.h"
 
 namespace shaken::analysis {
@@ -41,12 +38,11 @@ class FlowSums : public Summed<FlowSums> {
   void start_at(std::int64_t samples) { calls_ = samples; }
   FlowCurve reduce() const;
 
-  static constexpr std::string_view kName = "FlowSums";
-  static constexpr auto fields() {
-    return std::tuple(Setting{"range", &FlowSums::r_max_}, Setting{"distance", &FlowSums::near_distance_},
-                      Largest{&FlowSums::calls_}, &FlowSums::pairs_, &FlowSums::along_, &FlowSums::across_,
-                      &FlowSums::near_pairs_, &FlowSums::near_, &FlowSums::rods_, &FlowSums::along_squares_,
-                      &FlowSums::across_squares_);
+  static constexpr const char* kName = "FlowSums";
+  static auto fields(auto& self) {
+    return listed(Setting{"range", self.r_max_}, Setting{"distance", self.near_distance_}, Largest{self.calls_},
+                  self.pairs_, self.along_, self.across_, self.near_pairs_, self.near_, self.rods_, self.along_squares_,
+                  self.across_squares_);
   }
 
  private:
@@ -65,7 +61,7 @@ class FlowSums : public Summed<FlowSums> {
 /// over the time between, at the places and with the nematic director of the first of both. Rods that do not know of
 /// each other have C = 0, rods that all drift together C = 1. Distances are as in OrientationCorrelation, and so is the
 /// number of rods that are the first of a pair in one sample, at most 1024.
-class FlowCorrelation {
+class FlowCorrelation : public Saved<FlowCorrelation> {
  public:
   /// Pairs nearer than `near_distance` [mm] count for `near`.
   FlowCorrelation(int bins, double r_max, double near_distance);
@@ -77,8 +73,11 @@ class FlowCorrelation {
   /// By the time of the first of both samples.
   const Blocked<FlowSums>& sums() const { return sums_; }
 
-  void save(StateWriter& writer) const;
-  void restore(StateReader& reader);
+  static constexpr const char* kName = "FlowCorrelation";
+  static auto fields(auto& self) {
+    return listed(self.time_, self.director_, Growing{self.x_, self.y_, self.unwrapped_x_, self.unwrapped_y_},
+                  self.sums_);
+  }
 
  private:
   // the last sample; no rods before the first

@@ -3,8 +3,6 @@
 
 #include <cstdint>
 #include <span>
-#include <string_view>
-#include <tuple>
 #include <vector>
 
 #include "analysis/region.h"
@@ -39,11 +37,9 @@ class OrientationCorrelation : public Summed<OrientationCorrelation> {
   void start_at(std::int64_t samples) { calls_ = samples; }
   OrientationCurve reduce() const;
 
-  static constexpr std::string_view kName = "OrientationCorrelation of n (n - 1) pairs";
-  static constexpr auto fields() {
-    return std::tuple(Setting{"range", &OrientationCorrelation::r_max_}, Largest{&OrientationCorrelation::calls_},
-                      &OrientationCorrelation::pairs_, &OrientationCorrelation::sums_,
-                      &OrientationCorrelation::expected_);
+  static constexpr const char* kName = "OrientationCorrelation of n (n - 1) pairs";
+  static auto fields(auto& self) {
+    return listed(Setting{"range", self.r_max_}, Largest{self.calls_}, self.pairs_, self.sums_, self.expected_);
   }
 
  private:

@@ -8,12 +8,12 @@
 #include <cstdint>
 #include <limits>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "analysis/lag_curve.h"
 #include "analysis/lag_sums.h"
+#include "analysis/saved.h"
 #include "base/core/check.h"
 #include "base/core/state_io.h"
 
@@ -24,6 +24,7 @@ template <std::size_t columns>
 struct LagFrame {
   std::array<std::vector<double>, columns> column;  // each (n_rods)
   double director = 0;
+  static auto fields(auto& self) { return listed(Growing{self.column}, self.director); }
 };
 
 /// What a pair of samples gives: how many rods counted, and sums over them.

@@ -2,7 +2,6 @@
 #include "analysis/lag_sums.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "analysis/steady.h"
@@ -56,28 +55,6 @@ LagCurve LagSums::after(double t_steady, double start, double interval) const {
     stretches.push_back(std::move(stretch));
   }
   return {std::move(lags), std::move(independent), quantities_, std::move(stretches)};
-}
-
-void LagSums::save(StateWriter& writer) const {
-  writer.tag("LagSums");
-  writer.put(static_cast<std::int64_t>(lags_.size()));
-  writer.put(static_cast<std::int64_t>(quantities_));
-  writer.put(samples_per_stretch_);
-  writer.put(static_cast<std::int64_t>(stretches_.size()));
-  for (const Stretch& stretch : stretches_) stretch.save(writer);
-}
-
-void LagSums::restore(StateReader& reader) {
-  reader.tag("LagSums");
-  const auto lags = static_cast<std::int64_t>(lags_.size());
-  const auto quantities = static_cast<std::int64_t>(quantities_);
-  reader.integer(lags, lags);
-  reader.integer(quantities, quantities);
-  const std::int64_t samples_per_stretch = reader.integer(1, std::numeric_limits<std::int64_t>::max() / 2);
-  std::vector<Stretch> stretches(static_cast<std::size_t>(reader.integer(0, kMaxStretches)), empty());
-  for (Stretch& stretch : stretches) stretch.restore(reader);
-  samples_per_stretch_ = samples_per_stretch;
-  stretches_ = std::move(stretches);
 }
 
 LagSums::Stretch LagSums::empty() const {

@@ -4,8 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string_view>
-#include <tuple>
 #include <vector>
 
 #include "analysis/lag_curve.h"
@@ -22,7 +20,7 @@ struct SampledLag {
 /// Sums over pairs of samples, by lag, kept in at most 64 stretches of origin time, so that the steady part can be
 /// reduced when its beginning is known only at the end, and that errors can be taken from the scatter of the stretches.
 /// When they are used up, neighbours are joined and new ones are twice as long.
-class LagSums {
+class LagSums : public Saved<LagSums> {
  public:
   /// `lags` rising.
   LagSums(std::vector<SampledLag> lags, std::size_t quantities);
@@ -35,9 +33,12 @@ class LagSums {
   /// + i `interval` [s]. Lags without any rod are left out.
   LagCurve after(double t_steady, double start, double interval) const;
 
-  void save(StateWriter& writer) const;
-  /// Throws StateError if the saved sums are of other lags or quantities.
-  void restore(StateReader& reader);
+  static constexpr const char* kName = "LagSums";
+  static auto fields(auto& self) {
+    return listed(Setting{"number of lags", self.lags_.size()}, Setting{"number of sums", self.quantities_},
+                  self.samples_per_stretch_, Length{self.stretches_, self.empty()}, self.stretches_);
+  }
+  bool is_sound() const { return samples_per_stretch_ >= 1 && stretches_.size() <= kMaxStretches; }
 
  private:
   static constexpr std::size_t kMaxStretches = 64;
@@ -45,8 +46,7 @@ class LagSums {
     std::vector<std::int64_t> pairs;  // (lags)
     std::vector<double> rods;         // (lags)
     std::vector<double> sums;         // (quantities * lags), quantity by quantity
-    static constexpr std::string_view kName = "";
-    static constexpr auto fields() { return std::tuple(&Stretch::pairs, &Stretch::rods, &Stretch::sums); }
+    static auto fields(auto& self) { return listed(self.pairs, self.rods, self.sums); }
   };
   Stretch empty() const;
   void join_neighbours();

@@ -3,8 +3,6 @@
 
 #include <cstdint>
 #include <span>
-#include <string_view>
-#include <tuple>
 
 #include "analysis/summed.h"
 #include "base/core/box.h"
@@ -18,10 +16,7 @@ struct LatticeMeans {
   double psi_6_local = 0;  ///< <|psi_6j|>_j, the same without regard to other rods' axes
   double psi_6_raw = 0;    ///< |<psi_6j>_j| in coordinates as they are; high also where all six stand in a row
   double bragg_peak = 0;   ///< max over q of |sum exp(-i q . r)|^2 / N^2
-  static constexpr auto fields() {
-    return std::tuple(&LatticeMeans::psi_6, &LatticeMeans::psi_6_local, &LatticeMeans::psi_6_raw,
-                      &LatticeMeans::bragg_peak);
-  }
+  static auto fields(auto& self) { return listed(self.psi_6, self.psi_6_local, self.psi_6_raw, self.bragg_peak); }
 };
 
 /// Two measures of a crystal.
@@ -45,7 +40,7 @@ class LatticeOrder : public Summed<LatticeOrder> {
                       ///< and as many wave vectors of another
     double longest;   ///< [mm]
     friend bool operator==(const Shape&, const Shape&) = default;
-    static constexpr auto fields() { return std::tuple(&Shape::box, &Shape::ratio, &Shape::shortest, &Shape::longest); }
+    static auto fields(auto& self) { return listed(self.box, self.ratio, self.shortest, self.longest); }
   };
   explicit LatticeOrder(const Shape& shape);
 
@@ -55,10 +50,9 @@ class LatticeOrder : public Summed<LatticeOrder> {
   void start_at(std::int64_t samples) { calls_ = samples; }
   LatticeMeans reduce() const;
 
-  static constexpr std::string_view kName = "LatticeOrder";
-  static constexpr auto fields() {
-    return std::tuple(Setting{"shape", &LatticeOrder::shape_}, Largest{&LatticeOrder::calls_}, &LatticeOrder::samples_,
-                      &LatticeOrder::sums_);
+  static constexpr const char* kName = "LatticeOrder";
+  static auto fields(auto& self) {
+    return listed(Setting{"shape", self.shape_}, Largest{self.calls_}, self.samples_, self.sums_);
   }
 
  private:

@@ -4,8 +4,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <string_view>
-#include <tuple>
 #include <vector>
 
 #include "analysis/summed.h"
@@ -63,11 +61,10 @@ class LayerOrder : public Summed<LayerOrder> {
   /// The same of the wave vector (m, n), m >= 0, which need not have the most.
   LayerPeak peak_at(int m, int n) const;
 
-  static constexpr std::string_view kName = "LayerOrder";
-  static constexpr auto fields() {
-    return std::tuple(Setting{"box", &LayerOrder::vectors_}, &LayerOrder::samples_, &LayerOrder::floor_,
-                      &LayerOrder::amplitudes_, &LayerOrder::within_, &LayerOrder::across_, &LayerOrder::along_,
-                      &LayerOrder::n_across_, &LayerOrder::n_along_);
+  static constexpr const char* kName = "LayerOrder";
+  static auto fields(auto& self) {
+    return listed(Setting{"box", self.vectors_}, self.samples_, self.floor_, self.amplitudes_, self.within_,
+                  self.across_, self.along_, self.n_across_, self.n_along_);
   }
 
  private:

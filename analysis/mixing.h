@@ -4,8 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string_view>
-#include <tuple>
 #include <vector>
 
 #include "analysis/region.h"
@@ -44,11 +42,10 @@ class PairMixing : public Summed<PairMixing> {
   void start_at(std::int64_t samples) { calls_ = samples; }
   MixingCurves reduce() const;
 
-  static constexpr std::string_view kName = "PairMixing";
-  static constexpr auto fields() {
-    return std::tuple(Setting{"range", &PairMixing::r_max_}, Setting{"distance of neighbours", &PairMixing::near_},
-                      Largest{&PairMixing::calls_}, &PairMixing::samples_, &PairMixing::rods_, &PairMixing::pairs_,
-                      &PairMixing::expected_, &PairMixing::neighbours_);
+  static constexpr const char* kName = "PairMixing";
+  static auto fields(auto& self) {
+    return listed(Setting{"range", self.r_max_}, Setting{"distance of neighbours", self.near_}, Largest{self.calls_},
+                  self.samples_, self.rods_, self.pairs_, self.expected_, self.neighbours_);
   }
 
  private:

@@ -10,7 +10,7 @@
 #include "analysis/estimate_curve.h"
 #include "analysis/lag_average.h"
 #include "analysis/lag_fits.h"
-#include "base/core/state_io.h"
+#include "analysis/saved.h"
 #include "base/core/types.h"
 
 namespace shaken::analysis {
@@ -52,7 +52,7 @@ struct Diffusion {
 /// Mean square displacement against lag, while the run goes on, at the lags of LagAverage and in its memory (128 bytes
 /// per level and rod). "Along" and "across" refer to the nematic director of all rods at the origin time, not to the
 /// single rod. A position that is not finite spoils the lags that meet it, and no rods give no lags.
-class MeanSquareDisplacement {
+class MeanSquareDisplacement : public Saved<MeanSquareDisplacement> {
  public:
   /// `interval`: time between successive accumulate calls [s].
   MeanSquareDisplacement(double interval, std::size_t n_rods, int n_levels = 16)
@@ -64,8 +64,7 @@ class MeanSquareDisplacement {
   MsdCurve reduce(double t_steady = -std::numeric_limits<double>::max()) const;
   Diffusion diffusion(double t_steady = -std::numeric_limits<double>::max()) const;
 
-  void save(StateWriter& writer) const { average_.save(writer); }
-  void restore(StateReader& reader) { average_.restore(reader); }
+  static auto fields(auto& self) { return listed(self.average_); }
 
  private:
   std::size_t n_rods_;

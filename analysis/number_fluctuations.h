@@ -4,8 +4,6 @@
 #include <cstdint>
 #include <functional>
 #include <span>
-#include <string_view>
-#include <tuple>
 #include <vector>
 
 #include "analysis/blocked.h"
@@ -57,11 +55,8 @@ class NumberFluctuations : public Summed<NumberFluctuations> {
   /// box's density needs to forget. Sizes of which no box counts are left out; NaN where there is no spread to tell of.
   static NumberFluctuationCurve reduce(const Blocked<NumberFluctuations>& blocks, double t_steady);
 
-  static constexpr std::string_view kName = "NumberFluctuations";
-  static constexpr auto fields() {
-    return std::tuple(Setting{"box", &NumberFluctuations::box_}, &NumberFluctuations::samples_,
-                      &NumberFluctuations::sums_, &NumberFluctuations::squares_);
-  }
+  static constexpr const char* kName = "NumberFluctuations";
+  static auto fields(auto& self) { return listed(Setting{"box", self.box_}, self.samples_, self.sums_, self.squares_); }
 
  private:
   struct Size {

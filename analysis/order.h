@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "analysis/bounded_series.h"
+#include "analysis/saved.h"
 #include "analysis/time_series.h"
-#include "base/core/state_io.h"
 #include "base/core/types.h"
 #include "sim/cell.h"
 
@@ -29,7 +29,7 @@ NematicOrder nematic_order(const Cell& cell, const std::vector<Vec3>& directors)
 /// S(t) and the director's angle, in bounded memory: of a long run a point is the mean over several successive samples,
 /// that of the director being the axis of the mean of S exp(2 i theta) (see BoundedSeries). That leaves mean and error
 /// of the mean of S as they are; the spread is then that of the averages.
-class OrderSeries {
+class OrderSeries : public Saved<OrderSeries> {
  public:
   /// Takes a sample at `time` [s], later than all before.
   void accumulate(double time, const NematicOrder& sample);
@@ -43,8 +43,7 @@ class OrderSeries {
   /// Mean of S over the later half of the points so far (the larger half of an odd number); 0 without points.
   double running_mean() const;
 
-  void save(StateWriter& writer) const { series_.save(writer); }
-  void restore(StateReader& reader) { series_.restore(reader); }
+  static auto fields(auto& self) { return listed(self.series_); }
 
  private:
   BoundedSeries<3> series_;  // S, S cos 2 theta, S sin 2 theta

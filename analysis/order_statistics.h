@@ -2,8 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string_view>
-#include <tuple>
 #include <vector>
 
 #include "analysis/summed.h"
@@ -33,10 +31,9 @@ class OrderStatistics : public Summed<OrderStatistics> {
   /// Adds the samples of `other`, which has as many bins.
   void merge(const OrderStatistics& other);
 
-  static constexpr std::string_view kName = "OrderStatistics";
-  static constexpr auto fields() {
-    return std::tuple(&OrderStatistics::counts_, &OrderStatistics::samples_, &OrderStatistics::mean_,
-                      &OrderStatistics::squared_spread_, &OrderStatistics::square_, &OrderStatistics::fourth_);
+  static constexpr const char* kName = "OrderStatistics";
+  static auto fields(auto& self) {
+    return listed(self.counts_, self.samples_, self.mean_, self.squared_spread_, self.square_, self.fourth_);
   }
 
  private:

@@ -3,8 +3,6 @@
 
 #include <cstdint>
 #include <span>
-#include <string_view>
-#include <tuple>
 #include <vector>
 
 #include "analysis/summed.h"
@@ -43,7 +41,7 @@ class PairMap : public Summed<PairMap> {
     double strip;   ///< full width of the strips of the cuts [mm]
     Box box;
     friend bool operator==(const Shape&, const Shape&) = default;
-    static constexpr auto fields() { return std::tuple(&Shape::range, &Shape::strip, &Shape::box); }
+    static auto fields(auto& self) { return listed(self.range, self.strip, self.box); }
   };
   explicit PairMap(const Shape& shape);
 
@@ -53,10 +51,10 @@ class PairMap : public Summed<PairMap> {
   void start_at(std::int64_t samples) { calls_ = samples; }
   PairCurves reduce() const;
 
-  static constexpr std::string_view kName = "PairMap of n (n - 1) pairs";
-  static constexpr auto fields() {
-    return std::tuple(Setting{"shape", &PairMap::shape_}, Largest{&PairMap::calls_}, &PairMap::partners_,
-                      &PairMap::map_, &PairMap::cut_along_, &PairMap::cut_across_);
+  static constexpr const char* kName = "PairMap of n (n - 1) pairs";
+  static auto fields(auto& self) {
+    return listed(Setting{"shape", self.shape_}, Largest{self.calls_}, self.partners_, self.map_, self.cut_along_,
+                  self.cut_across_);
   }
 
  private:
@@ -65,7 +63,7 @@ class PairMap : public Summed<PairMap> {
     std::vector<double> sums;  // of cos 2 (theta_i - theta_j); behind them, in a cut of a rectangle, the partners_ of
                                // samples in which a bin is the last that nearest images fill
     explicit Bins(std::size_t n, bool counts_partners = false) : pairs(n), sums(counts_partners ? 2 * n : n) {}
-    static constexpr auto fields() { return std::tuple(&Bins::pairs, &Bins::sums); }
+    static auto fields(auto& self) { return listed(self.pairs, self.sums); }
   };
   /// Bins of a cut in the direction `axis` that nearest images fill, all of them in a square box.
   std::size_t filled_bins(const Vec2& axis, const Bins& cut) const;

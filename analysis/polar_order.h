@@ -3,13 +3,10 @@
 
 #include <cstdint>
 #include <span>
-#include <string_view>
-#include <tuple>
 #include <vector>
 
 #include "analysis/bounded_series.h"
 #include "analysis/summed.h"
-#include "base/core/state_io.h"
 #include "base/core/types.h"
 
 namespace shaken::analysis {
@@ -27,7 +24,7 @@ PolarOrder polar_order(std::span<const Vec3> directors);
 
 /// P(t) and the direction of the mean, in bounded memory: of a long run a point is the mean over several successive
 /// samples, that of the direction being the angle of the mean of P u (see BoundedSeries).
-class PolarSeries {
+class PolarSeries : public Saved<PolarSeries> {
  public:
   /// Takes a sample at `time` [s], later than all before.
   void accumulate(double time, const PolarOrder& sample);
@@ -36,8 +33,7 @@ class PolarSeries {
   const std::vector<double>& orders() const { return series_.column(0); }  ///< (n)
   std::vector<double> directions() const;                                  ///< (n) [rad], in [-pi, pi]
 
-  void save(StateWriter& writer) const { series_.save(writer); }
-  void restore(StateReader& reader) { series_.restore(reader); }
+  static auto fields(auto& self) { return listed(self.series_); }
 
  private:
   BoundedSeries<3> series_;  // P, P cos, P sin
@@ -63,11 +59,10 @@ class PolarStatistics : public Summed<PolarStatistics> {
   PolarNumbers reduce() const;
   void merge(const PolarStatistics& other);
 
-  static constexpr std::string_view kName = "PolarStatistics";
-  static constexpr auto fields() {
-    return std::tuple(&PolarStatistics::samples_, &PolarStatistics::mean_, &PolarStatistics::squared_spread_,
-                      &PolarStatistics::rods_, &PolarStatistics::forward_, &PolarStatistics::along_,
-                      &PolarStatistics::across_, &PolarStatistics::moving_, &PolarStatistics::flight_);
+  static constexpr const char* kName = "PolarStatistics";
+  static auto fields(auto& self) {
+    return listed(self.samples_, self.mean_, self.squared_spread_, self.rods_, self.forward_, self.along_, self.across_,
+                  self.moving_, self.flight_);
   }
 
  private:

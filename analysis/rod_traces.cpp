@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "analysis/steady.h"
 #include "base/core/check.h"
@@ -32,38 +31,6 @@ void RodTraces::accumulate(double time, std::span<const Vec3> unwrapped, std::sp
     traces_[k].theta.push_back(upright ? std::numeric_limits<double>::quiet_NaN() : std::atan2(n.y(), n.x()));
     traces_[k].n_z.push_back(n.z());
   }
-}
-
-void RodTraces::save(StateWriter& writer) const {
-  writer.tag("RodTraces");
-  writer.put(duration_);
-  writer.put(static_cast<std::int64_t>(count_));
-  writer.put(times_);
-  writer.put(static_cast<std::int64_t>(traces_.size()));
-  for (const RodTrace& trace : traces_) {
-    writer.put(trace.x);
-    writer.put(trace.y);
-    writer.put(trace.theta);
-    writer.put(trace.n_z);
-  }
-}
-
-void RodTraces::restore(StateReader& reader) {
-  reader.tag("RodTraces");
-  const auto count = static_cast<std::int64_t>(count_);
-  if (reader.real() != duration_ || reader.integer() != count) {
-    throw StateError("RodTraces of another number or duration");
-  }
-  std::vector<double> times = reader.reals();
-  std::vector<RodTrace> traces(static_cast<std::size_t>(reader.integer(0, count)));
-  for (RodTrace& trace : traces) {
-    trace.x = reader.reals(times.size());
-    trace.y = reader.reals(times.size());
-    trace.theta = reader.reals(times.size());
-    trace.n_z = reader.reals(times.size());
-  }
-  times_ = std::move(times);
-  traces_ = std::move(traces);
 }
 
 }  // namespace shaken::analysis

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
-#include "base/core/state_io.h"
+#include "analysis/saved.h"
 #include "base/core/types.h"
 
 namespace shaken::analysis {
@@ -14,11 +15,12 @@ struct RodTrace {
   std::vector<double> x, y;   ///< unwrapped centre [mm]
   std::vector<double> theta;  ///< in-plane angle of the director with its label, in (-pi, pi] [rad]; NaN if upright
   std::vector<double> n_z;    ///< vertical component of the director
+  static auto fields(auto& self) { return listed(Growing{self.x, self.y, self.theta, self.n_z}); }
 };
 
 /// Where some rods go, sample by sample, from the first one on for a given time and no longer: 32 bytes a sample and
 /// rod. Of n_rods rods, numbers k n_rods / count are kept, k = 0 .. count - 1; all if there are not more.
-class RodTraces {
+class RodTraces : public Saved<RodTraces> {
  public:
   /// `count` rods for `duration` [s].
   RodTraces(int count, double duration);
@@ -28,8 +30,15 @@ class RodTraces {
   const std::vector<double>& times() const { return times_; }      ///< (samples) [s]
   const std::vector<RodTrace>& traces() const { return traces_; }  ///< (rods kept)
 
-  void save(StateWriter& writer) const;
-  void restore(StateReader& reader);
+  static constexpr const char* kName = "RodTraces";
+  static auto fields(auto& self) {
+    return listed(Setting{"duration", self.duration_}, Setting{"number of rods", self.count_}, Growing{self.times_},
+                  Length{self.traces_}, self.traces_);
+  }
+  bool is_sound() const {
+    return traces_.size() <= count_ &&
+           std::ranges::all_of(traces_, [&](const RodTrace& trace) { return trace.x.size() == times_.size(); });
+  }
 
  private:
   std::size_t count_;

@@ -79,15 +79,4 @@ RotationSummary Rotation::summarize(double t_steady) const {
   return summary;
 }
 
-void Rotation::save(StateWriter& writer) const {
-  writer.put(large_turns_);
-  average_.save(writer);
-}
-
-void Rotation::restore(StateReader& reader) {
-  const std::int64_t large_turns = reader.integer(0, std::numeric_limits<std::int64_t>::max() / 2);
-  average_.restore(reader);
-  large_turns_ = large_turns;
-}
-
 }  // namespace shaken::analysis

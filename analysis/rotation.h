@@ -10,7 +10,7 @@
 #include "analysis/estimate_curve.h"
 #include "analysis/lag_average.h"
 #include "analysis/lag_fits.h"
-#include "base/core/state_io.h"
+#include "analysis/saved.h"
 #include "base/core/types.h"
 
 namespace shaken::analysis {
@@ -45,7 +45,7 @@ struct RotationSummary {
 /// [-pi/2, pi/2), which asks for an interval much shorter than 1 / D_r; large_turns says when it is too long. A rod
 /// that tips over its end keeps its axis and has not turned. A rod exactly upright (or not finite) keeps the angle it
 /// had; one that never had any is left out until it has.
-class Rotation {
+class Rotation : public Saved<Rotation> {
  public:
   /// `interval`: time between successive accumulate calls [s].
   explicit Rotation(double interval, int n_levels = 16) : average_(interval, n_levels) {}
@@ -56,8 +56,7 @@ class Rotation {
   RotationCurve reduce(double t_steady = -std::numeric_limits<double>::max()) const;
   RotationSummary summarize(double t_steady = -std::numeric_limits<double>::max()) const;
 
-  void save(StateWriter& writer) const;
-  void restore(StateReader& reader);
+  static auto fields(auto& self) { return listed(self.large_turns_, self.average_); }
 
  private:
   LagAverage<TurnKernel> average_;

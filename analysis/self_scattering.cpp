@@ -127,14 +127,4 @@ ScatteringSummary SelfScattering::summarize(const ScatteringCurve& curve) {
   return summary;
 }
 
-void SelfScattering::save(StateWriter& writer) const {
-  writer.put(smallest_);
-  average_.save(writer);
-}
-
-void SelfScattering::restore(StateReader& reader) {
-  if (reader.real() != smallest_) throw StateError("SelfScattering of another wavelength");
-  average_.restore(reader);
-}
-
 }  // namespace shaken::analysis

@@ -10,7 +10,7 @@
 
 #include "analysis/estimate_curve.h"
 #include "analysis/lag_average.h"
-#include "base/core/state_io.h"
+#include "analysis/saved.h"
 #include "base/core/types.h"
 
 namespace shaken::analysis {
@@ -53,7 +53,7 @@ struct ScatteringSummary {
 /// while the run goes on, at the lags of LagAverage and in 128 bytes per level and rod. Of free diffusion along the
 /// director F_s = exp(-q^2 D t) and alpha_2_along = 0. Gaussian displacements with mean squares s and s' along and
 /// across have alpha_2 = (s - s')^2 / (2 (s + s')^2).
-class SelfScattering {
+class SelfScattering : public Saved<SelfScattering> {
  public:
   /// `interval`: time between successive accumulate calls [s]; `wavelength`: 2 pi / q of the smallest q [mm].
   SelfScattering(double interval, double wavelength, int n_levels = 16);
@@ -67,9 +67,7 @@ class SelfScattering {
   ScatteringCurve reduce(double t_steady = -std::numeric_limits<double>::max()) const;
   static ScatteringSummary summarize(const ScatteringCurve& curve);
 
-  void save(StateWriter& writer) const;
-  /// Throws StateError if the saved state is of another wavelength.
-  void restore(StateReader& reader);
+  static auto fields(auto& self) { return listed(Setting{"wavelength", self.smallest_}, self.average_); }
 
  private:
   double smallest_;  // q [rad/mm]

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/core/check.h"
 
@@ -88,30 +87,6 @@ std::vector<double> StressSeries::kinetic(std::size_t k) const {
   std::vector<double> values = series_.column(k);
   for (double& value : values) value *= of_mean(n_rods_);
   return values;
-}
-
-void StressSeries::save(StateWriter& writer) const {
-  writer.tag("StressSeries");
-  writer.put(samples_);
-  writer.put(time_);
-  writer.put(last_flux_);
-  writer.put(last_virial_);
-  series_.save(writer);
-  sums_.save(writer);
-}
-
-void StressSeries::restore(StateReader& reader) {
-  reader.tag("StressSeries");
-  StressSeries saved(n_rods_);
-  saved.samples_ = reader.integer(0, std::numeric_limits<std::int64_t>::max() / 2);
-  saved.time_ = reader.real();
-  for (PlaneTensor* tensor : {&saved.last_flux_, &saved.last_virial_}) {
-    const std::vector<double> values = reader.reals(tensor->size());
-    std::copy(values.begin(), values.end(), tensor->begin());
-  }
-  saved.series_.restore(reader);
-  saved.sums_.restore(reader);
-  *this = saved;
 }
 
 }  // namespace shaken::analysis

@@ -5,14 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string_view>
-#include <tuple>
 #include <vector>
 
 #include "analysis/blocked.h"
 #include "analysis/bounded_series.h"
 #include "analysis/summed.h"
-#include "base/core/state_io.h"
 #include "base/core/types.h"
 
 /// The pressure tensor of rods in the plane of the plates: momentum that crosses a line of unit length in unit time,
@@ -51,10 +48,8 @@ class PressureSums : public Summed<PressureSums> {
   /// Of `n_rods`. NaN without any time, and with a kinetic part in it of a single rod.
   Pressure reduce(std::size_t n_rods) const;
 
-  static constexpr std::string_view kName = "PressureSums";
-  static constexpr auto fields() {
-    return std::tuple(&PressureSums::time_, &PressureSums::kinetic_, &PressureSums::collisional_);
-  }
+  static constexpr const char* kName = "PressureSums";
+  static auto fields(auto& self) { return listed(self.time_, self.kinetic_, self.collisional_); }
 
  private:
   double time_ = 0;                  // [s]
@@ -64,7 +59,7 @@ class PressureSums : public Summed<PressureSums> {
 
 /// The pressure tensor against time: each sample is of the time since the one before, in which impacts are counted; the
 /// kinetic part is the mean of both ends.
-class StressSeries {
+class StressSeries : public Saved<StressSeries> {
  public:
   explicit StressSeries(std::size_t n_rods) : n_rods_(n_rods) {}
 
@@ -80,8 +75,10 @@ class StressSeries {
   /// By the beginning of these times.
   const Blocked<PressureSums>& sums() const { return sums_; }
 
-  void save(StateWriter& writer) const;
-  void restore(StateReader& reader);
+  static constexpr const char* kName = "StressSeries";
+  static auto fields(auto& self) {
+    return listed(self.samples_, self.time_, self.last_flux_, self.last_virial_, self.series_, self.sums_);
+  }
 
  private:
   std::size_t n_rods_;

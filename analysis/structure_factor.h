@@ -3,8 +3,6 @@
 
 #include <cstdint>
 #include <span>
-#include <string_view>
-#include <tuple>
 #include <vector>
 
 #include "analysis/summed.h"
@@ -37,17 +35,14 @@ class StructureFactor : public Summed<StructureFactor> {
   void accumulate(std::span<const Vec3> positions, std::span<const Vec3> directors);
   StructureCurve reduce() const;
 
-  static constexpr std::string_view kName = "StructureFactor";
-  static constexpr auto fields() {
-    return std::tuple(Setting{"box", &StructureFactor::vectors_}, &StructureFactor::all_, &StructureFactor::along_,
-                      &StructureFactor::across_);
-  }
+  static constexpr const char* kName = "StructureFactor";
+  static auto fields(auto& self) { return listed(Setting{"box", self.vectors_}, self.all_, self.along_, self.across_); }
 
  private:
   struct Shells {
     std::vector<std::int64_t> terms;  // (shells) wave vectors, over all samples
     std::vector<double> sums;         // (shells) of S
-    static constexpr auto fields() { return std::tuple(&Shells::terms, &Shells::sums); }
+    static auto fields(auto& self) { return listed(self.terms, self.sums); }
     std::vector<double> means() const;
   };
 

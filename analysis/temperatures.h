@@ -5,13 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string_view>
-#include <tuple>
 #include <vector>
 
 #include "analysis/bounded_series.h"
 #include "analysis/summed.h"
-#include "base/core/state_io.h"
 #include "base/core/types.h"
 
 namespace shaken::analysis {
@@ -59,7 +56,7 @@ struct Speeds {
 };
 
 /// Temperatures against time, in bounded memory (see BoundedSeries).
-class TemperatureSeries {
+class TemperatureSeries : public Saved<TemperatureSeries> {
  public:
   /// Takes a sample at `time` [s], later than all before.
   void accumulate(double time, const Temperatures& sample) { series_.accumulate(time, sample); }
@@ -69,8 +66,7 @@ class TemperatureSeries {
     return series_.column(static_cast<std::size_t>(freedom));
   }
 
-  void save(StateWriter& writer) const { series_.save(writer); }
-  void restore(StateReader& reader) { series_.restore(reader); }
+  static auto fields(auto& self) { return listed(self.series_); }
 
  private:
   BoundedSeries<kFreedoms> series_;
@@ -90,11 +86,8 @@ class TemperatureStatistics : public Summed<TemperatureStatistics> {
   /// NaN without samples.
   Speeds speeds() const;
 
-  static constexpr std::string_view kName = "TemperatureStatistics";
-  static constexpr auto fields() {
-    return std::tuple(&TemperatureStatistics::samples_, &TemperatureStatistics::sums_, &TemperatureStatistics::squares_,
-                      &TemperatureStatistics::speeds_);
-  }
+  static constexpr const char* kName = "TemperatureStatistics";
+  static auto fields(auto& self) { return listed(self.samples_, self.sums_, self.squares_, self.speeds_); }
 
  private:
   std::int64_t samples_ = 0;

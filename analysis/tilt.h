@@ -3,8 +3,6 @@
 
 #include <cstdint>
 #include <span>
-#include <string_view>
-#include <tuple>
 #include <vector>
 
 #include "analysis/summed.h"
@@ -42,10 +40,9 @@ class TiltVelocity : public Summed<TiltVelocity> {
   /// samples, of the same bins.
   static TiltCurve reduce(const TiltVelocity& empty, const std::vector<TiltVelocity>& blocks);
 
-  static constexpr std::string_view kName = "TiltVelocity";
-  static constexpr auto fields() {
-    return std::tuple(Setting{"range of n_z", &TiltVelocity::n_z_max_}, &TiltVelocity::outside_, &TiltVelocity::counts_,
-                      &TiltVelocity::along_, &TiltVelocity::across_);
+  static constexpr const char* kName = "TiltVelocity";
+  static auto fields(auto& self) {
+    return listed(Setting{"range of n_z", self.n_z_max_}, self.outside_, self.counts_, self.along_, self.across_);
   }
 
  private:

@@ -2,7 +2,6 @@
 #include "analysis/tilt_switches.h"
 
 #include <cmath>
-#include <utility>
 
 #include "base/core/check.h"
 
@@ -32,24 +31,6 @@ void TiltSwitches::accumulate(double time, std::span<const Vec3> directors) {
 
 double TiltSwitches::switching_time(const SwitchSums& sums) {
   return sums.switches > 0 ? sums.lived / sums.switches : std::numeric_limits<double>::quiet_NaN();
-}
-
-void TiltSwitches::save(StateWriter& writer) const {
-  writer.tag("TiltSwitches");
-  writer.put(threshold_);
-  writer.put(last_time_);
-  writer.put(sides_);
-  blocks_.save(writer);
-}
-
-void TiltSwitches::restore(StateReader& reader) {
-  reader.tag("TiltSwitches");
-  if (reader.real() != threshold_) throw StateError("TiltSwitches of another threshold");
-  TiltSwitches saved(threshold_);
-  saved.last_time_ = reader.real();
-  saved.sides_ = reader.integers();
-  saved.blocks_.restore(reader);
-  *this = std::move(saved);
 }
 
 }  // namespace shaken::analysis

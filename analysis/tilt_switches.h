@@ -4,8 +4,6 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <string_view>
-#include <tuple>
 #include <vector>
 
 #include "analysis/blocked.h"
@@ -21,8 +19,7 @@ struct SwitchSums : Summed<SwitchSums> {
   double lived = 0;  ///< by all rods whose side is known, together [s]
 
   void accumulate(const SwitchSums& other) { merge(other); }
-  static constexpr std::string_view kName = "";
-  static constexpr auto fields() { return std::tuple(&SwitchSums::switches, &SwitchSums::lived); }
+  static auto fields(auto& self) { return listed(self.switches, self.lived); }
 };
 
 /// How long rods stay tilted to one side. A rod is up, head higher than tail, from when its n_z rises beyond
@@ -31,7 +28,7 @@ struct SwitchSums : Summed<SwitchSums> {
 /// rods lived, each from when its side is first known, over the number of their switches: the mean time from one switch
 /// to the next, whatever the run's ends cut off. Switches there and back between two samples are missed, so it is at
 /// least about the interval. Memory: 8 bytes a rod, and 64 blocks.
-class TiltSwitches {
+class TiltSwitches : public Saved<TiltSwitches> {
  public:
   explicit TiltSwitches(double threshold);
 
@@ -41,8 +38,10 @@ class TiltSwitches {
   /// Mean time from switch to switch [s]; NaN where no rod has switched.
   static double switching_time(const SwitchSums& sums);
 
-  void save(StateWriter& writer) const;
-  void restore(StateReader& reader);
+  static constexpr const char* kName = "TiltSwitches";
+  static auto fields(auto& self) {
+    return listed(Setting{"threshold", self.threshold_}, self.last_time_, Growing{self.sides_}, self.blocks_);
+  }
 
  private:
   double threshold_;

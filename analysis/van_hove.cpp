@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "base/core/check.h"
 
@@ -88,34 +87,6 @@ void VanHove::accumulate(double time, std::span<const Vec3> unwrapped, double di
       lag.y[i] = unwrapped[i].y();
     }
   }
-}
-
-void VanHove::save(StateWriter& writer) const {
-  writer.tag("VanHove");
-  for (const Lag& lag : lags_) {
-    writer.put(lag.steps);
-    writer.put(lag.passed);
-    writer.put(lag.time);
-    writer.put(lag.director);
-    writer.put(lag.x);
-    writer.put(lag.y);
-    lag.displacements.save(writer);
-  }
-}
-
-void VanHove::restore(StateReader& reader) {
-  reader.tag("VanHove");
-  std::vector<Lag> saved = lags_;
-  for (Lag& lag : saved) {
-    if (reader.integer() != lag.steps) throw StateError("VanHove of another lag");
-    lag.passed = reader.integer(0, lag.steps - 1);
-    lag.time = reader.real();
-    lag.director = reader.real();
-    lag.x = reader.reals();
-    lag.y = reader.reals(lag.x.size());
-    lag.displacements.restore(reader);
-  }
-  lags_ = std::move(saved);
 }
 
 }  // namespace shaken::analysis

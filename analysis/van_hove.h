@@ -4,13 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string_view>
-#include <tuple>
 #include <vector>
 
 #include "analysis/blocked.h"
 #include "analysis/summed.h"
-#include "base/core/state_io.h"
 #include "base/core/types.h"
 
 namespace shaken::analysis {
@@ -36,11 +33,9 @@ class DisplacementHistogram : public Summed<DisplacementHistogram> {
   void accumulate(std::span<const Vec2> displacements, double director);
   DisplacementCurve reduce() const;
 
-  static constexpr std::string_view kName = "DisplacementHistogram";
-  static constexpr auto fields() {
-    return std::tuple(Setting{"range", &DisplacementHistogram::range_}, &DisplacementHistogram::rods_,
-                      &DisplacementHistogram::along_, &DisplacementHistogram::across_,
-                      &DisplacementHistogram::distance_);
+  static constexpr const char* kName = "DisplacementHistogram";
+  static auto fields(auto& self) {
+    return listed(Setting{"range", self.range_}, self.rods_, self.along_, self.across_, self.distance_);
   }
 
  private:
@@ -52,7 +47,7 @@ class DisplacementHistogram : public Summed<DisplacementHistogram> {
 /// Self part of the van Hove function (van Hove, Phys. Rev. 95, 249 (1954)) in the plane, while the run goes on: how
 /// displacements at up to four lags are distributed. Each lag is a quarter of the next, and its range half of it, as
 /// diffusion has it. An origin follows the one before by one lag, so that no two displacements of a rod overlap.
-class VanHove {
+class VanHove : public Saved<VanHove> {
  public:
   /// `interval`: time between successive accumulate calls [s]. Lags are `longest`, `longest` / 4, / 16 and / 64 [s],
   /// rounded to multiples of it, at least one; of equal ones the first remains. `range` is that of the longest [mm].
@@ -68,8 +63,8 @@ class VanHove {
   /// By the time of their origins.
   const Blocked<DisplacementHistogram>& displacements(std::size_t k) const { return lags_[k].displacements; }
 
-  void save(StateWriter& writer) const;
-  void restore(StateReader& reader);
+  static constexpr const char* kName = "VanHove";
+  static auto fields(auto& self) { return listed(self.lags_); }
 
  private:
   struct Lag {
@@ -79,6 +74,11 @@ class VanHove {
     double time = 0;           // of the origin
     double director = 0;       // there
     std::vector<double> x, y;  // of the rods there; empty before the first sample
+    static auto fields(auto& self) {
+      return listed(Setting{"lag", self.steps}, self.passed, self.time, self.director, Growing{self.x, self.y},
+                    self.displacements);
+    }
+    bool is_sound() const { return passed < steps; }
   };
 
   double interval_;

@@ -204,30 +204,4 @@ VelocitySummary VelocityCorrelation::summarize(double t_steady) const {
   return summary;
 }
 
-void VelocityCorrelation::save(StateWriter& writer) const {
-  writer.put(static_cast<std::int64_t>(steps_));
-  writer.put(static_cast<std::int64_t>(places_.size()));
-  for (const Places& places : places_) {
-    writer.put(places.time);
-    writer.put(places.frame.column[0]);
-    writer.put(places.frame.column[1]);
-    writer.put(places.frame.director);
-  }
-  average_.save(writer);
-}
-
-void VelocityCorrelation::restore(StateReader& reader) {
-  const auto steps = static_cast<std::int64_t>(steps_);
-  if (reader.integer() != steps) throw StateError("VelocityCorrelation of another window");
-  std::vector<Places> saved(static_cast<std::size_t>(reader.integer(0, steps)));
-  for (Places& places : saved) {
-    places.time = reader.real();
-    places.frame.column[0] = reader.reals();
-    places.frame.column[1] = reader.reals(places.frame.column[0].size());
-    places.frame.director = reader.real();
-  }
-  average_.restore(reader);
-  places_ = std::move(saved);
-}
-
 }  // namespace shaken::analysis

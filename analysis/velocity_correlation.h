@@ -8,7 +8,7 @@
 
 #include "analysis/estimate_curve.h"
 #include "analysis/lag_average.h"
-#include "base/core/state_io.h"
+#include "analysis/saved.h"
 #include "base/core/types.h"
 
 namespace shaken::analysis {
@@ -57,7 +57,7 @@ struct VelocitySummary {
 /// average over 400 ms; at the lags of LagAverage and in 128 bytes per level and rod, and the positions of one window.
 /// Averaging leaves its mark: of a random walk C_v(t) = 1 - t / window up to the window, where it falls to 0, so that
 /// persistence times below a window are the window's.
-class VelocityCorrelation {
+class VelocityCorrelation : public Saved<VelocityCorrelation> {
  public:
   /// `interval`: time between successive accumulate calls [s]. The window is rounded to a multiple of it, at least one.
   VelocityCorrelation(double interval, double window, int n_levels = 16);
@@ -69,13 +69,16 @@ class VelocityCorrelation {
   VelocityCurve reduce(double t_steady = -std::numeric_limits<double>::max()) const;
   VelocitySummary summarize(double t_steady = -std::numeric_limits<double>::max()) const;
 
-  void save(StateWriter& writer) const;
-  void restore(StateReader& reader);
+  static auto fields(auto& self) {
+    return listed(Setting{"window", self.steps_}, Length{self.places_}, self.places_, self.average_);
+  }
+  bool is_sound() const { return places_.size() <= steps_; }
 
  private:
   struct Places {
     double time = 0;
     LagFrame<2> frame;  // x, y unwrapped [mm]
+    static auto fields(auto& self) { return listed(self.time, self.frame); }
   };
 
   std::size_t steps_;           // of a window

@@ -3,9 +3,9 @@
 
 #include <cstddef>
 #include <span>
-#include <tuple>
 #include <vector>
 
+#include "analysis/saved.h"
 #include "base/core/box.h"
 #include "base/core/types.h"
 
@@ -41,7 +41,7 @@ struct WaveVectors {
   }
 
   friend bool operator==(const WaveVectors&, const WaveVectors&) = default;
-  static constexpr auto fields() { return std::tuple(&WaveVectors::box); }  ///< as a setting (summed.h)
+  static auto fields(auto& self) { return listed(self.box); }  ///< as a setting (summed.h)
 };
 
 /// |sum_i w_i exp(-i q . r_i)|^2 over places (n) [mm] with weights (n), of each wave vector. Costs about

@@ -80,6 +80,7 @@ class StateReader {
   std::int64_t integer();
   /// A count or an index: throws if it is outside [lowest, highest].
   std::int64_t integer(std::int64_t lowest, std::int64_t highest);
+  std::size_t length_of(std::size_t element_size);  ///< of what follows, which has so many elements if nothing throws
   std::vector<double> reals();
   std::vector<std::int64_t> integers();
   /// Arrays whose length is known; throw if the stored one differs.
@@ -94,7 +95,6 @@ class StateReader {
  private:
   template <class T>
   std::vector<T> array();
-  std::size_t length_of(std::size_t element_size);
   void fill(std::span<std::byte> to);
   std::span<const std::byte> rest_;
 };
