@@ -80,6 +80,12 @@ CheckResult check_plots() {
   }
 }
 
+CheckResult check_films() {
+  const Captured said = run_captured({"ffmpeg", "-version"});
+  if (said.exit_code == 0) return {Level::kOk, "films", first_line(said.output), ""};
+  return {Level::kWarn, "films", first_line(said.output), "sudo apt install ffmpeg"};
+}
+
 CheckResult check_disk(fs::path folder) {
   static constexpr double kGigabyte = 1e9;
   std::error_code error;
@@ -112,6 +118,7 @@ std::vector<CheckResult> checkup(const fs::path& root) {
           check_daemon(root),
           check_lcm(),
           check_plots(),
+          check_films(),
           check_disk(root),
           check_cores()};
 }
