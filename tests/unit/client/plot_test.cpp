@@ -137,6 +137,9 @@ TEST(Plot, DrawsASweepFromTheDaemon) {
   EXPECT_EQ(wrong.code, ExitCode::kBadInput);
   EXPECT_THAT(wrong.err, ::testing::AllOf(HasSubstr("--width takes 89mm"), HasSubstr("--format takes png")));
   EXPECT_EQ(one({"-o", "all.pdf"}).code, ExitCode::kBadInput) << "several figures, one file";
+  const Outcome map = one({"--map", "-o", (root.path() / "map.png").string()});
+  EXPECT_EQ(map.code, ExitCode::kFailed);
+  EXPECT_THAT(map.err, HasSubstr("nothing was recorded")) << "in any of these runs";
   EXPECT_EQ(one({"--format", "gif"}).code, ExitCode::kBadInput);
   EXPECT_EQ(one({"--y", "order.maen"}).code, ExitCode::kBadInput);
 }
