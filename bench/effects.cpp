@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What each effect of the physics costs and does: the CPU time, and the averages, without it against those with
-// everything on.
+// What each effect of the physics costs: the CPU time without it against that with everything on.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
-#include <optional>
 
 #include "bench/bench.h"
-#include "bench/effect_averages.h"
 #include "bench/timing.h"
 #include "sim/effects/registry.h"
 
@@ -19,14 +15,13 @@ namespace {
 constexpr const char* kEffectsFooter =
     R"(Every effect that can be off is switched off, one at a time (docs/effects.md). CPU times are compared from one and
 the same state, which tells what it takes to compute the effect, and from a state that came about without it, which
-tells what a user gains: mostly nothing, as rods without friction or bounce collide more often. With --measure it is
-the physics that is compared, in place of CPU times: order, tilt, temperatures, displacements, drift and impulses.
+tells what a user gains: mostly nothing, as rods without friction or bounce collide more often. What effects do to the
+physics the runs of configs/effects.json tell.
 
 Examples:
   shaken bench effects                                      527 rods of 4.5 mm at area fraction 0.75
   shaken bench effects --area-fraction 0.45 --out effects   fewer; effects/effects.csv, .json and .png
   shaken bench effects --warm-up 5 --repeat 9               in the steady state of each, with smaller errors
-  shaken bench effects --side 15 --warm-up 2 --measure 20   what effects do, in 20 s of 68 rods without each
   shaken bench effects --scene scene.json                   the effects of a scene of yours
 
 Exit codes: 0 done, 1 something failed, 2 bad input.)";
@@ -88,18 +83,6 @@ void measure_savings(const Case& everything, const Cache& cache, const Effort& e
   });
 }
 
-/// Averages.
-void measure_doings(const Case& everything, const Cache& cache, double seconds, Report& report) {
-  const Averages all_on = measure_averages(everything, cache, seconds);
-  report.json["everything"] = json_of(all_on);
-  switch_off_in_turn(everything, report, [&](const std::string& name, Case scene, const std::string& neutral) {
-    // without nothing, it is another run of the same that says how far to trust the other figures
-    if (neutral.empty()) scene.plan.system.seed += 1;
-    scene.label = "the scene without " + name;
-    report.json["rows"].push_back(averages_row(name, neutral, measure_averages(scene, cache, seconds), all_on));
-  });
-}
-
 std::string impossible_text(const Json& report) {
   std::string text = report.at("impossible").empty() ? "" : "\nNot possible:\n";
   for (const auto& [effect, why] : report.at("impossible").items()) {
@@ -135,7 +118,6 @@ struct EffectsBench {
   CaseOptions rods{.side = 41.865};
   std::string scene;  ///< a file, in place of these rods; empty: none
   Effort effort{.cpu = 0.5};
-  std::optional<double> measure;  ///< simulated, of each scene [s]
   Cache cache;
   Output output;
 
@@ -144,8 +126,6 @@ struct EffectsBench {
     CLI::Option* file = add_path(app, "--scene", scene, "FILE", "A scene of yours; how long it runs is left out");
     for (const char* name : {"--length", "--area-fraction", "--side"}) file->excludes(app.get_option(name));
     effort.declare(app);
-    add_number(app, "--measure", measure, "S", {0.01, 1e6},
-               "Compare averages over so many simulated seconds, not CPU times");
     cache.declare(app);
     output.declare(app);
   }
@@ -153,29 +133,6 @@ struct EffectsBench {
   Case read() const { return scene.empty() ? rods.read() : read_case(scene, rods.warm_up); }
 
   ExitCode run() const {
-    if (measure) {
-      give_averages();
-    } else {
-      give_costs();
-    }
-    return ExitCode::kOk;
-  }
-
-  void give_averages() const {
-    const Case everything = read();
-    Report report("effects_averages", "effects averages");
-    report.json["warm_up_s"] = everything.warm_up;
-    report.json["measured_s"] = *measure;
-    report.json.update(json_of(everything));
-    measure_doings(everything, cache, *measure, report);
-    report.text +=
-        fmt::format("{}, N = {}, dt = {:.10g} us; averages over {:.10g} s after {:.10g} s without the effect\n",
-                    everything.label, everything.n_rods(), 1e6 * everything.dt, *measure, everything.warm_up);
-    report.text += averages_text(report.json) + impossible_text(report.json);
-    output.give(report);
-  }
-
-  void give_costs() const {
     const Case everything = read();
     Report report("effects", "effects");
     report.json["warm_up_s"] = everything.warm_up;
@@ -184,14 +141,14 @@ struct EffectsBench {
     measure_savings(everything, cache, effort, report);
     report.text += effects_text(everything, effort, report.json);
     output.give(report);
+    return ExitCode::kOk;
   }
 };
 
 }  // namespace
 
 void add_effects(CLI::App& app, Work& work) {
-  add_bench<EffectsBench>(app, work, "effects", "What each effect of the physics costs, and what it does",
-                          kEffectsFooter);
+  add_bench<EffectsBench>(app, work, "effects", "What each effect of the physics costs", kEffectsFooter);
 }
 
 }  // namespace shaken::bench

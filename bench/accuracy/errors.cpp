@@ -16,8 +16,7 @@ namespace {
 constexpr const char* kAccuracyFooter = R"(Parts:
   deterministic  errors of a few rods against converged solutions, and their order
   statistical    bias of temperatures, order, drift, displacements with step, bead pitch and sweeps
-  error          how the statistical error of S falls with simulated time, and what it costs
-  (none)         all of them: about 40 minutes of CPU time, a quarter of that with --quick
+  (none)         both: about 40 minutes of CPU time, a quarter of that with --quick
 
 Examples:
   shaken bench accuracy --quick
@@ -25,11 +24,8 @@ Examples:
   shaken bench accuracy deterministic --cases head-on,wedged --steps 64,32,16,8,4,2,1
   shaken bench accuracy statistical --out accuracy       bias.png, tilt.png, model.png, CSV, JSON
   shaken bench accuracy statistical --knobs step --variants newton,instant --measure 60 --out accuracy   cost.png too
-  shaken bench accuracy error --sides 15,20,30,40 --measure 100 --out accuracy
 
 Exit codes: 0 done, 1 the steppers' states differ or something failed, 2 bad input.)";
-
-constexpr double kPaperSide = 83.73;  ///< [mm]
 
 /// `finest` doubled up to kLongestStep [us].
 std::vector<double> halved_steps(double finest) {
@@ -64,7 +60,6 @@ struct AccuracyBench {
   std::vector<double> steps;  ///< [us]
   std::optional<int> members, replicas;
   std::optional<double> measure, side;
-  std::vector<double> sides;
   double warm_up = 5;
   Cache cache;
   Output output;
@@ -72,7 +67,7 @@ struct AccuracyBench {
   void declare(CLI::App& app) {
     app.add_option("part", part, "What to measure; everything if left out")
         ->type_name("PART")
-        ->check(CLI::IsMember({"deterministic", "statistical", "error"}).description(""));
+        ->check(CLI::IsMember({"deterministic", "statistical"}).description(""));
     app.add_flag("--quick", quick, "Fewer and shorter measurements");
     add_names(app, "--cases", cases, "LIST", names_of(start_cases()), "deterministic: only these");
     add_names(app, "--variants", treatments, "LIST", names_of(variants()),
@@ -81,13 +76,11 @@ struct AccuracyBench {
     add_number(app, "--steps", steps, "LIST", {1.0 / 64, 1e6 * kLongestStep}, "Steps [us]: 64 halved some times")
         ->check([](const std::string& us) { return step_problem(us); });
     add_number(app, "--members", members, "N", {1, 100'000}, "deterministic: starts in each ensemble");
-    add_number(app, "--measure", measure, "S", {0.01, 1e6},
-               "statistical, error: simulated seconds per value and replica");
+    add_number(app, "--measure", measure, "S", {0.01, 1e6}, "statistical: simulated seconds per value and replica");
     add_number(app, "--replicas", replicas, "N", {1, 1000},
-               "statistical, error: runs with seeds of their own; 2, or 1 with --quick");
+               "statistical: runs with seeds of their own; 2, or 1 with --quick");
     add_number(app, "--side", side, "MM", limits_of("box.side"), "statistical: side of the box");
-    add_number(app, "--sides", sides, "LIST", limits_of("box.side"), "error: sides of the boxes [mm]");
-    add_number(app, "--warm-up", warm_up, "S", kWarmUps, "statistical, error: simulated seconds to the steady state");
+    add_number(app, "--warm-up", warm_up, "S", kWarmUps, "statistical: simulated seconds to the steady state");
     cache.declare(app);
     output.declare(app);
   }
@@ -152,26 +145,9 @@ struct AccuracyBench {
     output.give(statistics_report(measured));
   }
 
-  void run_error() const {
-    // with two replicas about a hundred correlation times of S, a second each
-    std::vector<std::pair<double, double>> boxes{{15, 80}, {21, 80}, {30, 60}, {42, 40}};
-    if (!sides.empty()) {
-      boxes.clear();
-      for (const double box : sides) boxes.emplace_back(box, 50);
-      std::sort(boxes.begin(), boxes.end());
-    }
-    std::vector<Json> measured;
-    for (const auto& [box, seconds] : boxes) {
-      const Case scene = make_case(4.5, 0.75, box, kPaperStep, warm_up);
-      measured.push_back(measure_order_error(scene, measure.value_or(seconds * effort()), n_replicas(), cache));
-    }
-    output.give(order_error_report(measured, make_case(4.5, 0.75, kPaperSide, kPaperStep, warm_up)));
-  }
-
   ExitCode run() const {
     if (part.empty() || part == "deterministic") run_deterministic();
     if (part.empty() || part == "statistical") run_statistical();
-    if (part.empty() || part == "error") run_error();
     return ExitCode::kOk;
   }
 };

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The three parts of `shaken-bench accuracy`: errors of trajectories, bias of averages, statistical errors. What these
-// measure is written as rows; python/shaken/plots/accuracy.py makes orders, limits and laws of them, and verdicts.py
-// tells them.
+// The two parts of `shaken-bench accuracy`: errors of trajectories, bias of averages. What these measure is written as
+// rows; python/shaken/plots/accuracy.py makes orders and limits of them, and verdicts.py tells them.
 #pragma once
 
 #include <array>
@@ -101,11 +100,5 @@ Report statistics_report(const std::vector<Json>& measured);
 
 /// A simulation at step `dt` that goes on from where `from` is, to the nearest tick.
 Simulation continued(const Simulation& from, const System& scene);
-
-/// S(t) in one box, from which follows how long a run must be: a "row" with its autocorrelation time "tau_s", and the
-/// "series" of each replica.
-Json measure_order_error(const Case& scene, double measure, int replicas, const Cache& cache);
-/// What it comes to is continued to the paper's box.
-Report order_error_report(const std::vector<Json>& measured, const Case& paper_box);
 
 }  // namespace shaken::bench

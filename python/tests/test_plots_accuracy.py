@@ -63,36 +63,3 @@ def test_a_power_law_leaves_out_what_the_converged_solution_cannot_tell() -> Non
     assert law is not None and (law.first, law.points) == (2, 4) and law.order == pytest.approx(2, abs=0.05)
     assert accuracy.power_law(_STEPS, _STEPS, floor=1) is None  # three steps left
     assert accuracy.power_law(_STEPS, 0 * _STEPS) is None and accuracy.power_law([], []) is None
-
-
-def test_the_error_of_order_of_a_series_with_a_known_correlation_time() -> None:
-    memory, every, random = math.exp(-1 / 20), 0.005, np.random.default_rng(1)
-    tau = every * (0.5 + memory / (1 - memory))  # half the sum over all lags, both signs
-    series = []
-    for _ in range(2):
-        x, values = random.normal(), []
-        for noise in random.normal(size=40_000):
-            values.append(0.9 + 0.02 * x)
-            x = memory * x + math.sqrt(1 - memory**2) * noise
-        series.append(values)
-    row = {"every_s": every, "tau_s": tau, "measured_s": 200.0, "n_rods": 40, "cpu_s_per_rod_s": 0.004}
-    of = accuracy.error_of_order(row, series)
-    assert of["std"] == pytest.approx(0.02, abs=0.001)
-    assert of["c"] == pytest.approx(of["std"], rel=0.15)
-    assert of["sem"][0] == pytest.approx(of["std"])  # stretches of one sample
-    cpu = of["cpu_s_for_sem"]
-    assert cpu["0.001"] == pytest.approx(2 * tau * (of["c"] / 0.001)**2 * 40 * 0.004)
-    assert cpu["0.0001"] / cpu["0.001"] == pytest.approx(100)  # one more digit
-    assert of["expected_scatter"] == pytest.approx(of["c"] / math.sqrt(200 / (2 * tau)))
-
-
-def test_power_laws_are_continued_to_a_large_box() -> None:
-    rows = [{"side_mm": side, "std": 0.3 / side, "tau_s": 0.01 * math.sqrt(side), "cpu_s_per_rod_s": 0.004}
-            for side in (12.0, 15.0, 20.0, 25.0)]
-    large = accuracy.extrapolated(rows, {"side_mm": 50.0, "n_rods": 700})
-    assert large is not None
-    assert large["std_power"] == pytest.approx(-1) and large["tau_power"] == pytest.approx(0.5)
-    time = 2 * 0.01 * math.sqrt(50) * (0.3 / 50 / 0.001)**2
-    assert large["time_s_for_sem"]["0.001"] == pytest.approx(time)
-    assert large["cpu_s_for_sem"]["0.001"] == pytest.approx(time * 700 * 0.004)
-    assert accuracy.extrapolated(rows[:-1], {"side_mm": 50.0, "n_rods": 700}) is None  # too few boxes

@@ -61,16 +61,6 @@ def _deterministic() -> dict[str, Any]:
     return {"rows": rows, "converged": converged}
 
 
-def _series(n: int, memory: float, seed: int) -> list[float]:
-    """About 0.9, of standard deviation 0.02, whose correlation falls by `memory` from sample to sample."""
-    random = np.random.default_rng(seed)
-    x, values = random.normal(), []
-    for _ in range(n):
-        values.append(0.9 + 0.02 * x)
-        x = memory * x + math.sqrt(1 - memory**2) * random.normal()
-    return values
-
-
 REPORTS: dict[str, dict[str, Any]] = {
     "speed": {"rows": _speed_rows()}, "kinds": {"rows": _speed_rows()},
     "scaling n": {"rows": [{**_SCENE, "n_rods": n, "relative_cost": 1 + n / 1e4} for n in (500, 2000, 18000)]},
@@ -81,16 +71,7 @@ REPORTS: dict[str, dict[str, Any]] = {
                                "energy_unaccounted": 1e-14 * k} for name in ("collapse", "rest") for k in range(9)]},
     "effects": {"rows": [{"without": name, "own_state": {"cpu_ratio": ratio, "cpu_ratio_error": 0.02}, "same_state": {}}
                          for name, ratio in (("(nothing)", 1.0), ("vibration", 16.2), ("rod_rod_friction", 1.19))]},
-    "effects averages": {"rows": [
-        {"without": name, "relative": {of: {"value": ratio, "sem": None if ratio == 0 else 0.02}
-                                       for of in ("S", "rms_n_z", "T_xy", "T_z", "T_rot", "drift")}}
-        for name, ratio in (("(nothing)", 1.01), ("tilt", 0.0), ("rod_base_restitution", 0.013))]},
     "accuracy deterministic": _deterministic(), "accuracy statistical": _statistical(),
-    "accuracy error": {"rows": [{**_SCENE, "side_mm": side, "n_rods": 10 * side, "replicas": 2, "measured_s": 2.0,
-                                 "every_s": 0.005, "tau_s": 0.05, "mean": 0.9, "cpu_s_per_rod_s": 0.01}
-                                for side in (12, 24)],
-                       "series": [[_series(400, 0.9, seed) for seed in (1, 2)], [_series(400, 0.9, 3)]],
-                       "paper_box": {"side_mm": 83.73, "n_rods": 2110}},
     "peers": {"rows": [{"program": "Shaken", "dt_us": 16, "rod_s_per_cpu_s_best": "12345"},
                        {"program": "ODE", "dt_us": 100, "rod_s_per_cpu_s_best": ""}]},
 }
@@ -153,13 +134,6 @@ def test_the_smallest_margin_of_each_case_counts() -> None:
         (f"case-{k}", 3.0**k) for k in range(5)]
 
 
-def test_averages_without_an_effect_are_relative_to_all() -> None:
-    (_, sheet), = bench.figures_of(report("effects averages"))
-    order, temperature = sheet[0].drawn[:3], sheet[3].drawn
-    assert [float(drawn.x[0]) for drawn in order] == pytest.approx([101, 0, 1.3])
-    assert float(temperature[1].x[0]) == 0, "what falls by decades is seen to be nothing beside the others"
-
-
 def test_reports_are_drawn_by_the_program_beside_their_rows(tmp_path: Path) -> None:
     (tmp_path / "speed.json").write_text(json.dumps(report("speed")))
     (tmp_path / "speed.csv").write_text("the rows\n")
@@ -192,7 +166,6 @@ def test_the_verdict_is_told_by_the_program(tmp_path: Path) -> None:
 
     assert "head-on  newton   1.00 +- 0.00   4  1.00 +- 0.00   4       -   -\n" in told("accuracy deterministic")
     assert "Largest step up to which the bias is below 1 %" in told("accuracy statistical")
-    assert "Too few boxes, or no power law" in told("accuracy error")
     assert told("speed") == ""
 
 

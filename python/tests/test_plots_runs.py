@@ -4,9 +4,6 @@ from __future__ import annotations
 
 import csv
 import io
-import json
-import subprocess
-import sys
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +14,7 @@ pytest.importorskip("matplotlib")
 from figures_whole import assert_whole  # noqa: E402
 
 from shaken.estimate import Estimate, replica_mean  # noqa: E402
-from shaken.plots import names, pictures, runs, series, style, sweeps  # noqa: E402
+from shaken.plots import names, pictures, runs, series, sweeps  # noqa: E402
 
 NAN = float("nan")
 TILT = {"/tilt/n_z": [-0.1, 0.1], "/tilt/v_along_mm_s": [1.0, 2.0]}

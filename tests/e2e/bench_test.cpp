@@ -162,18 +162,6 @@ TEST_F(Bench, AccuracyShowsBiasAgainstCostOfSeveralVariants) {
   EXPECT_GT(y, 0);
 }
 
-TEST_F(Bench, AccuracyWritesTheErrorOfOrder) {
-  const Finished finished =
-      bench({"accuracy", "error", "--sides", "12,13,14,15", "--measure", "0.1", "--warm-up", "0.01", "--out", out()});
-  ASSERT_EQ(finished.code, 0) << finished.output;
-  EXPECT_THAT(finished.output, HasSubstr("tau below 100"));
-  const Json report = json_of("error.json");
-  ASSERT_EQ(report.at("rows").size(), 4u);
-  EXPECT_EQ(report.at("rows").at(0).at("replicas"), 2);
-  EXPECT_GT(report.at("rows").at(3).at("tau_s").get<double>(), 0);
-  EXPECT_EQ(text_of("error.png").substr(1, 3), "PNG");
-}
-
 TEST_F(Bench, AccuracyShowsItsRowsWhereNothingCanTellWhatTheyComeTo) {
   ::setenv("SHAKEN_PYTHON", "/bin/false", 1);
   const Finished finished =
@@ -190,7 +178,7 @@ TEST_F(Bench, AccuracyRefusesWhatItDoesNotKnow) {
     EXPECT_EQ(finished.code, 2);
     return finished.output;
   };
-  EXPECT_THAT(refused({"guess"}), HasSubstr("guess not in {deterministic,statistical,error}"));
+  EXPECT_THAT(refused({"guess"}), HasSubstr("guess not in {deterministic,statistical}"));
   EXPECT_THAT(refused({"--cases", "head-on,sideways"}), HasSubstr("--cases: sideways not in {rattling,"));
   EXPECT_THAT(refused({"--steps", "64,3"}), HasSubstr("--steps: 3 is not 64 us halved"));
 }
@@ -226,25 +214,6 @@ TEST_F(Bench, EffectsAreSwitchedOffOneByOne) {
   EXPECT_EQ(text_of("effects.png").substr(1, 3), "PNG");
   EXPECT_THAT(text_of("effects.csv"), HasSubstr("cpu_ratio"));
   EXPECT_EQ(bench({"effects", "--length", "0", "--repeat", "x"}).code, 2);
-}
-
-TEST_F(Bench, EffectsAreSeenInAverages) {
-  const Finished finished = bench(
-      {"effects", "--side", "12", "--area-fraction", "0.5", "--warm-up", "0.02", "--measure", "0.1", "--out", out()});
-  ASSERT_EQ(finished.code, 0) << finished.output;
-  EXPECT_THAT(finished.output, AllOf(HasSubstr("With everything on"), HasSubstr("rod_rod_friction")));
-  const Json report = json_of("effects_averages.json");
-  EXPECT_GT(report.at("everything").at("T_z").at("value").get<double>(), 0);
-  ASSERT_GE(report.at("rows").size(), 10u);
-  EXPECT_EQ(report.at("rows").at(0).at("without"), "(nothing)");
-  EXPECT_NE(report.at("rows").at(0).at("relative").at("T_z").at("value"), 1) << "another run of the same scene";
-  for (const Json& row : report.at("rows")) {
-    if (row.at("without") != "tilt") continue;
-    EXPECT_EQ(row.at("averages").at("T_z").at("value"), 0) << "rods that stay in the plane";
-    EXPECT_TRUE(row.at("relative").at("drift").at("value").is_null());
-  }
-  EXPECT_EQ(text_of("effects_averages.png").substr(1, 3), "PNG");
-  EXPECT_EQ(bench({"effects", "--measure", "0"}).code, 2);
 }
 
 TEST_F(Bench, HardScenesHaveAHistory) {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the rows of `shaken-bench accuracy` come to: orders of convergence, biases, and how errors fall with time."""
+"""What the rows of `shaken-bench accuracy` come to: orders of convergence, and biases."""
 from __future__ import annotations
 
 import math
@@ -18,10 +18,6 @@ ABOVE_FLOOR, ON_LINE, LEAST = 8.0, 1.5, 4
 LINEAR = 8.0
 #: Where a bias is settled.
 BOUND = 0.01
-#: Errors of S whose cost is told.
-WANTED = (0.01, 0.001, 0.0001)
-_FEWEST = 6   # stretches of time that scatter is taken from
-_LONG = 5.0   # length of the stretches that c is taken from, in correlation times
 
 
 class PowerLaw(NamedTuple):
@@ -135,67 +131,9 @@ def with_biases(report: Row) -> dict[str, Any]:
     return {**report, "rows": rows, "limits": limits}
 
 
-def time_for(sem: float, c: float, tau: float) -> float:
-    """Simulated time until the error of S is `sem` [s]."""
-    return 2 * tau * (c / sem)**2
-
-
-def error_of_order(row: Row, series: Sequence[Sequence[float]]) -> dict[str, Any]:
-    """How the error of the mean of S falls with time: `series` is S(t) of each replica. "sem" is the scatter of means
-    over stretches of time of lengths "stretch_s"; "c" of sem = c / sqrt(T / 2 tau) is from those of at least 5 tau,
-    None without any: it is "std" if S(t) is one stationary process."""
-    every, tau = row["every_s"], row["tau_s"]
-    everything = np.concatenate([np.asarray(values, dtype=float) for values in series])
-    std = float(np.std(everything, ddof=1))
-    stretches, sems, errors = [], [], []
-    length = 1
-    while True:
-        means = np.array([np.mean(values[k:k + length]) for values in series
-                          for k in range(0, len(values) - length + 1, length)])
-        if len(means) < _FEWEST:
-            break
-        stretches.append(every * length)
-        sems.append(float(np.std(means, ddof=1)))
-        errors.append(sems[-1] / math.sqrt(2 * (len(means) - 1)))
-        length *= 2
-    scale = np.sqrt(np.array(stretches) / (2 * tau)) if tau > 0 else np.zeros(len(stretches))
-    counts = (np.array(stretches) >= _LONG * tau) & (np.array(sems) > 0) & (scale > 0)
-    c = c_error = None
-    if counts.any():
-        of, of_error = (np.array(sems) * scale)[counts], (np.array(errors) * scale)[counts]
-        c = float(np.average(of, weights=of_error**-2))
-        # the stretches of different lengths are of the same series: the best of them says how well c is known
-        c_error = float(of_error.min())
-    cpu = {f"{sem:g}": time_for(sem, c or std, tau) * row["n_rods"] * row["cpu_s_per_rod_s"] for sem in WANTED}
-    return {**row, "std": std, "c": c, "c_error": c_error, "stretch_s": stretches, "sem": sems, "sem_error": errors,
-            "replica_scatter": float(np.std([np.mean(of) for of in series], ddof=1)) if len(series) > 1 else None,
-            "expected_scatter": (c or std) / math.sqrt(row["measured_s"] / (2 * tau)) if tau > 0 else None,
-            "cpu_s_for_sem": cpu}
-
-
-def extrapolated(rows: Sequence[Row], large: Row) -> dict[str, Any] | None:
-    """What was measured in small boxes, continued to a large one by power laws of the side; None where these do not
-    hold, or from fewer than LEAST boxes."""
-    sides = column(rows, "side_mm")
-    std, tau = power_law(sides, column(rows, "std")), power_law(sides, column(rows, "tau_s"))
-    if std is None or tau is None:
-        return None
-    cpu = rows[-1]["cpu_s_per_rod_s"] * large["n_rods"]
-    times = {f"{sem:g}": time_for(sem, std.at(large["side_mm"]), tau.at(large["side_mm"])) for sem in WANTED}
-    return {**large, "std_power": std.order, "std_power_error": std.order_error, "tau_power": tau.order,
-            "tau_power_error": tau.order_error, "time_s_for_sem": times,
-            "cpu_s_for_sem": {sem: time * cpu for sem, time in times.items()}}
-
-
-def with_errors(report: Row) -> dict[str, Any]:
-    """Each row with what its series comes to, and "extrapolated" to the paper's box."""
-    rows = [error_of_order(row, series) for row, series in zip(report["rows"], report["series"])]
-    return {**report, "rows": rows, "extrapolated": extrapolated(rows, report["paper_box"])}
-
-
 #: "bench" of a report -> what adds the fits to it.
 FITS: Mapping[str, Callable[[Row], dict[str, Any]]] = {
-    "accuracy deterministic": with_orders, "accuracy statistical": with_biases, "accuracy error": with_errors}
+    "accuracy deterministic": with_orders, "accuracy statistical": with_biases}
 
 
 def fitted(report: Row) -> Row:

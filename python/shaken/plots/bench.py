@@ -164,25 +164,6 @@ def effects(report: Row, width: str | None) -> Figures:
     yield "effects", sheet
 
 
-#: What effects are shown to do: title and observable.
-_DOINGS = (("order $S$", "S"), ("rms tilt $n_z$", "rms_n_z"), ("temperature in the plane", "T_xy"),
-           ("temperature upright", "T_z"), ("temperature of rotation", "T_rot"), ("drift against the tilt", "drift"))
-
-
-def effects_averages(report: Row, width: str | None) -> Figures:
-    """Averages without each effect relative to those of everything on."""
-    rows = report["rows"]
-    categories = [row["without"].replace("_", " ") for row in rows]
-    sheet = style.sheet(width or "183mm", 2, 3, _dots_height(len(rows)))
-    for k, (panel, (title, name)) in enumerate(zip(sheet, _DOINGS)):
-        values = column(rows, f"relative/{name}/value", 100)
-        panel.titles(x="% of everything on", title=title)
-        panel.dots(categories, values, column(rows, f"relative/{name}/sem", 100)).reference(x=100.0)
-        if k % 3:
-            panel.axes.tick_params(labelleft=False)
-    yield "effects_averages", sheet
-
-
 def _add_errors(panel: Panel, rows: Sequence[Row], order: Row | None, norm: str, label: str, colour: int) -> None:
     """The medians of one norm with their quartiles, and the power law that they follow."""
     steps = column(rows, "dt_s", 1e6)
@@ -341,25 +322,6 @@ def statistical(report: Row, width: str | None) -> Figures:
         yield "model", _model_sheet(model, shown, width)
 
 
-def order_error(report: Row, width: str | None) -> Figures:
-    sheet = style.sheet(width or "183mm", 1, 2, panel_height=66).share_key()
-    for panel, cpu in zip(sheet, (False, True)):
-        panel.titles("CPU time (s)" if cpu else "simulated time $T$ (s)", r"statistical error of $\langle S\rangle$")
-        panel.scale("log", "log")
-        for k, box in enumerate(report["rows"][:7]):
-            tau, scale = box["tau_s"], box["n_rods"] * box["cpu_s_per_rod_s"] if cpu else 1.0
-            x = scale * np.asarray(box["stretch_s"], dtype=float)
-            c = box["std"] if box["c"] is None else box["c"]
-            law = x[x >= 2 * tau * scale]
-            if law.size > 1:
-                panel.reference(law, c * np.sqrt(2 * tau * scale / law), colour=style.PALETTE[k])
-            panel.curve(x, np.asarray(box["sem"], dtype=float), np.asarray(box["sem_error"], dtype=float), colour=k,
-                        label=f"{names.value_label('box.side', box['side_mm'])}, $τ$ = {tau:.2g} s", look="points",
-                        joined=False)
-        panel.explain("line", r"dashed: $σ_S\sqrt{2τ/T}$")
-    yield "error", sheet
-
-
 def peers(report: Row, width: str | None) -> Figures:
     rows = [row for row in report["rows"] if row["rod_s_per_cpu_s_best"]]
     sheet = style.sheet(width or "120mm", panel_height=_dots_height(len(rows)))
@@ -372,9 +334,9 @@ def peers(report: Row, width: str | None) -> Figures:
 #: "bench" of a report -> what draws it; others have no pictures.
 DRAWERS: dict[str, Callable[[Row, str | None], Figures]] = {
     "speed": speed, "kinds": kinds, "scaling n": scaling, "scaling dt": scaling, "threads": threads,
-    "hard": hard, "hard history": hard_history, "effects": effects, "effects averages": effects_averages,
+    "hard": hard, "hard history": hard_history, "effects": effects,
     "accuracy deterministic": deterministic, "accuracy statistical": statistical,
-    "accuracy error": order_error, "peers": peers,
+    "peers": peers,
 }
 
 

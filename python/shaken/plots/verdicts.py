@@ -6,7 +6,7 @@ import math
 from typing import Callable, Mapping, NamedTuple, Sequence
 
 from . import accuracy
-from .accuracy import ABOVE_FLOOR, BOUND, LEAST, LINEAR, NORMS, ON_LINE, WANTED
+from .accuracy import ABOVE_FLOOR, BOUND, LEAST, LINEAR, NORMS, ON_LINE
 from .rows import Row, number, series_of
 
 
@@ -20,11 +20,6 @@ def table(titles: Sequence[str], lines: Sequence[Sequence[str]], n_texts: int) -
 
 def _text(value: float | None, form: str) -> str:
     return "-" if value is None or not math.isfinite(value) else format(value, form)
-
-
-def _plain(value: float) -> str:
-    """Three digits, "1,500"."""
-    return format(float(f"{value:.3g}"), ",.10g")
 
 
 class Column(NamedTuple):
@@ -121,37 +116,8 @@ def _biases(report: Row) -> str:
     return text
 
 
-_BOXES = [Column("L mm", "side_mm", ".10g"), Column("N", "n_rods", ".0f"), Column("replicas", "replicas", ".0f"),
-          Column("T s", "measured_s", ".4g"), Column("S", "mean", ".4f"), Column("std", "std", ".4f"),
-          Column("tau s", "tau_s", ".3g"), Column("CPU-s/rod-s", "cpu_s_per_rod_s", ".3g")]
-
-
-def _errors(report: Row) -> str:
-    lines = [[*_numbers(row, _BOXES), _text(row["tau_s"] and row["measured_s"] / row["tau_s"], ".0f"),
-              _text(row["c"], ".4f") + (f" +- {row['c_error']:.4f}" if row["c"] else ""),
-              _text(row["c"] and row["c"] / row["std"], ".2f"), _text(row["replica_scatter"], ".4f"),
-              _text(row["expected_scatter"], ".4f"), *(f"{row['cpu_s_for_sem'][f'{sem:g}']:.3g}" for sem in WANTED)]
-             for row in report["rows"]]
-    text = ("\nStatistical error of S over a simulated time T: sem = c / sqrt(T / 2 tau). tau: integrated "
-            "autocorrelation\ntime of S(t); c: from the scatter of means over stretches of at least 5 tau, to be "
-            "compared with std, the spread\nof S(t). Scatter: of the replicas' means, measured and by that formula.\n" +
-            table([*(of.title for of in _BOXES), "T/tau", "c", "c/std", "scatter", "expected",
-                   *(f"CPU-s for {sem:g}" for sem in WANTED)], lines, 0) +
-            "T/tau below 100: tau, and all that follows from it, is rough.\n")
-    large = report["extrapolated"]
-    if large is None:
-        return text + "Too few boxes, or no power law: nothing is said of larger ones.\n"
-    text += (f"\nExtrapolated to L = {large['side_mm']:g} mm, N = {large['n_rods']}: std ~ L^{large['std_power']:.2f} "
-             f"(+- {large['std_power_error']:.2f}), tau ~ L^{large['tau_power']:.2f} "
-             f"(+- {large['tau_power_error']:.2f}). Power laws\ncarried this far are no measurement.\n")
-    text += "".join(f"  sem(S) = {sem:g}: {_plain(large['time_s_for_sem'][f'{sem:g}'])} s simulated, "
-                    f"{_plain(large['cpu_s_for_sem'][f'{sem:g}'] / 3600)} CPU-hours\n" for sem in WANTED)
-    return text + ("Replicas share that time between cores; each adds its way to the steady state. One more digit "
-                   "costs 100 times as much.\n")
-
-
 _WORDS: Mapping[str, Callable[[Row], str]] = {
-    "accuracy deterministic": _orders, "accuracy statistical": _biases, "accuracy error": _errors}
+    "accuracy deterministic": _orders, "accuracy statistical": _biases}
 
 
 def verdict_text(report: Row) -> str:

@@ -9,7 +9,7 @@ from typing import Sequence
 from ..daemon import Daemon
 from ..errors import ShakenError
 from .conditions import read
-from .rows import Row, aggregated, field_names, has_several_versions, resolved, short_name, swept, target_of
+from .rows import Row, field_names, has_several_versions, resolved, short_name, swept, target_of
 from .selected import selected
 from .text import Column, in_yellow, json_text, number_text, printable, table, terminal_width, value_text
 
