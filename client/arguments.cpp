@@ -140,6 +140,7 @@ void Arguments::optional(const std::string& name, const std::string& help, Names
 void Arguments::list(const std::string& name, const std::string& help, const std::vector<std::string>& words) {
   without_variable_.push_back(app_.add_option(name, help)
                                   ->expected(0, CLI::detail::expected_max_vector_size)
+                                  ->allow_extra_args()
                                   ->type_name(joined(words))
                                   ->option_text(kNothing));
 }
@@ -162,7 +163,7 @@ void Arguments::flag(const std::string& flags, const std::string& help) {
 
 void Arguments::hand_on(std::vector<std::string>& words) {
   app_.parse_complete_callback([options = without_variable_, &words] {
-    std::vector<std::string> positionals{"--"};
+    std::vector<std::string> positionals;
     for (const CLI::Option* option : options) {
       if (option->get_positional()) {
         for (const std::string& value : option->results()) positionals.push_back(value);
@@ -174,6 +175,7 @@ void Arguments::hand_on(std::vector<std::string>& words) {
         }
       }
     }
+    if (!positionals.empty()) words.emplace_back("--");
     words.insert(words.end(), positionals.begin(), positionals.end());
   });
 }

@@ -80,6 +80,29 @@ TEST(Rest, GoesOnAsItStands) {
   EXPECT_THAT(words, ::testing::ElementsAre("name", "--json", "-o", "out", "--help", "word"));
 }
 
+TEST(HandOn, GivesWhatHasNoVariable) {
+  const auto handed = [](const std::string& line) {
+    CLI::App app;
+    app.fallthrough();
+    app.add_option("--root", "of the program");
+    Arguments arguments(*app.add_subcommand("verb", ""));
+    std::string own;
+    std::vector<std::string> words;
+    arguments.option("-n,--name", "NAME", "");
+    arguments.option("--own", own, "NAME", "");
+    arguments.repeatable("-w,--where", "CONDITION", "");
+    arguments.flag("-y,--yes", "");
+    arguments.list("WORD", "", std::vector<std::string>{"a", "b"});
+    arguments.hand_on(words);
+    app.parse(line);
+    return words;
+  };
+  using ::testing::ElementsAre;
+  EXPECT_THAT(handed("verb one --own x two -w a=1 -n=-5 --where b --root r -y three"),
+              ElementsAre("--name=-5", "--where=a=1", "--where=b", "--yes", "--", "one", "two", "three"));
+  EXPECT_THAT(handed("verb -y"), ElementsAre("--yes")) << "not every program takes words";
+}
+
 TEST(BadArguments, AreAllExitCodeTwo) {
   for (const auto& arguments : std::vector<std::vector<std::string>>{{},
                                                                      {"validate"},
