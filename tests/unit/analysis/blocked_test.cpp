@@ -85,17 +85,5 @@ TEST(Blocked, PassesAllArgumentsOn) {
   EXPECT_TRUE(std::isnan(blocked.empty().means().v_along[2]));
 }
 
-TEST(Blocked, GoesOnBitwiseFromItsSavedState) {
-  const auto all = frames(300);
-  Blocked<AngleDistribution> straight{AngleDistribution(30)}, stopped{AngleDistribution(30)};
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    straight.accumulate(static_cast<double>(i), all[i]);
-    stopped.accumulate(static_cast<double>(i), all[i]);
-    if (i % 11 == 0) stop_and_go_on(stopped, Blocked(AngleDistribution(30)));
-  }
-  EXPECT_EQ(state(straight), state(stopped));
-  expect_every_truncation_found(stopped);
-}
-
 }  // namespace
 }  // namespace shaken::analysis

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/unit/analysis/state_checks.h"
-
 namespace shaken::analysis {
 namespace {
 
@@ -21,21 +19,6 @@ TEST(BoundedSeries, AveragesPairsWhenItIsFull) {
     EXPECT_DOUBLE_EQ(series.column(1)[i], 1);
   }
   EXPECT_THROW(series.accumulate(999, {0, 0}), std::logic_error);
-}
-
-TEST(BoundedSeries, SavedState) {
-  BoundedSeries<1> straight(8), stopped(8);
-  for (int i = 0; i < 100; ++i) {
-    straight.accumulate(i, {1.0 / (1 + i)});
-    stopped.accumulate(i, {1.0 / (1 + i)});
-    stop_and_go_on(stopped, BoundedSeries<1>(8));
-  }
-  EXPECT_EQ(state(straight), state(stopped));
-  expect_every_truncation_found(stopped);
-  BoundedSeries<1> narrower(4);
-  const std::vector<std::byte> bytes = state(straight);
-  StateReader reader(bytes);
-  EXPECT_THROW(narrower.restore(reader), StateError);
 }
 
 }  // namespace

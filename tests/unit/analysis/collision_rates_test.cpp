@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "tests/unit/analysis/analysis_samples.h"
-#include "tests/unit/analysis/state_checks.h"
 
 namespace shaken::analysis {
 namespace {
@@ -56,19 +55,6 @@ TEST(CollisionSeries, OfRandomImpactsHasTheirRate) {
   double integral = 0;
   for (const double rate : series.of(CollisionCount::kRodRod)) integral += rate * kStep * kRods / 2;
   EXPECT_NEAR(integral, totals.since_start[rod_rod], 1e-9 * expected);
-}
-
-TEST(CollisionSeries, SavesAndRestores) {
-  CollisionSeries straight, stopped;
-  for (int i = 0; i < 20; ++i) {
-    const double n = i * i;
-    const CollisionTotals totals{{n, 2 * n, 3 * n, 0, n / 3, n / 7, n / 11}, 3};
-    straight.accumulate(i, totals);
-    stopped.accumulate(i, totals);
-    stop_and_go_on(stopped, CollisionSeries());
-  }
-  EXPECT_EQ(state(straight), state(stopped));
-  expect_every_truncation_found(stopped);
 }
 
 TEST(CollisionSums, Merge) {

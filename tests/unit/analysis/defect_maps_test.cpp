@@ -9,7 +9,6 @@
 #include "analysis/director_field.h"
 #include "sim/system.h"
 #include "tests/unit/analysis/analysis_samples.h"
-#include "tests/unit/analysis/state_checks.h"
 
 namespace shaken::analysis {
 namespace {
@@ -331,34 +330,6 @@ TEST(DefectMaps, TakeVelocitiesAboutTheSampleInTheMiddle) {
   EXPECT_EQ(sums.plus().defects, 3);
   EXPECT_NEAR(sums.plus().core_along, 2 * (1 + 2 + 3) / 3.0 / kStep, 1e-9);
   EXPECT_EQ(maps.sums().after(2 * kStep).samples(), 2);
-}
-
-TEST(DefectMaps, GoOnBitwiseAfterASave) {
-  Draw draw(66);
-  const Region region(kBox);
-  DefectMaps straight(kShape), stopped(kShape);
-  for (int k = 0; k < 6; ++k) {
-    const std::vector<Vec3> places = random_places(draw, 30, kBox), axes = random_axes(draw, 30);
-    const std::vector<Defect> defects{{{draw.uniform(0, kBox), 4}, 0.5, 1}, {{30, draw.uniform(0, kBox)}, -0.5, 0.2}};
-    for (DefectMaps* maps : {&straight, &stopped}) maps->accumulate(k * kStep, places, places, axes, defects, region);
-    stop_and_go_on(stopped, DefectMaps(kShape));
-    EXPECT_EQ(state(stopped), state(straight));
-  }
-}
-
-TEST(DefectMaps, AreNotRestoredFromWhatIsCutOffOrOfAnotherShape) {
-  DefectMaps maps({2, kRange, kCore});
-  const std::vector<Vec3> place{{10, 10, 0}}, axes{axis(0.3)};
-  for (int k = 0; k < 3; ++k) {
-    maps.accumulate(k * kStep, place, place, axes, std::vector<Defect>{{{9, 10}, 0.5, 0}}, Region(kBox));
-  }
-  expect_every_truncation_found(maps);
-  const std::vector<std::byte> bytes = state(maps);
-  for (const DefectMapSums::Shape& shape : {DefectMapSums::Shape{3, kRange, kCore}, {2, kRange / 2, kCore}}) {
-    DefectMaps other(shape);
-    StateReader reader(bytes);
-    EXPECT_THROW(other.restore(reader), StateError);
-  }
 }
 
 }  // namespace

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/unit/analysis/state_checks.h"
-
 namespace shaken::analysis {
 namespace {
 
@@ -36,21 +34,6 @@ TEST(DefectSeries, MemoryIsBoundedWithoutTheList) {
   EXPECT_LT(series.times().size(), 65536U);
   EXPECT_EQ(series.n_minus().back(), 1);
   EXPECT_TRUE(series.list().x.empty());
-}
-
-TEST(DefectSeries, SavedStateIsExactAndDamageIsFound) {
-  for (const bool keeps_list : {true, false}) {
-    DefectSeries series(keeps_list);
-    series.accumulate(0.0, kPair, kIds);
-    series.accumulate(1.0 / 3, kPair, kIds);
-    const std::vector<std::byte> before = state(series);
-    stop_and_go_on(series, DefectSeries(keeps_list));
-    EXPECT_EQ(state(series), before);
-    expect_every_truncation_found(series);
-    DefectSeries other(!keeps_list);
-    StateReader reader(before);
-    EXPECT_THROW(other.restore(reader), StateError);
-  }
 }
 
 }  // namespace

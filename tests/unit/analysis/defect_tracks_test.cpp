@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "tests/unit/analysis/analysis_samples.h"
-#include "tests/unit/analysis/state_checks.h"
 
 namespace shaken::analysis {
 namespace {
@@ -276,22 +275,6 @@ TEST(DefectTracks, NothingAndOddCharges) {
   tracks.accumulate(4 * kInterval, std::vector{at(5, 5, 0.5)});
   EXPECT_EQ(tracks.ids(), std::vector<std::int64_t>{3});
   EXPECT_THROW(tracks.accumulate(4 * kInterval, {}), std::logic_error);
-}
-
-TEST(DefectTracks, SavedState) {
-  Draw draw(114);
-  DefectTracks straight = tracking(), stopped = tracking();
-  for (int i = 0; i < 30; ++i) {
-    std::vector<Defect> defects;
-    for (int k = 0; k < 4; ++k)
-      defects.push_back(at(10 * k + draw.normal(), draw.normal(), k % 2 - 0.5, draw.normal()));
-    straight.accumulate(kInterval * i, defects);
-    stopped.accumulate(kInterval * i, defects);
-    stop_and_go_on(stopped, tracking());
-    EXPECT_EQ(straight.ids(), stopped.ids());
-  }
-  EXPECT_EQ(state(straight), state(stopped));
-  expect_every_truncation_found(stopped);
 }
 
 }  // namespace

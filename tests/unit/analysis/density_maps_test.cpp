@@ -7,7 +7,6 @@
 
 #include "sim/system.h"
 #include "tests/unit/analysis/analysis_samples.h"
-#include "tests/unit/analysis/state_checks.h"
 
 namespace shaken::analysis {
 namespace {
@@ -152,24 +151,6 @@ TEST(DensityMaps, ForgetAsTheRodsDo) {
   }
   EXPECT_NEAR(summary.correlation_time.value, -kStep / std::log(kStays), 5 * summary.correlation_time.sem);
   EXPECT_LT(summary.correlation_time.sem, 0.05);
-}
-
-TEST(DensityMaps, GoOnBitwiseAfterASave) {
-  Draw draw(75);
-  const Region region(Box(20), SideWalls{Arena::kDisc, 19});
-  const DensityMaps empty(region, Grid(4), kStep, 3);
-  DensityMaps straight = empty, stopped = empty;
-  for (int k = 0; k < 7; ++k) {
-    const std::vector<Vec3> places = random_places(draw, 30, Box(20));
-    for (DensityMaps* maps : {&straight, &stopped}) maps->accumulate(k * kStep, places);
-    stop_and_go_on(stopped, empty);
-    EXPECT_EQ(state(stopped), state(straight));
-  }
-  expect_every_truncation_found(straight);
-  DensityMaps other(region, Grid(5), kStep, 3);
-  const std::vector<std::byte> bytes = state(straight);
-  StateReader reader(bytes);
-  EXPECT_THROW(other.restore(reader), StateError);
 }
 
 }  // namespace

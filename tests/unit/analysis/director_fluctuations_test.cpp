@@ -163,27 +163,18 @@ TEST(DirectorFluctuations, NothingWithoutOrder) {
   EXPECT_TRUE(std::isnan(DirectorFluctuations::reduce(blocks, 0).ratio.value));
 }
 
-TEST(DirectorFluctuations, MergeAndSavedState) {
+TEST(DirectorFluctuations, Merge) {
   Draw draw(77);
-  DirectorFluctuations straight(kBox, 1), stopped(kBox, 1), first(kBox, 1), second(kBox, 1);
+  DirectorFluctuations straight(kBox, 1), first(kBox, 1), second(kBox, 1);
   Nematic nematic{.splay = 6, .bend = 18};
   for (int i = 0; i < 4; ++i) {
     nematic.theta = i;
     nematic.draw(draw);
     straight.accumulate(nematic.positions, nematic.directors);
-    stopped.accumulate(nematic.positions, nematic.directors);
     (i < 3 ? first : second).accumulate(nematic.positions, nematic.directors);
-    stop_and_go_on(stopped, DirectorFluctuations(kBox, 1));
   }
   first.merge(second);
-  EXPECT_EQ(state(straight), state(stopped));
   EXPECT_EQ(state(straight), state(first));
-  expect_every_truncation_found(stopped);
-  const std::vector<std::byte> bytes = state(straight);
-  for (DirectorFluctuations other : {DirectorFluctuations(kBox, 2), DirectorFluctuations(1, 1)}) {
-    StateReader reader(bytes);
-    EXPECT_THROW(other.restore(reader), StateError);
-  }
 }
 
 }  // namespace

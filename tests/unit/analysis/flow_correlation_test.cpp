@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "tests/unit/analysis/analysis_samples.h"
-#include "tests/unit/analysis/state_checks.h"
 
 namespace shaken::analysis {
 namespace {
@@ -203,24 +202,6 @@ TEST(FlowCorrelation, TakesDisplacementsFromSampleToSample) {
   EXPECT_NEAR(later.c[1], -1, 1e-12);
   EXPECT_NEAR(later.near, -1, 1e-12);
   EXPECT_THROW(flow.accumulate(2, std::vector<Vec3>(1), std::vector<Vec3>(1), 0, kBox), std::logic_error);
-}
-
-TEST(FlowCorrelation, SavesAndRestores) {
-  Draw draw(336);
-  FlowCorrelation straight(6, 10, 3), stopped(6, 10, 3);
-  for (int i = 0; i < 9; ++i) {
-    const std::vector<Vec3> places = random_places(draw, 12, kBox);
-    straight.accumulate(i, places, places, 0.1, kBox);
-    stopped.accumulate(i, places, places, 0.1, kBox);
-    stop_and_go_on(stopped, FlowCorrelation(6, 10, 3));
-  }
-  EXPECT_EQ(state(straight), state(stopped));
-  expect_every_truncation_found(stopped);
-  const auto bytes = state(straight);
-  for (FlowCorrelation other : {FlowCorrelation(7, 10, 3), FlowCorrelation(6, 9, 3), FlowCorrelation(6, 10, 2)}) {
-    StateReader reader(bytes);
-    EXPECT_THROW(other.restore(reader), StateError);
-  }
 }
 
 }  // namespace

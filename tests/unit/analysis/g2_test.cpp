@@ -7,7 +7,6 @@
 
 #include "tests/unit/analysis/analysis_samples.h"
 #include "tests/unit/analysis/lattices.h"
-#include "tests/unit/analysis/state_checks.h"
 
 namespace shaken::analysis {
 namespace {
@@ -217,29 +216,21 @@ TEST(OrientationCorrelation, HasNoPairsThroughWalls) {
   EXPECT_EQ(pairs_met(beside_hole, Region(42, SideWalls{Arena::kAnnulus, 40, 10})), 1);
 }
 
-TEST(OrientationCorrelation, MergeAndSavedState) {
+TEST(OrientationCorrelation, Merges) {
   constexpr double kBox = 20;
   Draw draw(64);
-  OrientationCorrelation straight(8, 10), stopped(8, 10), first(8, 10), second(8, 10);
+  OrientationCorrelation straight(8, 10), first(8, 10), second(8, 10);
   for (int i = 0; i < 4; ++i) {
     const std::vector<Vec3> positions = random_places(draw, 1500, kBox), directors = random_axes(draw, 1500);
     straight.accumulate(positions, directors, kBox);
-    stopped.accumulate(positions, directors, kBox);
     (i < 2 ? first : second).accumulate(positions, directors, kBox);
-    stop_and_go_on(stopped, OrientationCorrelation(8, 10));
   }
-  EXPECT_EQ(state(straight), state(stopped));
-  expect_every_truncation_found(stopped);
   first.merge(second);
   for (std::size_t i = 0; i < 8; ++i) {
     EXPECT_NEAR(first.reduce().g2[i], straight.reduce().g2[i], 1e-12);
     EXPECT_NEAR(first.reduce().g[i], straight.reduce().g[i], 1e-12);
   }
-  StateWriter writer;
-  straight.save(writer);
   for (OrientationCorrelation other : {OrientationCorrelation(8, 9), OrientationCorrelation(9, 10)}) {
-    StateReader reader(writer.bytes());
-    EXPECT_THROW(other.restore(reader), StateError);
     EXPECT_THROW(other.merge(straight), std::logic_error);
   }
   EXPECT_THROW(straight.accumulate({}, {}, 19.9), std::logic_error);

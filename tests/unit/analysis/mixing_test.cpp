@@ -8,7 +8,6 @@
 #include "analysis/g2.h"
 #include "sim/system.h"
 #include "tests/unit/analysis/analysis_samples.h"
-#include "tests/unit/analysis/state_checks.h"
 
 namespace shaken::analysis {
 namespace {
@@ -128,21 +127,7 @@ TEST(PairMixing, Segregation) {
   const double near = 2, beyond = 2 * 2 * near * 2 / (3 * kPi) / kBox;
   EXPECT_NEAR(segregation(places, by_halves, near), 1 - 2 * beyond, 0.03);
   EXPECT_NEAR(segregation(grid, chessboard, 1.1), -1, 0.01);
-}
-
-TEST(PairMixing, SavesAndRestoresAndRefusesMoreSpecies) {
-  Draw draw(4714);
-  const std::vector<Vec3> places = random_places(draw, 30, 20);
-  const std::vector<std::uint8_t> species = drawn_species(draw, 30, 2);
-  PairMixing straight(2, 5, 10, 2), stopped = straight;
-  for (int i = 0; i < 5; ++i) {
-    straight.accumulate(places, species, 20.0);
-    stopped.accumulate(places, species, 20.0);
-    stop_and_go_on(stopped, PairMixing(2, 5, 10, 2));
-  }
-  EXPECT_EQ(state(straight), state(stopped));
-  expect_every_truncation_found(stopped);
-  EXPECT_THROW(PairMixing(1, 5, 10, 2).accumulate(places, species, 20.0), std::out_of_range);
+  EXPECT_THROW(PairMixing(1, 5, 10, 2).accumulate(places, by_halves, kBox), std::out_of_range);
 }
 
 }  // namespace

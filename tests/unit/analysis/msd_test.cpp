@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/unit/analysis/state_checks.h"
 #include "tests/unit/analysis/walks.h"
 
 namespace shaken::analysis {
@@ -190,25 +189,6 @@ TEST(MeanSquareDisplacement, NothingAndOneRodDoNotCrash) {
   EXPECT_TRUE(std::isnan(one.reduce().exponent.value[0]));
   EXPECT_TRUE(std::isnan(one.diffusion().d_relative.value));
   EXPECT_TRUE(one.reduce(1e9).lag.empty());
-}
-
-TEST(MeanSquareDisplacement, GoesOnBitwiseFromItsSavedState) {
-  Draw draw(73);
-  MeanSquareDisplacement straight(0.1, 4, 4), stopped(0.1, 4, 4);
-  int i = 0;
-  for (const std::vector<Vec3>& frame : walks(draw, 4, 90, 0.2, 1.0, 1.0)) {
-    straight.accumulate(0.1 * i, frame, 0.1 * i);
-    stopped.accumulate(0.1 * i, frame, 0.1 * i);
-    if (++i % 7 == 0) stop_and_go_on(stopped, MeanSquareDisplacement(0.1, 4, 4));
-  }
-  EXPECT_EQ(state(straight), state(stopped));
-  MeanSquareDisplacement small = msd_of(walks(draw, 2, 20, 0, 1, 1), 0, 1.0, 2);
-  expect_every_truncation_found(small);
-  const std::vector<std::byte> bytes = state(straight);
-  MeanSquareDisplacement of_other_interval(0.2, 4, 4), of_other_levels(0.1, 4, 5);
-  StateReader first(bytes), second(bytes);
-  EXPECT_THROW(of_other_interval.restore(first), StateError);
-  EXPECT_THROW(of_other_levels.restore(second), StateError);
 }
 
 }  // namespace

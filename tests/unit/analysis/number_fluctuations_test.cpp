@@ -187,23 +187,17 @@ TEST(NumberFluctuations, NothingOrOneRod) {
   EXPECT_DOUBLE_EQ(NumberFluctuations::reduce(blocks, 0).mean_n[0], 0.125);
 }
 
-TEST(NumberFluctuations, MergeAndSavedState) {
+TEST(NumberFluctuations, Merge) {
   Draw draw(96);
-  NumberFluctuations straight(kBox, 1, 1), stopped(kBox, 1, 1), first(kBox, 1, 1), second(kBox, 1, 1);
+  NumberFluctuations straight(kBox, 1, 1), first(kBox, 1, 1), second(kBox, 1, 1);
   for (int i = 0; i < 6; ++i) {
     const std::vector<Vec3> places = random_places(draw, 100, kBox);
     straight.accumulate(places);
-    stopped.accumulate(places);
     (i < 4 ? first : second).accumulate(places);
-    stop_and_go_on(stopped, NumberFluctuations(kBox, 1, 1));
   }
   first.merge(second);
-  EXPECT_EQ(state(straight), state(stopped));
   EXPECT_EQ(state(straight), state(first));
   NumberFluctuations other(kBox / 2, 1, 1);
-  const std::vector<std::byte> bytes = state(straight);
-  StateReader reader(bytes);
-  EXPECT_THROW(other.restore(reader), StateError);
   EXPECT_THROW(other.merge(straight), std::logic_error);
 }
 

@@ -178,19 +178,5 @@ TEST(OrderSeries, OfALongRunIsOfAverages) {
   EXPECT_THROW(series.accumulate(0.01 * static_cast<double>(kSamples - 1), NematicOrder{}), std::logic_error);
 }
 
-TEST(OrderSeries, GoesOnBitwiseFromItsSavedState) {
-  Draw draw(4);
-  OrderSeries straight, stopped;
-  for (int i = 0; i < 21; ++i) {
-    const std::vector<Vec3> rods = random_axes(draw, 7);
-    straight.accumulate(i, rods);
-    stopped.accumulate(i, rods);
-    stop_and_go_on(stopped, OrderSeries());
-    EXPECT_EQ(straight.running_mean(), stopped.running_mean());
-  }
-  EXPECT_EQ(state(straight), state(stopped));
-  expect_every_truncation_found(stopped);
-}
-
 }  // namespace
 }  // namespace shaken::analysis

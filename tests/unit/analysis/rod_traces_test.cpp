@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "tests/unit/analysis/analysis_samples.h"
-#include "tests/unit/analysis/state_checks.h"
 
 namespace shaken::analysis {
 namespace {
@@ -49,22 +48,6 @@ TEST(RodTraces, FewAndUprightRods) {
   RodTraces none(4, 10);
   sample(none, 0, 0);
   EXPECT_TRUE(none.traces().empty());
-}
-
-TEST(RodTraces, GoesOnBitwiseFromItsSavedState) {
-  RodTraces straight(3, 2.0), stopped(3, 2.0);
-  for (int i = 0; i < 40; ++i) {
-    sample(straight, 0.1 * i, 9);
-    sample(stopped, 0.1 * i, 9);
-    if (i % 7 == 0) stop_and_go_on(stopped, RodTraces(3, 2.0));
-  }
-  EXPECT_EQ(state(straight), state(stopped));
-  EXPECT_EQ(straight.times().size(), 21u);
-  expect_every_truncation_found(stopped);
-  const std::vector<std::byte> bytes = state(straight);
-  RodTraces other(4, 2.0);
-  StateReader reader(bytes);
-  EXPECT_THROW(other.restore(reader), StateError);
 }
 
 }  // namespace

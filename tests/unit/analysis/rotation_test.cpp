@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/unit/analysis/state_checks.h"
 #include "tests/unit/analysis/walks.h"
 
 namespace shaken::analysis {
@@ -120,23 +119,6 @@ TEST(Rotation, UprightRodsKeepTheirAngle) {
   for (int i = 0; i < 4; ++i) none.accumulate(i, {});
   EXPECT_TRUE(none.reduce().lag.empty());
   EXPECT_TRUE(std::isnan(none.summarize().d_r.value));
-}
-
-TEST(Rotation, GoesOnBitwiseFromItsSavedState) {
-  Draw draw(104);
-  Rotation straight(0.1, 4), stopped(0.1, 4);
-  int i = 0;
-  for (const auto& sample : turning(draw, 4, 90, 0.8)) {
-    std::vector<Vec3> directors;
-    for (const double theta : sample) directors.push_back(axis(theta));
-    straight.accumulate(0.1 * i, directors);
-    stopped.accumulate(0.1 * i, directors);
-    if (++i % 7 == 0) stop_and_go_on(stopped, Rotation(0.1, 4));
-  }
-  EXPECT_GT(straight.summarize().large_turns, 0.0);
-  EXPECT_EQ(state(straight), state(stopped));
-  Rotation small = rotation_of(turning(draw, 2, 20, 0.1), 1.0, 2);
-  expect_every_truncation_found(small);
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 
 #include <cmath>
 
-#include "tests/unit/analysis/state_checks.h"
 #include "tests/unit/analysis/walks.h"
 
 namespace shaken::analysis {
@@ -187,23 +186,6 @@ TEST(SelfScattering, PeakIsTheLargestAlpha) {
   const ScatteringSummary summary = SelfScattering::summarize(curve);
   EXPECT_EQ(summary.alpha_2_peak.value, 0.4);
   EXPECT_EQ(summary.alpha_2_peak_lag, 2);
-}
-
-TEST(SelfScattering, SavesAndRestores) {
-  Draw draw(316);
-  const Frames frames = walks(draw, 3, 60, 0, 1, 1);
-  SelfScattering straight(1, 8, 3), stopped(1, 8, 3);
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    straight.accumulate(static_cast<double>(i), frames[i], 0);
-    stopped.accumulate(static_cast<double>(i), frames[i], 0);
-    if (i % 7 == 0) stop_and_go_on(stopped, SelfScattering(1, 8, 3));
-  }
-  EXPECT_EQ(state(straight), state(stopped));
-  expect_every_truncation_found(stopped);
-  const auto bytes = state(straight);
-  SelfScattering other(1, 9, 3);
-  StateReader reader(bytes);
-  EXPECT_THROW(other.restore(reader), StateError);
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include <numeric>
 
 #include "tests/unit/analysis/analysis_samples.h"
-#include "tests/unit/analysis/state_checks.h"
 
 namespace shaken::analysis {
 namespace {
@@ -106,19 +105,6 @@ TEST(PressureSums, FollowTheDirector) {
     EXPECT_NEAR(sums.reduce(kMany).along, first, 1e-12);
     EXPECT_NEAR(sums.reduce(kMany).across, second, 1e-12);
   }
-}
-
-TEST(StressSeries, SavesAndRestores) {
-  StressSeries straight(kMany), stopped(kMany);
-  for (int i = 0; i < 20; ++i) {
-    const double n = i * i;
-    const StressTotals totals{{n, 1 / (n + 1), 2, 3 * n}, {n / 3, n / 7, n / 11, n / 13}};
-    straight.accumulate(i, totals, 3, 0.1 * i);
-    stopped.accumulate(i, totals, 3, 0.1 * i);
-    stop_and_go_on(stopped, StressSeries(kMany));
-  }
-  EXPECT_EQ(state(straight), state(stopped));
-  expect_every_truncation_found(stopped);
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 
 #include "analysis/jackknife.h"
 #include "tests/unit/analysis/analysis_samples.h"
-#include "tests/unit/analysis/state_checks.h"
 
 namespace shaken::analysis {
 namespace {
@@ -91,24 +90,6 @@ TEST(TiltSwitches, OfAnOrnsteinUhlenbeckTilt) {
   const Estimate time = time_of(switches);
   EXPECT_LT(time.sem, 0.03 * known);
   EXPECT_LT(std::abs(time.value - known), 4.5 * time.sem + 0.01 * known) << time.value << " +- " << time.sem;
-}
-
-TEST(TiltSwitches, GoOnBitwiseFromTheirSavedState) {
-  Draw draw(133);
-  TiltSwitches straight(0.1), stopped(0.1);
-  for (int i = 0; i < 200; ++i) {
-    const std::vector<Vec3> directors = random_axes(draw, 7);
-    straight.accumulate(0.1 * i, directors);
-    stopped.accumulate(0.1 * i, directors);
-    if (i % 7 == 0) stop_and_go_on(stopped, TiltSwitches(0.1));
-  }
-  EXPECT_EQ(state(straight), state(stopped));
-  EXPECT_GT(straight.sums().all().switches, 100);
-  expect_every_truncation_found(stopped);
-  const std::vector<std::byte> bytes = state(straight);
-  TiltSwitches other(0.2);
-  StateReader reader(bytes);
-  EXPECT_THROW(other.restore(reader), StateError);
 }
 
 }  // namespace

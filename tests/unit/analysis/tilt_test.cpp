@@ -6,7 +6,6 @@
 #include "analysis/blocked.h"
 #include "analysis/parts.h"
 #include "tests/unit/analysis/analysis_samples.h"
-#include "tests/unit/analysis/state_checks.h"
 
 namespace shaken::analysis {
 namespace {
@@ -155,24 +154,6 @@ TEST(TiltVelocity, FewBlocksHaveNoErrors) {
   EXPECT_EQ(blocks_met(blocks), (std::vector<std::size_t>{5, 30}));
   EXPECT_TRUE(std::isnan(TiltVelocity::reduce(empty, {}).v_along[0]));
   EXPECT_TRUE(std::isnan(TiltVelocity::reduce(empty, {}).v_along_sem[0]));
-}
-
-TEST(TiltVelocity, GoesOnBitwiseFromItsSavedState) {
-  Draw draw(35);
-  TiltVelocity straight(8, kMaxTilt), stopped(8, kMaxTilt);
-  std::vector<Vec3> directors, velocities;
-  for (int i = 0; i < 200; ++i) {
-    planted(draw, 20, directors, velocities);
-    straight.accumulate(directors, velocities);
-    stopped.accumulate(directors, velocities);
-    if (i % 13 == 0) stop_and_go_on(stopped, TiltVelocity(8, kMaxTilt));
-  }
-  EXPECT_EQ(state(straight), state(stopped));
-  expect_every_truncation_found(stopped);
-  const std::vector<std::byte> bytes = state(straight);
-  StateReader reader(bytes);
-  TiltVelocity other(8, 0.3);
-  EXPECT_THROW(other.restore(reader), StateError);
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "tests/unit/analysis/state_checks.h"
 #include "tests/unit/analysis/walks.h"
 
 namespace shaken::analysis {
@@ -108,25 +107,7 @@ TEST(VanHove, EqualsTheCountOverAllFrames) {
       EXPECT_NEAR(curve.across[bin], across[bin] / rods / (2 * ranges[k] / kBins), 1e-12);
     }
   }
-}
-
-TEST(VanHove, SavesAndRestores) {
-  Draw draw(324);
-  const Frames frames = walks(draw, 3, 40, 0, 1, 1);
-  VanHove straight(1, 8, 5, 3), stopped(1, 8, 5, 3);
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    straight.accumulate(static_cast<double>(i), frames[i], 0);
-    stopped.accumulate(static_cast<double>(i), frames[i], 0);
-    stop_and_go_on(stopped, VanHove(1, 8, 5, 3));
-  }
-  EXPECT_EQ(state(straight), state(stopped));
-  expect_every_truncation_found(stopped);
-  const auto bytes = state(straight);
-  for (VanHove other : {VanHove(1, 16, 5, 3), VanHove(1, 8, 6, 3), VanHove(1, 8, 5, 2)}) {
-    StateReader reader(bytes);
-    EXPECT_THROW(other.restore(reader), StateError);
-  }
-  EXPECT_THROW(straight.accumulate(40, std::vector<Vec3>(4), 0), std::logic_error);
+  EXPECT_THROW(van_hove.accumulate(1e3, std::vector<Vec3>(1), 0), std::logic_error);
 }
 
 }  // namespace

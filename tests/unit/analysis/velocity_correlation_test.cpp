@@ -5,7 +5,6 @@
 
 #include <cstdio>
 
-#include "tests/unit/analysis/state_checks.h"
 #include "tests/unit/analysis/walks.h"
 
 namespace shaken::analysis {
@@ -244,25 +243,6 @@ TEST(VelocityCorrelation, NothingAndStillRodsDoNotCrash) {
   EXPECT_TRUE(std::isnan(still.reduce().c_v.value.at(0)));
   EXPECT_EQ(still.summarize().mean_square.value, 0.0);
   EXPECT_TRUE(std::isnan(still.summarize().correlation_time.value));
-}
-
-TEST(VelocityCorrelation, GoesOnBitwiseFromItsSavedState) {
-  Draw draw(115);
-  VelocityCorrelation straight(0.1, 0.4, 4), stopped(0.1, 0.4, 4);
-  int i = 0;
-  for (const std::vector<Vec3>& frame : walks(draw, 4, 90, 0.2, 1.0, 1.0)) {
-    straight.accumulate(0.1 * i, frame, 0.1 * i);
-    stopped.accumulate(0.1 * i, frame, 0.1 * i);
-    if (++i % 3 == 0) stop_and_go_on(stopped, VelocityCorrelation(0.1, 0.4, 4));
-  }
-  EXPECT_EQ(state(straight), state(stopped));
-  const std::vector<std::byte> bytes = state(straight);
-  VelocityCorrelation of_other_window(0.1, 0.5, 4);
-  StateReader reader(bytes);
-  EXPECT_THROW(of_other_window.restore(reader), StateError);
-  VelocityCorrelation small(0.1, 0.2, 2);
-  for (int k = 0; k < 20; ++k) small.accumulate(0.1 * k, std::vector<Vec3>(2, Vec3(k, k * k, 0)), 0);
-  expect_every_truncation_found(small);
 }
 
 }  // namespace
