@@ -6,24 +6,22 @@
 
 #include "analysis/two_peaks.h"
 #include "run/measure/estimates.h"
+#include "run/measure/measured.h"
 #include "run/measure/measurement_kinds.h"
 
 namespace shaken::run {
 namespace {
 
 /// P(theta), and theta_m where it has two peaks.
-class MeasuredAngles : public Measurement {
- public:
-  explicit MeasuredAngles(int bins) : angles_(analysis::AngleDistribution(bins)) {}
-
-  void sample(const Sample& sample) override { angles_.accumulate(sample->time, sample->director); }
-  void reduce(Reduction& result) const override {
-    const analysis::AnglePdf pdf = angles_.after(result.t_steady).reduce();
+std::unique_ptr<Measurement> measure_angles(const MeasureContext& context) {
+  const auto sample = [](const Sample& now, auto& angles) { angles.accumulate(now->time, now->director); };
+  const auto reduce = [](Reduction& result, const auto& angles) {
+    const analysis::AnglePdf pdf = angles.after(result.t_steady).reduce();
     result.arrays["/angles/theta_rad"] = pdf.theta;
     result.arrays["/angles/density_per_rad"] = pdf.density;
-    const auto peaks = block_estimates(angles_, result.t_steady, [](const analysis::AngleDistribution& angles) {
+    const auto peaks = block_estimates(angles, result.t_steady, [](const analysis::AngleDistribution& part) {
       constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-      const std::optional<analysis::TwoPeaks> found = analysis::fit_two_peaks(angles.reduce());
+      const std::optional<analysis::TwoPeaks> found = analysis::fit_two_peaks(part.reduce());
       if (!found) return std::vector<double>{kNone, kNone, kNone};
       return std::vector<double>{found->theta_m * 180 / kPi, found->dip, found->maximum * 180 / kPi};
     });
@@ -32,13 +30,9 @@ class MeasuredAngles : public Measurement {
     result.scalars["theta_m_deg"] = two ? peaks[0] : Scalar{};
     result.scalars["theta_m_maximum_deg"] = two ? peaks[2] : Scalar{};
     result.scalars["dip"] = dip;
-  }
-  void save(StateWriter& writer) const override { angles_.save(writer); }
-  void restore(StateReader& reader) override { angles_.restore(reader); }
-
- private:
-  analysis::Blocked<analysis::AngleDistribution> angles_;
-};
+  };
+  return measured(sample, reduce, analysis::Blocked(analysis::AngleDistribution(context.plan.angles->bins)));
+}
 
 }  // namespace
 
@@ -46,9 +40,7 @@ MeasurementKind angles_kind() {
   return {
       .name = "angles",
       .sources = "angles, two_peaks",
-      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
-        return std::make_unique<MeasuredAngles>(context.plan.angles->bins);
-      },
+      .make = measure_angles,
       .arrays =
           {
               {"theta_rad", "bin centres over [-π/2, π/2)"},

@@ -6,41 +6,49 @@
 
 #include "analysis/blocked.h"
 #include "run/measure/estimates.h"
+#include "run/measure/measured.h"
 #include "run/measure/measurement_kinds.h"
 
 namespace shaken::run {
 namespace {
 
-class MeasuredClusters : public Measurement {
- public:
-  MeasuredClusters(std::vector<analysis::RodAxis> axes, const analysis::ClusterRule& rule,
-                   const analysis::Region& region, int n_rods)
-      : axes_(std::move(axes)),
-        rule_(rule),
-        region_(region),
-        n_octaves_(std::bit_width(static_cast<unsigned>(n_rods))) {}
+void put_points(Reduction& result, const std::string& path, const std::vector<Scalar>& points) {
+  put(result, path, "", std::vector<analysis::Estimate>(points.begin(), points.end()));
+}
 
-  void sample(const Sample& sample) override {
-    const auto sizes = analysis::cluster_sizes(sample->position, sample->director, axes_, region_, rule_);
-    series_.accumulate(sample->time, sizes);
-    statistics_.accumulate(sample->time, sizes);
-  }
-  void reduce(Reduction& result) const override {
-    result.arrays["/clusters/time_s"] = series_.times();
-    result.arrays["/clusters/largest"] = series_.largest();
-    result.arrays["/clusters/size"] = series_.sizes();
+std::unique_ptr<Measurement> measure_clusters(const MeasureContext& context) {
+  const scene::MeasureClusters& settings = *context.plan.clusters;
+  const System& system = context.plan.system;
+  const analysis::ClusterRule rule{
+      .distance = settings.distance_for(system.rod.mid_diameter),
+      .angle = system.rod.has_axis() ? settings.angle * kPi / 180 : kPi / 2,
+  };
+  const auto axes = context.of_rods([](const Species& rod) {
+    return analysis::RodAxis{rod.tail.length, rod.head.length};
+  });
+  const analysis::Region region(system.box(), system.walls);
+  const int n_octaves = std::bit_width(static_cast<unsigned>(system.n_rods));  // that sizes can be in
+  const auto sample = [axes, region, rule](const Sample& now, auto& series, auto& statistics) {
+    const auto sizes = analysis::cluster_sizes(now->position, now->director, axes, region, rule);
+    series.accumulate(now->time, sizes);
+    statistics.accumulate(now->time, sizes);
+  };
+  const auto reduce = [n_octaves](Reduction& result, const auto& series, const auto& statistics) {
+    result.arrays["/clusters/time_s"] = series.times();
+    result.arrays["/clusters/largest"] = series.largest();
+    result.arrays["/clusters/size"] = series.sizes();
     const auto found = [&](const auto& choose) {
-      return block_estimates(statistics_, result.t_steady,
+      return block_estimates(statistics, result.t_steady,
                              [&](const analysis::ClusterStatistics& part) { return choose(part.reduce()); });
     };
     const auto of_octaves = [&](auto member) {
       return found([&](const analysis::ClusterNumbers& numbers) {
         const auto& octaves = numbers.*member;
-        return std::vector<double>(octaves.begin(), octaves.begin() + n_octaves_);
+        return std::vector<double>(octaves.begin(), octaves.begin() + n_octaves);
       });
     };
     std::vector<double>& smallest = result.arrays["/clusters/sizes/size"];
-    for (int k = 0; k < n_octaves_; ++k) smallest.push_back(std::exp2(k));
+    for (int k = 0; k < n_octaves; ++k) smallest.push_back(std::exp2(k));
     put_points(result, "/clusters/sizes/rods", of_octaves(&analysis::ClusterNumbers::rods));
     put_points(result, "/clusters/sizes/density", of_octaves(&analysis::ClusterNumbers::density));
     const auto numbers = found([](const analysis::ClusterNumbers& all) {
@@ -50,28 +58,9 @@ class MeasuredClusters : public Measurement {
     result.scalars["cluster_size"] = numbers[1];
     result.scalars["rods_alone"] = numbers[2];
     result.scalars["clusters_per_rod"] = numbers[3];
-  }
-  void save(StateWriter& writer) const override {
-    series_.save(writer);
-    statistics_.save(writer);
-  }
-  void restore(StateReader& reader) override {
-    series_.restore(reader);
-    statistics_.restore(reader);
-  }
-
- private:
-  static void put_points(Reduction& result, const std::string& path, const std::vector<Scalar>& points) {
-    put(result, path, "", std::vector<analysis::Estimate>(points.begin(), points.end()));
-  }
-
-  std::vector<analysis::RodAxis> axes_;
-  analysis::ClusterRule rule_;
-  analysis::Region region_;
-  int n_octaves_;  // that sizes can be in
-  analysis::ClusterSeries series_;
-  analysis::Blocked<analysis::ClusterStatistics> statistics_{analysis::ClusterStatistics()};
-};
+  };
+  return measured(sample, reduce, analysis::ClusterSeries(), analysis::Blocked(analysis::ClusterStatistics()));
+}
 
 }  // namespace
 
@@ -79,19 +68,7 @@ MeasurementKind clusters_kind() {
   return {
       .name = "clusters",
       .sources = "clusters, segment_distance, region",
-      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
-        const scene::MeasureClusters& settings = *context.plan.clusters;
-        const System& system = context.plan.system;
-        const analysis::ClusterRule rule{
-            .distance = settings.distance_for(system.rod.mid_diameter),
-            .angle = system.rod.has_axis() ? settings.angle * kPi / 180 : kPi / 2,
-        };
-        const auto axes = context.of_rods([](const Species& rod) {
-          return analysis::RodAxis{rod.tail.length, rod.head.length};
-        });
-        return std::make_unique<MeasuredClusters>(axes, rule, analysis::Region(system.box(), system.walls),
-                                                  system.n_rods);
-      },
+      .make = measure_clusters,
       .arrays =
           {
               {"time_s", "times of the next two; of more than 65,536 samples, each point is a mean of several"},

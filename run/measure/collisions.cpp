@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <array>
-#include <optional>
 #include <string>
 #include <utility>
 
 #include "analysis/collision_rates.h"
 #include "analysis/steady.h"
 #include "run/measure/estimates.h"
+#include "run/measure/measured.h"
 #include "run/measure/measurement_kinds.h"
 
 namespace shaken::run {
@@ -24,34 +24,26 @@ constexpr std::array<std::pair<CollisionCount, const char*>, analysis::kCollisio
     {CollisionCount::kLostSurfaces, "power_lost_surfaces_pJ_s"},
 }};
 
-class MeasuredCollisions : public Measurement {
- public:
-  explicit MeasuredCollisions(std::optional<double> steady) : steady_(steady) {}
-
-  void sample(const Sample& sample) override { series_.accumulate(sample->time, sample.totals().collisions); }
-  void reduce(Reduction& result) const override {
+std::unique_ptr<Measurement> measure_collisions(const MeasureContext& context) {
+  const auto sample = [](const Sample& now, auto& series) { series.accumulate(now->time, now.totals().collisions); };
+  const auto reduce = [steady = context.plan.steady](Reduction& result, const auto& series) {
     const auto numbers =
-        block_estimates(series_.sums(), steady_.value_or(result.t_steady), [](const analysis::CollisionSums& part) {
+        block_estimates(series.sums(), steady.value_or(result.t_steady), [](const analysis::CollisionSums& part) {
           const analysis::CollisionRates rates = part.reduce();
           std::vector<double> all(rates.begin(), rates.end());
           const double of_rods = rates[static_cast<std::size_t>(CollisionCount::kRodRod)];
           all.push_back(of_rods > 0 ? 1 / of_rods : analysis::kNaN);
           return all;
         });
-    result.arrays["/collisions/time_s"] = series_.times();
+    result.arrays["/collisions/time_s"] = series.times();
     for (const auto& [count, name] : kCollisionNames) {
-      result.arrays[std::string("/collisions/") + name] = series_.of(count);
+      result.arrays[std::string("/collisions/") + name] = series.of(count);
       result.scalars[name] = numbers[static_cast<std::size_t>(count)];
     }
     result.scalars["mean_free_time_s"] = numbers.back();
-  }
-  void save(StateWriter& writer) const override { series_.save(writer); }
-  void restore(StateReader& reader) override { series_.restore(reader); }
-
- private:
-  std::optional<double> steady_;  ///< [s]
-  analysis::CollisionSeries series_;
-};
+  };
+  return measured(sample, reduce, analysis::CollisionSeries());
+}
 
 }  // namespace
 
@@ -59,9 +51,7 @@ MeasurementKind collisions_kind() {
   return {
       .name = "collisions",
       .sources = "collision_rates",
-      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
-        return std::make_unique<MeasuredCollisions>(context.plan.steady);
-      },
+      .make = measure_collisions,
       .arrays =
           {
               {"time_s", "ends of the times from one sample to the next, over which the following are means"},

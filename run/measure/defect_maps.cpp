@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "analysis/region.h"
 #include "run/measure/estimates.h"
 #include "run/measure/measure_defects.h"
+#include "run/measure/measured.h"
 #include "run/measure/measurement_kinds.h"
 
 namespace shaken::run {
@@ -30,25 +30,39 @@ constexpr MapArray kMapArrays[] = {
 /// What sums say about the defects of one charge.
 using MapOf = DefectMap (DefectMapSums::*)() const;
 
-class MeasuredDefectMaps : public Measurement {
- public:
-  MeasuredDefectMaps(const System& system, const scene::MeasureDefectMaps& settings)
-      : region_(system.box(), system.walls),
-        smoothing_(settings.smoothing_for(system.rod.length)),
-        mesh_(settings.grid_for(system.rod.length)),
-        separation_(settings.separation_for(system.rod.length)),
-        maps_(shape(settings.bins, settings.range_for(system.rod.length, system.box().shorter()))) {}
-
-  void sample(const Sample& sample) override {
-    const std::vector<analysis::Defect> defects = defects_of(sample, region_, smoothing_, mesh_);
-    maps_.accumulate(sample->time, sample->position, sample.unwrapped(), sample->director,
-                     analysis::lone_defects(defects, separation_, region_), region_);
+void put_maps(const std::string& charge, MapOf map_of, const analysis::Blocked<DefectMapSums>& sums,
+              Reduction& result) {
+  const DefectMap map = (sums.after(result.t_steady).*map_of)();
+  const auto errors = block_errors(sums, result.t_steady, [map_of](const DefectMapSums& part) {
+    const DefectMap found = (part.*map_of)();
+    std::vector<std::vector<double>> curves;
+    for (const MapArray& array : kMapArrays) curves.push_back(found.*array.values);
+    return curves;
+  });
+  std::size_t k = 0;
+  for (const MapArray& array : kMapArrays) {
+    put(result, "/defect_maps/" + charge + "/" + array.name, array.unit,
+        analysis::EstimateCurve{map.*array.values, errors[k++]});
   }
-  void reduce(Reduction& result) const override {
-    result.arrays["/defect_maps/along_mm"] = result.arrays["/defect_maps/across_mm"] = maps_.sums().empty().centres();
-    put_maps("plus", &DefectMapSums::plus, result);
-    put_maps("minus", &DefectMapSums::minus, result);
-    const auto numbers = block_estimates(maps_.sums(), result.t_steady, [](const DefectMapSums& part) {
+}
+
+std::unique_ptr<Measurement> measure_defect_maps(const MeasureContext& context) {
+  const System& system = context.plan.system;
+  const scene::MeasureDefectMaps& settings = *context.plan.defect_maps;
+  const double length = system.rod.length, side = system.box().shorter();
+  const double smoothing = settings.smoothing_for(length), separation = settings.separation_for(length);
+  const double range = std::min(settings.range_for(length, side), side / 2);
+  const auto sample = [region = analysis::Region(system.box(), system.walls), smoothing,
+                       mesh = settings.grid_for(length), separation](const Sample& now, auto& maps) {
+    const std::vector<analysis::Defect> defects = defects_of(now, region, smoothing, mesh);
+    maps.accumulate(now->time, now->position, now.unwrapped(), now->director,
+                    analysis::lone_defects(defects, separation, region), region);
+  };
+  const auto reduce = [](Reduction& result, const auto& maps) {
+    result.arrays["/defect_maps/along_mm"] = result.arrays["/defect_maps/across_mm"] = maps.sums().empty().centres();
+    put_maps("plus", &DefectMapSums::plus, maps.sums(), result);
+    put_maps("minus", &DefectMapSums::minus, maps.sums(), result);
+    const auto numbers = block_estimates(maps.sums(), result.t_steady, [](const DefectMapSums& part) {
       const DefectMap plus = part.plus(), minus = part.minus();
       const auto samples = static_cast<double>(part.samples());
       return std::vector<double>{plus.defects / samples, minus.defects / samples, plus.core_density,
@@ -60,34 +74,9 @@ class MeasuredDefectMaps : public Measurement {
     result.scalars["core_density_minus"] = numbers[3];
     result.scalars["core_flow_along_mm_s"] = numbers[4];
     result.scalars["core_flow_across_mm_s"] = numbers[5];
-  }
-  void save(StateWriter& writer) const override { maps_.save(writer); }
-  void restore(StateReader& reader) override { maps_.restore(reader); }
-
- private:
-  DefectMapSums::Shape shape(int bins, double range) const {
-    range = std::min(range, region_.box().shorter() / 2);
-    return {bins, range, std::min(smoothing_, range)};
-  }
-  void put_maps(const std::string& charge, MapOf map_of, Reduction& result) const {
-    const DefectMap map = (maps_.sums().after(result.t_steady).*map_of)();
-    const auto errors = block_errors(maps_.sums(), result.t_steady, [map_of](const DefectMapSums& part) {
-      const DefectMap found = (part.*map_of)();
-      std::vector<std::vector<double>> curves;
-      for (const MapArray& array : kMapArrays) curves.push_back(found.*array.values);
-      return curves;
-    });
-    std::size_t k = 0;
-    for (const MapArray& array : kMapArrays) {
-      put(result, "/defect_maps/" + charge + "/" + array.name, array.unit,
-          analysis::EstimateCurve{map.*array.values, errors[k++]});
-    }
-  }
-
-  analysis::Region region_;
-  double smoothing_, mesh_, separation_;  ///< [mm]
-  analysis::DefectMaps maps_;
-};
+  };
+  return measured(sample, reduce, analysis::DefectMaps({settings.bins, range, std::min(smoothing, range)}));
+}
 
 }  // namespace
 
@@ -95,9 +84,7 @@ MeasurementKind defect_maps_kind() {
   return {
       .name = "defect_maps",
       .sources = "defect_maps, defects, director_field, region",
-      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
-        return std::make_unique<MeasuredDefectMaps>(context.plan.system, *context.plan.defect_maps);
-      },
+      .make = measure_defect_maps,
       .arrays =
           {
               {"along_mm", "(bins) bin centres along x′: of +1/2 defects from the head to the tail"},

@@ -4,54 +4,48 @@
 
 #include "analysis/density_maps.h"
 #include "run/measure/estimates.h"
+#include "run/measure/measured.h"
 #include "run/measure/measurement_kinds.h"
 #include "scene/derived.h"
 
 namespace shaken::run {
 namespace {
 
-class MeasuredDensity : public Measurement {
- public:
-  MeasuredDensity(const System& system, const scene::MeasureDensity& settings, double interval)
-      : area_fraction_(scene::area_fraction_of(system)),
-        maps_(analysis::Region(system.box(), system.walls),
-              analysis::Grid(system.box(), settings.grid_for(system.rod.length)), interval,
-              std::max<std::int64_t>(1, std::llround(settings.duration / interval))),
-        mesh_(system.box().x() / maps_.grid().columns, system.box().y() / maps_.grid().rows) {}
+std::vector<double> centres(int n, double mesh) {
+  std::vector<double> at;
+  at.reserve(static_cast<std::size_t>(n));
+  for (int k = 0; k < n; ++k) at.push_back((k + 0.5) * mesh);
+  return at;
+}
 
-  void sample(const Sample& sample) override { maps_.accumulate(sample->time, sample->position); }
-  void reduce(Reduction& result) const override {
-    const analysis::DensitySummary summary = maps_.reduce(result.t_steady);
-    result.arrays["/density/time_s"] = maps_.times();
-    result.arrays["/density/x_mm"] = centres(maps_.grid().columns, mesh_.x());
-    result.arrays["/density/y_mm"] = centres(maps_.grid().rows, mesh_.y());
-    result.arrays["/density/area_fraction"] = area_fractions(maps_.densities());
+std::unique_ptr<Measurement> measure_density(const MeasureContext& context) {
+  const System& system = context.plan.system;
+  const scene::MeasureDensity& settings = *context.plan.density;
+  const auto sample = [](const Sample& now, auto& maps) { maps.accumulate(now->time, now->position); };
+  const auto reduce = [area_fraction = scene::area_fraction_of(system), box = system.box()](Reduction& result,
+                                                                                            const auto& maps) {
+    const auto area_fractions = [&](std::vector<double> densities) {
+      for (double& density : densities) density *= area_fraction;
+      return densities;
+    };
+    const analysis::DensitySummary summary = maps.reduce(result.t_steady);
+    result.arrays["/density/time_s"] = maps.times();
+    result.arrays["/density/x_mm"] = centres(maps.grid().columns, box.x() / maps.grid().columns);
+    result.arrays["/density/y_mm"] = centres(maps.grid().rows, box.y() / maps.grid().rows);
+    result.arrays["/density/area_fraction"] = area_fractions(maps.densities());
     result.arrays["/density/mean_area_fraction"] = area_fractions(summary.mean);
     result.arrays["/density/memory/lag_s"] = summary.lag;
     put(result, "/density/memory/correlation", "", summary.correlation);
     result.scalars["density_variance"] = scalar(summary.variance);
     result.scalars["density_variance_of_mean"] = scalar(summary.variance_of_mean);
     result.scalars["density_correlation_s"] = scalar(summary.correlation_time);
-  }
-  void save(StateWriter& writer) const override { maps_.save(writer); }
-  void restore(StateReader& reader) override { maps_.restore(reader); }
-
- private:
-  static std::vector<double> centres(int n, double mesh) {
-    std::vector<double> at;
-    at.reserve(static_cast<std::size_t>(n));
-    for (int k = 0; k < n; ++k) at.push_back((k + 0.5) * mesh);
-    return at;
-  }
-  std::vector<double> area_fractions(std::vector<double> densities) const {
-    for (double& density : densities) density *= area_fraction_;
-    return densities;
-  }
-
-  double area_fraction_;
-  analysis::DensityMaps maps_;
-  Vec2 mesh_;  ///< each way [mm]
-};
+  };
+  return measured(
+      sample, reduce,
+      analysis::DensityMaps(analysis::Region(system.box(), system.walls),
+                            analysis::Grid(system.box(), settings.grid_for(system.rod.length)), context.interval,
+                            std::max<std::int64_t>(1, std::llround(settings.duration / context.interval))));
+}
 
 }  // namespace
 
@@ -59,9 +53,7 @@ MeasurementKind density_kind() {
   return {
       .name = "density",
       .sources = "density_maps, region",
-      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
-        return std::make_unique<MeasuredDensity>(context.plan.system, *context.plan.density, context.interval);
-      },
+      .make = measure_density,
       .arrays =
           {
               {"time_s", "(maps) middle of the time that a map is averaged over"},

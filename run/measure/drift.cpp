@@ -4,32 +4,28 @@
 #include <vector>
 
 #include "run/measure/estimates.h"
+#include "run/measure/measured.h"
 #include "run/measure/measurement_kinds.h"
 
 namespace shaken::run {
 namespace {
 
-class MeasuredDrift : public Measurement {
- public:
-  void sample(const Sample& sample) override { drift_.accumulate(sample->time, sample.unwrapped()); }
-  void reduce(Reduction& result) const override {
+std::unique_ptr<Measurement> measure_drift(const MeasureContext&) {
+  const auto sample = [](const Sample& now, auto& drift) { drift.accumulate(now->time, now.unwrapped()); };
+  const auto reduce = [](Reduction& result, const auto& drift) {
     const auto velocity =
-        block_estimates(drift_.statistics(), result.t_steady, [](const analysis::DriftStatistics& part) {
+        block_estimates(drift.statistics(), result.t_steady, [](const analysis::DriftStatistics& part) {
           const Vec2 mean = part.reduce();
           return std::vector<double>{mean.x(), mean.y()};
         });
-    result.arrays["/drift/time_s"] = drift_.times();
-    result.arrays["/drift/x_mm"] = drift_.x();
-    result.arrays["/drift/y_mm"] = drift_.y();
+    result.arrays["/drift/time_s"] = drift.times();
+    result.arrays["/drift/x_mm"] = drift.x();
+    result.arrays["/drift/y_mm"] = drift.y();
     result.scalars["drift_x_mm_s"] = velocity[0];
     result.scalars["drift_y_mm_s"] = velocity[1];
-  }
-  void save(StateWriter& writer) const override { drift_.save(writer); }
-  void restore(StateReader& reader) override { drift_.restore(reader); }
-
- private:
-  analysis::Drift drift_;
-};
+  };
+  return measured(sample, reduce, analysis::Drift());
+}
 
 }  // namespace
 
@@ -37,7 +33,7 @@ MeasurementKind drift_kind() {
   return {
       .name = "drift",
       .sources = "drift",
-      .make = [](const MeasureContext&) -> std::unique_ptr<Measurement> { return std::make_unique<MeasuredDrift>(); },
+      .make = measure_drift,
       .arrays =
           {
               {"time_s", "times; of more than 65,536 samples, each point is a mean of several"},

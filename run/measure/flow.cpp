@@ -1,29 +1,28 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
-#include <optional>
 
 #include "analysis/flow_correlation.h"
 #include "analysis/region.h"
 #include "analysis/steady.h"
 #include "run/measure/estimates.h"
+#include "run/measure/measured.h"
 #include "run/measure/measurement_kinds.h"
 
 namespace shaken::run {
 namespace {
 
-class MeasuredFlow : public Measurement {
- public:
-  MeasuredFlow(int bins, double near, const analysis::Region& region, std::optional<double> steady)
-      : steady_(steady), region_(region), flow_(bins, region.box().shorter() / 2, near) {}
-
-  void sample(const Sample& sample) override {
-    if (!analysis::is_steady(sample->time, steady_.value_or(0.0))) return;
-    flow_.accumulate(sample->time, sample->position, sample.unwrapped(), sample.order().director, region_);
-  }
-  void reduce(Reduction& result) const override {
-    const double from = steady_.value_or(result.t_steady);
-    const analysis::FlowCurve curve = flow_.sums().after(from).reduce();
-    const auto errors = block_errors(flow_.sums(), from, [](const analysis::FlowSums& part) {
+std::unique_ptr<Measurement> measure_flow(const MeasureContext& context) {
+  const System& system = context.plan.system;
+  const analysis::Region region(system.box(), system.walls);
+  const double two_diameters = 4 * context.species.max_radius;
+  const auto sample = [region, steady = context.plan.steady](const Sample& now, auto& flow) {
+    if (!analysis::is_steady(now->time, steady.value_or(0.0))) return;
+    flow.accumulate(now->time, now->position, now.unwrapped(), now.order().director, region);
+  };
+  const auto reduce = [steady = context.plan.steady](Reduction& result, const auto& flow) {
+    const double from = steady.value_or(result.t_steady);
+    const analysis::FlowCurve curve = flow.sums().after(from).reduce();
+    const auto errors = block_errors(flow.sums(), from, [](const analysis::FlowSums& part) {
       const analysis::FlowCurve found = part.reduce();
       return std::vector{found.c, found.along, found.across};
     });
@@ -31,21 +30,16 @@ class MeasuredFlow : public Measurement {
     put(result, "/flow/c", "", analysis::EstimateCurve{curve.c, errors[0]});
     put(result, "/flow/c_along", "", analysis::EstimateCurve{curve.along, errors[1]});
     put(result, "/flow/c_across", "", analysis::EstimateCurve{curve.across, errors[2]});
-    const auto numbers = block_estimates(flow_.sums(), from, [](const analysis::FlowSums& part) {
+    const auto numbers = block_estimates(flow.sums(), from, [](const analysis::FlowSums& part) {
       const analysis::FlowCurve found = part.reduce();
       return std::vector<double>{found.near, found.length};
     });
     result.scalars["flow_of_neighbours"] = numbers[0];
     result.scalars["flow_length_mm"] = numbers[1];
-  }
-  void save(StateWriter& writer) const override { flow_.save(writer); }
-  void restore(StateReader& reader) override { flow_.restore(reader); }
-
- private:
-  std::optional<double> steady_;  ///< [s]; given, it leaves out what is before, or else the reduction does
-  analysis::Region region_;
-  analysis::FlowCorrelation flow_;
-};
+  };
+  return measured(sample, reduce,
+                  analysis::FlowCorrelation(context.plan.flow->bins, system.box().shorter() / 2, two_diameters));
+}
 
 }  // namespace
 
@@ -53,12 +47,7 @@ MeasurementKind flow_kind() {
   return {
       .name = "flow",
       .sources = "flow_correlation, region",
-      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
-        const System& system = context.plan.system;
-        const double two_diameters = 4 * context.species.max_radius;
-        return std::make_unique<MeasuredFlow>(context.plan.flow->bins, two_diameters,
-                                              analysis::Region(system.box(), system.walls), context.plan.steady);
-      },
+      .make = measure_flow,
       .arrays =
           {
               {"r_mm", "bin centres"},

@@ -1,24 +1,29 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include "analysis/blocked.h"
 #include "analysis/number_fluctuations.h"
 #include "run/measure/estimates.h"
+#include "run/measure/measured.h"
 #include "run/measure/measurement_kinds.h"
 #include "sim/motion/side_walls.h"
 
 namespace shaken::run {
 namespace {
 
-class MeasuredFluctuations : public Measurement {
- public:
-  explicit MeasuredFluctuations(analysis::NumberFluctuations empty) : counts_(std::move(empty)) {}
-
-  void sample(const Sample& sample) override { counts_.accumulate(sample->time, sample->position); }
-  void reduce(Reduction& result) const override {
-    const analysis::NumberFluctuationCurve curve = analysis::NumberFluctuations::reduce(counts_, result.t_steady);
+std::unique_ptr<Measurement> measure_fluctuations(const MeasureContext& context) {
+  const System& system = context.plan.system;
+  analysis::NumberFluctuations::Where where;
+  if (system.walls) {
+    where = [walls = *system.walls, box = system.box()](const Vec2& centre, const Vec2& sides) {
+      const double reach = walls.arena == Arena::kChannel ? sides.y() / 2 : sides.norm() / 2;
+      return distance_to_walls(walls, box, Vec3(centre.x(), centre.y(), 0)) >= reach;
+    };
+  }
+  const auto sample = [](const Sample& now, auto& counts) { counts.accumulate(now->time, now->position); };
+  const auto reduce = [](Reduction& result, const auto& counts) {
+    const analysis::NumberFluctuationCurve curve = analysis::NumberFluctuations::reduce(counts, result.t_steady);
     result.arrays["/fluctuations/area_fraction"] = curve.area_fraction;
     result.arrays["/fluctuations/mean_n"] = curve.mean_n;
     put(result, "/fluctuations/std_n", "", curve.std_n);
@@ -31,13 +36,11 @@ class MeasuredFluctuations : public Measurement {
                              : "the numbers do not vary";
     result.scalars["fluctuation_exponent"] = scalar_or(curve.exponent, reason);
     result.scalars["fluctuation_exponent_without_map"] = scalar_or(curve.exponent_without_map, reason);
-  }
-  void save(StateWriter& writer) const override { counts_.save(writer); }
-  void restore(StateReader& reader) override { counts_.restore(reader); }
-
- private:
-  analysis::Blocked<analysis::NumberFluctuations> counts_;
-};
+  };
+  return measured(
+      sample, reduce,
+      analysis::Blocked(analysis::NumberFluctuations(system.box(), system.area(), 2 * system.rod.length, where)));
+}
 
 }  // namespace
 
@@ -45,18 +48,7 @@ MeasurementKind fluctuations_kind() {
   return {
       .name = "fluctuations",
       .sources = "number_fluctuations",
-      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
-        const System& system = context.plan.system;
-        analysis::NumberFluctuations::Where counts;
-        if (system.walls) {
-          counts = [walls = *system.walls, box = system.box()](const Vec2& centre, const Vec2& sides) {
-            const double reach = walls.arena == Arena::kChannel ? sides.y() / 2 : sides.norm() / 2;
-            return distance_to_walls(walls, box, Vec3(centre.x(), centre.y(), 0)) >= reach;
-          };
-        }
-        return std::make_unique<MeasuredFluctuations>(
-            analysis::NumberFluctuations(system.box(), system.area(), 2 * system.rod.length, counts));
-      },
+      .make = measure_fluctuations,
       .arrays =
           {
               {"area_fraction", "area of a counting box as a fraction of the whole area"},

@@ -4,18 +4,20 @@
 #include "analysis/blocked.h"
 #include "analysis/director_fluctuations.h"
 #include "run/measure/estimates.h"
+#include "run/measure/measured.h"
 #include "run/measure/measurement_kinds.h"
 
 namespace shaken::run {
 namespace {
 
-class MeasuredFrank : public Measurement {
- public:
-  MeasuredFrank(double box_side, double q_max) : waves_(analysis::DirectorFluctuations(box_side, q_max)) {}
-
-  void sample(const Sample& sample) override { waves_.accumulate(sample->time, sample->position, sample->director); }
-  void reduce(Reduction& result) const override {
-    const analysis::DirectorSpectrum spectrum = analysis::DirectorFluctuations::reduce(waves_, result.t_steady);
+std::unique_ptr<Measurement> measure_frank(const MeasureContext& context) {
+  const System& system = context.plan.system;
+  // Elasticity is of waves long against a rod, three of them at least; the four longest of the box are always taken.
+  const double three_rods = 2 * kPi / (3 * system.rod.length);
+  const double longest = 2 * kPi / system.box_side * 1.5;
+  const auto sample = [](const Sample& now, auto& waves) { waves.accumulate(now->time, now->position, now->director); };
+  const auto reduce = [](Reduction& result, const auto& waves) {
+    const analysis::DirectorSpectrum spectrum = analysis::DirectorFluctuations::reduce(waves, result.t_steady);
     result.arrays["/frank/q_along_per_mm"] = spectrum.q_along;
     result.arrays["/frank/q_across_per_mm"] = spectrum.q_across;
     result.arrays["/frank/fit_mm2"] = spectrum.fit;
@@ -25,13 +27,10 @@ class MeasuredFrank : public Measurement {
     result.scalars["frank_bend"] = scalar(spectrum.bend);
     result.scalars["frank_chi2"].value = spectrum.chi2;
     result.scalars["frank_floor_mm2"].value = spectrum.floor;
-  }
-  void save(StateWriter& writer) const override { waves_.save(writer); }
-  void restore(StateReader& reader) override { waves_.restore(reader); }
-
- private:
-  analysis::Blocked<analysis::DirectorFluctuations> waves_;
-};
+  };
+  return measured(sample, reduce,
+                  analysis::Blocked(analysis::DirectorFluctuations(system.box_side, std::max(three_rods, longest))));
+}
 
 }  // namespace
 
@@ -39,14 +38,7 @@ MeasurementKind frank_kind() {
   return {
       .name = "frank",
       .sources = "director_fluctuations, wave_sums",
-      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
-        const System& system = context.plan.system;
-        // Elasticity is of waves long against a rod, three of them at least; the four longest of the box are always
-        // taken.
-        const double three_rods = 2 * kPi / (3 * system.rod.length);
-        const double longest = 2 * kPi / system.box_side * 1.5;
-        return std::make_unique<MeasuredFrank>(system.box_side, std::max(three_rods, longest));
-      },
+      .make = measure_frank,
       .arrays =
           {
               {"q_along_per_mm", "wave vectors, one entry each: component along the director"},

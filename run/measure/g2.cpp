@@ -4,23 +4,22 @@
 #include "analysis/blocked.h"
 #include "analysis/region.h"
 #include "run/measure/estimates.h"
+#include "run/measure/measured.h"
 #include "run/measure/measurement_kinds.h"
 
 namespace shaken::run {
 namespace {
 
-class MeasuredG2 : public Measurement {
- public:
-  MeasuredG2(int bins, const analysis::Region& region)
-      : region_(region), g2_(analysis::OrientationCorrelation(bins, region.box().shorter() / 2)) {}
-
-  void sample(const Sample& sample) override {
-    g2_.accumulate(sample->time, sample->position, sample->director, region_);
-  }
-  void reduce(Reduction& result) const override {
-    result.arrays["/g2/r_mm"] = g2_.empty().reduce().r;
+std::unique_ptr<Measurement> measure_g2(const MeasureContext& context) {
+  const System& system = context.plan.system;
+  const analysis::Region region(system.box(), system.walls);
+  const auto sample = [region](const Sample& now, auto& pairs) {
+    pairs.accumulate(now->time, now->position, now->director, region);
+  };
+  const auto reduce = [](Reduction& result, const auto& pairs) {
+    result.arrays["/g2/r_mm"] = pairs.empty().reduce().r;
     // Both curves one behind the other.
-    const auto numbers = block_estimates(g2_, result.t_steady, [](const analysis::OrientationCorrelation& part) {
+    const auto numbers = block_estimates(pairs, result.t_steady, [](const analysis::OrientationCorrelation& part) {
       analysis::OrientationCurve curve = part.reduce();
       curve.g2.insert(curve.g2.end(), curve.g.begin(), curve.g.end());
       return curve.g2;
@@ -31,14 +30,11 @@ class MeasuredG2 : public Measurement {
     }
     put(result, "/g2/g2", "", g2);
     put(result, "/g2/g", "", g);
-  }
-  void save(StateWriter& writer) const override { g2_.save(writer); }
-  void restore(StateReader& reader) override { g2_.restore(reader); }
-
- private:
-  analysis::Region region_;
-  analysis::Blocked<analysis::OrientationCorrelation> g2_;
-};
+  };
+  return measured(
+      sample, reduce,
+      analysis::Blocked(analysis::OrientationCorrelation(context.plan.g2->bins, system.box().shorter() / 2)));
+}
 
 }  // namespace
 
@@ -46,10 +42,7 @@ MeasurementKind g2_kind() {
   return {
       .name = "g2",
       .sources = "g2, region",
-      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
-        const System& system = context.plan.system;
-        return std::make_unique<MeasuredG2>(context.plan.g2->bins, analysis::Region(system.box(), system.walls));
-      },
+      .make = measure_g2,
       .arrays =
           {
               {"r_mm", "bin centres"},

@@ -4,19 +4,20 @@
 #include <cmath>
 
 #include "run/measure/estimates.h"
+#include "run/measure/measured.h"
 #include "run/measure/measurement_kinds.h"
 
 namespace shaken::run {
 namespace {
 
 /// Layers: their spectrum, wavelength and order.
-class MeasuredLayers : public Measurement {
- public:
-  MeasuredLayers(const Box& box, double shortest) : layers_(analysis::LayerOrder(box, shortest)) {}
-
-  void sample(const Sample& sample) override { layers_.accumulate(sample->time, sample->position, sample->director); }
-  void reduce(Reduction& result) const override {
-    const analysis::LayerOrder layers = layers_.after(result.t_steady);
+std::unique_ptr<Measurement> measure_layers(const MeasureContext& context) {
+  const System& system = context.plan.system;
+  const auto sample = [](const Sample& now, auto& blocks) {
+    blocks.accumulate(now->time, now->position, now->director);
+  };
+  const auto reduce = [](Reduction& result, const auto& blocks) {
+    const analysis::LayerOrder layers = blocks.after(result.t_steady);
     const analysis::LayerSpectrum spectrum = layers.reduce();
     result.arrays["/layers/q_per_mm"] = spectrum.q;
     result.arrays["/layers/spectrum_across"] = spectrum.across;
@@ -24,7 +25,7 @@ class MeasuredLayers : public Measurement {
     const std::optional<analysis::LayerPeak> peak = layers.peak();
     if (!peak) return;
     // The errors are those of the one peak, not of which is the highest; and of the steps in which waves fit the box.
-    const auto found = block_estimates(layers_, result.t_steady, [&](const analysis::LayerOrder& part) {
+    const auto found = block_estimates(blocks, result.t_steady, [&](const analysis::LayerOrder& part) {
       const analysis::LayerPeak same = part.peak_at(peak->m, peak->n);
       return std::vector<double>{same.wavelength, same.side / same.wavelength, same.order};
     });
@@ -37,13 +38,9 @@ class MeasuredLayers : public Measurement {
     result.scalars["wavelength_mm"] = with_steps(found[0], peak->wavelength * peak->wavelength / peak->side);
     result.scalars["layers_per_box"] = with_steps(found[1], 1);
     result.scalars["layer_order"] = found[2];
-  }
-  void save(StateWriter& writer) const override { layers_.save(writer); }
-  void restore(StateReader& reader) override { layers_.restore(reader); }
-
- private:
-  analysis::Blocked<analysis::LayerOrder> layers_;
-};
+  };
+  return measured(sample, reduce, analysis::Blocked(analysis::LayerOrder(system.box(), system.rod.length / 2)));
+}
 
 }  // namespace
 
@@ -51,10 +48,7 @@ MeasurementKind layers_kind() {
   return {
       .name = "layers",
       .sources = "layers, wave_sums",
-      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
-        const System& system = context.plan.system;
-        return std::make_unique<MeasuredLayers>(system.box(), system.rod.length / 2);
-      },
+      .make = measure_layers,
       .arrays =
           {
               {"q_per_mm", "wave numbers 2πk/L, L being the longer side of the box"},

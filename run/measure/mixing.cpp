@@ -3,12 +3,12 @@
 
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "analysis/blocked.h"
 #include "analysis/region.h"
 #include "run/measure/estimates.h"
+#include "run/measure/measured.h"
 #include "run/measure/measurement_kinds.h"
 
 namespace shaken::run {
@@ -25,41 +25,33 @@ std::vector<int> numbers_of(const System& system) {
   return numbers;
 }
 
-class MeasuredMixing : public Measurement {
- public:
-  MeasuredMixing(const System& system, const Cell& cell, int bins, double near)
-      : numbers_(numbers_of(system)),
-        region_(system.box(), system.walls),
-        species_of_rod_(cell.species_of_rods()),
-        mixing_(PairMixing(numbers_.size(), bins, system.box().shorter() / 2, near)) {}
-
-  void sample(const Sample& sample) override {
-    mixing_.accumulate(sample->time, sample.all().position, species_of_rod_, region_);
-  }
-  void reduce(Reduction& result) const override {
-    const analysis::MixingCurves curves = mixing_.after(result.t_steady).reduce();
-    const auto errors = block_errors(mixing_, result.t_steady, [](const PairMixing& part) { return part.reduce().g; });
+std::unique_ptr<Measurement> measure_mixing(const MeasureContext& context) {
+  const System& system = context.run.system;
+  const scene::MeasureMixing& settings = *context.plan.mixing;
+  const std::vector<int> species = numbers_of(system);
+  const analysis::Region region(system.box(), system.walls);
+  const double near = settings.distance_for(system.rod.length, system.box().shorter());
+  const auto sample = [region, species_of_rod = context.cell.species_of_rods()](const Sample& now, auto& mixing) {
+    mixing.accumulate(now->time, now.all().position, species_of_rod, region);
+  };
+  const auto reduce = [species](Reduction& result, const auto& mixing) {
+    const analysis::MixingCurves curves = mixing.after(result.t_steady).reduce();
+    const auto errors = block_errors(mixing, result.t_steady, [](const PairMixing& part) { return part.reduce().g; });
     const auto numbers =
-        block_estimates(mixing_, result.t_steady, [](const PairMixing& part) { return part.reduce().segregation; });
+        block_estimates(mixing, result.t_steady, [](const PairMixing& part) { return part.reduce().segregation; });
     result.arrays["/mixing/r_mm"] = curves.r;
-    for (std::size_t a = 0; a < numbers_.size(); ++a) {
-      for (std::size_t b = a; b < numbers_.size(); ++b) {
-        const std::size_t kind = PairMixing::pair_kind(numbers_.size(), a, b);
-        const std::string pair = std::to_string(numbers_[a]) + std::to_string(numbers_[b]);
+    for (std::size_t a = 0; a < species.size(); ++a) {
+      for (std::size_t b = a; b < species.size(); ++b) {
+        const std::size_t kind = PairMixing::pair_kind(species.size(), a, b);
+        const std::string pair = std::to_string(species[a]) + std::to_string(species[b]);
         put(result, "/mixing/g_" + pair, "", analysis::EstimateCurve{curves.g[kind], errors[kind]});
         if (a != b) result.scalars["segregation_" + pair] = numbers[kind];
       }
     }
-  }
-  void save(StateWriter& writer) const override { mixing_.save(writer); }
-  void restore(StateReader& reader) override { mixing_.restore(reader); }
-
- private:
-  std::vector<int> numbers_;
-  analysis::Region region_;
-  std::vector<std::uint8_t> species_of_rod_;
-  analysis::Blocked<PairMixing> mixing_;
-};
+  };
+  return measured(sample, reduce,
+                  analysis::Blocked(PairMixing(species.size(), settings.bins, system.box().shorter() / 2, near)));
+}
 
 }  // namespace
 
@@ -67,12 +59,7 @@ MeasurementKind mixing_kind() {
   return {
       .name = "mixing",
       .sources = "mixing, pair_bins, region",
-      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
-        const System& system = context.run.system;
-        const scene::MeasureMixing& settings = *context.plan.mixing;
-        return std::make_unique<MeasuredMixing>(system, context.cell, settings.bins,
-                                                settings.distance_for(system.rod.length, system.box().shorter()));
-      },
+      .make = measure_mixing,
       .arrays =
           {
               {"r_mm", "bin centres"},

@@ -2,10 +2,10 @@
 #include "analysis/msd.h"
 
 #include <cmath>
-#include <optional>
 
 #include "analysis/steady.h"
 #include "run/measure/estimates.h"
+#include "run/measure/measured.h"
 #include "run/measure/measurement_kinds.h"
 
 namespace shaken::run {
@@ -16,18 +16,15 @@ Scalar read_off(const analysis::Estimate& estimate, const analysis::GrowthFit& f
                                                       : "nothing moves");
 }
 
-class MeasuredDisplacement : public Measurement {
- public:
-  MeasuredDisplacement(double interval, std::optional<double> steady, int n_rods)
-      : steady_(steady), n_rods_(n_rods), msd_(interval, static_cast<std::size_t>(n_rods)) {}
-
-  void sample(const Sample& sample) override {
-    if (!analysis::is_steady(sample->time, steady_.value_or(0.0))) return;
-    msd_.accumulate(sample->time, sample.unwrapped(), sample.order().director);
-  }
-  void reduce(Reduction& result) const override {
-    const double from = steady_.value_or(result.t_steady);
-    const analysis::MsdCurve curve = msd_.reduce(from);
+std::unique_ptr<Measurement> measure_msd(const MeasureContext& context) {
+  const auto sample = [steady = context.plan.steady](const Sample& now, auto& msd) {
+    if (!analysis::is_steady(now->time, steady.value_or(0.0))) return;
+    msd.accumulate(now->time, now.unwrapped(), now.order().director);
+  };
+  const auto reduce = [n_rods = context.plan.system.n_rods, steady = context.plan.steady](Reduction& result,
+                                                                                          const auto& msd) {
+    const double from = steady.value_or(result.t_steady);
+    const analysis::MsdCurve curve = msd.reduce(from);
     result.arrays["/msd/lag_s"] = curve.lag;
     put(result, "/msd/total", "_mm2", curve.total);
     put(result, "/msd/along", "_mm2", curve.along);
@@ -39,15 +36,14 @@ class MeasuredDisplacement : public Measurement {
     put(result, "/msd/d_total", "_mm2_s", curve.d_total);
     put(result, "/msd/d_along", "_mm2_s", curve.d_along);
     put(result, "/msd/d_across", "_mm2_s", curve.d_across);
-    const analysis::Diffusion diffusion = msd_.diffusion(from);
+    const analysis::Diffusion diffusion = msd.diffusion(from);
     const analysis::ShortAndLong &total = diffusion.total, &along = diffusion.along, &across = diffusion.across;
     result.scalars["diffusion_mm2_s"] = read_off(diffusion.d_long, total.at_long);
     result.scalars["diffusion_short_mm2_s"] = read_off(diffusion.d_short, total.at_short);
     result.scalars["diffusion_along_mm2_s"] = read_off(diffusion.d_along, along.at_long);
     result.scalars["diffusion_across_mm2_s"] = read_off(diffusion.d_across, across.at_long);
-    result.scalars["diffusion_relative_mm2_s"] = n_rods_ > 1
-                                                     ? read_off(diffusion.d_relative, diffusion.relative.at_long)
-                                                     : Scalar{{}, "a single rod has no motion but that of all"};
+    result.scalars["diffusion_relative_mm2_s"] = n_rods > 1 ? read_off(diffusion.d_relative, diffusion.relative.at_long)
+                                                            : Scalar{{}, "a single rod has no motion but that of all"};
     result.scalars["alpha_short"] = read_off(total.at_short.exponent, total.at_short);
     result.scalars["alpha_long"] = read_off(total.at_long.exponent, total.at_long);
     result.scalars["alpha_along_short"] = read_off(along.at_short.exponent, along.at_short);
@@ -58,15 +54,11 @@ class MeasuredDisplacement : public Measurement {
     result.scalars["diffusion_lag_to_s"] = {{total.at_long.lag_to}};
     result.scalars["diffusion_short_lag_from_s"] = {{total.at_short.lag_from}};
     result.scalars["diffusion_short_lag_to_s"] = {{total.at_short.lag_to}};
-  }
-  void save(StateWriter& writer) const override { msd_.save(writer); }
-  void restore(StateReader& reader) override { msd_.restore(reader); }
-
- private:
-  std::optional<double> steady_;  ///< [s]; given, it leaves out what is before, or else the reduction does
-  int n_rods_;
-  analysis::MeanSquareDisplacement msd_;
-};
+  };
+  return measured(
+      sample, reduce,
+      analysis::MeanSquareDisplacement(context.interval, static_cast<std::size_t>(context.plan.system.n_rods)));
+}
 
 }  // namespace
 
@@ -74,10 +66,7 @@ MeasurementKind msd_kind() {
   return {
       .name = "msd",
       .sources = "msd, lag_fits, lag_average",
-      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
-        return std::make_unique<MeasuredDisplacement>(context.interval, context.plan.steady,
-                                                      context.plan.system.n_rods);
-      },
+      .make = measure_msd,
       .arrays =
           {
               {"lag_s", "lags"},

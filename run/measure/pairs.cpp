@@ -5,20 +5,23 @@
 #include "analysis/oscillation.h"
 #include "analysis/pair_map.h"
 #include "run/measure/estimates.h"
+#include "run/measure/measured.h"
 #include "run/measure/measurement_kinds.h"
 
 namespace shaken::run {
 namespace {
 
 /// g and G2 in the frame of the director, and the wavelength of layers as G2 across it tells.
-class MeasuredPairs : public Measurement {
- public:
-  MeasuredPairs(const analysis::PairMap::Shape& shape, double rod_length)
-      : rod_length_(rod_length), pairs_(analysis::PairMap(shape)) {}
-
-  void sample(const Sample& sample) override { pairs_.accumulate(sample->time, sample->position, sample->director); }
-  void reduce(Reduction& result) const override {
-    const analysis::PairCurves curves = pairs_.after(result.t_steady).reduce();
+std::unique_ptr<Measurement> measure_pairs(const MeasureContext& context) {
+  const scene::MeasurePairs& settings = *context.plan.pairs;
+  const Box box = context.plan.system.box();
+  const double width = 2 * context.species.max_radius;
+  const double rod_length = context.plan.system.rod.length, range = settings.range_for(rod_length, box.shorter());
+  const analysis::PairMap::Shape shape{settings.bins, std::min(range, box.shorter() / 2),
+                                       std::min(width, box.shorter() / 2), box};
+  const auto sample = [](const Sample& now, auto& pairs) { pairs.accumulate(now->time, now->position, now->director); };
+  const auto reduce = [rod_length](Reduction& result, const auto& pairs) {
+    const analysis::PairCurves curves = pairs.after(result.t_steady).reduce();
     result.arrays["/pairs/along_mm"] = curves.along;
     result.arrays["/pairs/across_mm"] = curves.across;
     result.arrays["/pairs/g"] = curves.g;
@@ -28,7 +31,7 @@ class MeasuredPairs : public Measurement {
     result.arrays["/pairs/cut/g_across"] = curves.g_across;
     result.arrays["/pairs/cut/g2_along"] = curves.g2_along;
     result.arrays["/pairs/cut/g2_across"] = curves.g2_across;
-    const auto errors = block_errors(pairs_, result.t_steady, [](const analysis::PairMap& part) {
+    const auto errors = block_errors(pairs, result.t_steady, [](const analysis::PairMap& part) {
       const analysis::PairCurves cut = part.reduce();
       return std::vector{cut.g_along, cut.g_across, cut.g2_along, cut.g2_across};
     });
@@ -38,20 +41,15 @@ class MeasuredPairs : public Measurement {
     }
     // Rods side by side make ripples of their distances, and of multiples of these where they are crystalline. A layer
     // is half a period: it is taken for one only where it is as wide as its rods are long.
-    const auto wavelength = block_estimates(pairs_, result.t_steady, [&](const analysis::PairMap& pairs) {
+    const auto wavelength = block_estimates(pairs, result.t_steady, [&](const analysis::PairMap& part) {
       constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-      const analysis::PairCurves cut = pairs.reduce();
-      return std::vector<double>{analysis::first_period(cut.r, cut.g2_across, rod_length_).value_or(kNone)};
+      const analysis::PairCurves cut = part.reduce();
+      return std::vector<double>{analysis::first_period(cut.r, cut.g2_across, rod_length).value_or(kNone)};
     });
     result.scalars["wavelength_g2_mm"] = wavelength[0];
-  }
-  void save(StateWriter& writer) const override { pairs_.save(writer); }
-  void restore(StateReader& reader) override { pairs_.restore(reader); }
-
- private:
-  double rod_length_;  ///< [mm]
-  analysis::Blocked<analysis::PairMap> pairs_;
-};
+  };
+  return measured(sample, reduce, analysis::Blocked(analysis::PairMap(shape)));
+}
 
 }  // namespace
 
@@ -59,15 +57,7 @@ MeasurementKind pairs_kind() {
   return {
       .name = "pairs",
       .sources = "pair_map, oscillation",
-      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
-        const scene::MeasurePairs& pairs = *context.plan.pairs;
-        const Box box = context.plan.system.box();
-        const double width = 2 * context.species.max_radius;
-        const double length = context.plan.system.rod.length, range = pairs.range_for(length, box.shorter());
-        return std::make_unique<MeasuredPairs>(analysis::PairMap::Shape{pairs.bins, std::min(range, box.shorter() / 2),
-                                                                        std::min(width, box.shorter() / 2), box},
-                                               length);
-      },
+      .make = measure_pairs,
       .arrays =
           {
               {"along_mm", "(bins) bin centres along the director"},

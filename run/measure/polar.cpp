@@ -2,28 +2,27 @@
 #include "analysis/blocked.h"
 #include "analysis/polar_order.h"
 #include "run/measure/estimates.h"
+#include "run/measure/measured.h"
 #include "run/measure/measurement_kinds.h"
 
 namespace shaken::run {
 namespace {
 
-class MeasuredPolar : public Measurement {
- public:
-  explicit MeasuredPolar(int n_rods) : n_rods_(n_rods) {}
-
-  void sample(const Sample& sample) override {
-    const analysis::PolarOrder order = analysis::polar_order(sample->director);
-    series_.accumulate(sample->time, order);
-    statistics_.accumulate(sample->time, sample->director, sample->velocity, order);
-  }
-  void reduce(Reduction& result) const override {
-    result.arrays["/polar/time_s"] = series_.times();
-    result.arrays["/polar/order"] = series_.orders();
-    result.arrays["/polar/direction_rad"] = series_.directions();
-    const auto numbers = block_estimates(statistics_, result.t_steady, [&](const analysis::PolarStatistics& part) {
+std::unique_ptr<Measurement> measure_polar(const MeasureContext& context) {
+  const auto sample = [](const Sample& now, auto& series, auto& statistics) {
+    const analysis::PolarOrder order = analysis::polar_order(now->director);
+    series.accumulate(now->time, order);
+    statistics.accumulate(now->time, now->director, now->velocity, order);
+  };
+  const auto reduce = [n_rods = context.plan.system.n_rods](Reduction& result, const auto& series,
+                                                            const auto& statistics) {
+    result.arrays["/polar/time_s"] = series.times();
+    result.arrays["/polar/order"] = series.orders();
+    result.arrays["/polar/direction_rad"] = series.directions();
+    const auto numbers = block_estimates(statistics, result.t_steady, [&](const analysis::PolarStatistics& part) {
       const analysis::PolarNumbers found = part.reduce();
-      return std::vector<double>{found.order,     n_rods_ * found.variance, found.forward,
-                                 found.along_rms, found.across_rms,         found.velocity_polarity};
+      return std::vector<double>{found.order,     n_rods * found.variance, found.forward,
+                                 found.along_rms, found.across_rms,        found.velocity_polarity};
     });
     result.scalars["P"] = numbers[0];
     result.scalars["polar_susceptibility"] = numbers[1];
@@ -31,21 +30,9 @@ class MeasuredPolar : public Measurement {
     result.scalars["v_along_rms_mm_s"] = numbers[3];
     result.scalars["v_across_rms_mm_s"] = numbers[4];
     result.scalars["velocity_polarity"] = numbers[5];
-  }
-  void save(StateWriter& writer) const override {
-    series_.save(writer);
-    statistics_.save(writer);
-  }
-  void restore(StateReader& reader) override {
-    series_.restore(reader);
-    statistics_.restore(reader);
-  }
-
- private:
-  int n_rods_;
-  analysis::PolarSeries series_;
-  analysis::Blocked<analysis::PolarStatistics> statistics_{analysis::PolarStatistics()};
-};
+  };
+  return measured(sample, reduce, analysis::PolarSeries(), analysis::Blocked(analysis::PolarStatistics()));
+}
 
 }  // namespace
 
@@ -53,9 +40,7 @@ MeasurementKind polar_kind() {
   return {
       .name = "polar",
       .sources = "polar_order",
-      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
-        return std::make_unique<MeasuredPolar>(context.plan.system.n_rods);
-      },
+      .make = measure_polar,
       .arrays =
           {
               {"time_s", "times of P(t); of more than 65,536 samples, each point is a mean of several"},

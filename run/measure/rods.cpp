@@ -3,37 +3,31 @@
 
 #include "analysis/rod_traces.h"
 #include "analysis/steady.h"
+#include "run/measure/measured.h"
 #include "run/measure/measurement_kinds.h"
 
 namespace shaken::run {
 namespace {
 
-class MeasuredRods : public Measurement {
- public:
-  MeasuredRods(const scene::MeasureRods& rods, double from) : from_(from), traces_(rods.count, rods.duration) {}
-
-  void sample(const Sample& sample) override {
-    if (!analysis::is_steady(sample->time, from_)) return;
-    traces_.accumulate(sample->time, sample.unwrapped(), sample->director);
-  }
-  void reduce(Reduction& result) const override {
-    result.arrays["/rods/trace/time_s"] = traces_.times();
-    for (std::size_t k = 0; k < traces_.traces().size(); ++k) {
-      const analysis::RodTrace& trace = traces_.traces()[k];
+std::unique_ptr<Measurement> measure_rods(const MeasureContext& context) {
+  const scene::MeasureRods& settings = *context.plan.rods;
+  const auto sample = [from = context.plan.steady.value_or(0.0)](const Sample& now, auto& traces) {
+    if (!analysis::is_steady(now->time, from)) return;
+    traces.accumulate(now->time, now.unwrapped(), now->director);
+  };
+  const auto reduce = [](Reduction& result, const auto& traces) {
+    result.arrays["/rods/trace/time_s"] = traces.times();
+    for (std::size_t k = 0; k < traces.traces().size(); ++k) {
+      const analysis::RodTrace& trace = traces.traces()[k];
       const std::string path = "/rods/trace/" + std::to_string(k) + "/";
       result.arrays[path + "x_mm"] = trace.x;
       result.arrays[path + "y_mm"] = trace.y;
       result.arrays[path + "theta_rad"] = trace.theta;
       result.arrays[path + "n_z"] = trace.n_z;
     }
-  }
-  void save(StateWriter& writer) const override { traces_.save(writer); }
-  void restore(StateReader& reader) override { traces_.restore(reader); }
-
- private:
-  double from_;  ///< [s]
-  analysis::RodTraces traces_;
-};
+  };
+  return measured(sample, reduce, analysis::RodTraces(settings.count, settings.duration));
+}
 
 }  // namespace
 
@@ -41,9 +35,7 @@ MeasurementKind rods_kind() {
   return {
       .name = "rods",
       .sources = "rod_traces",
-      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
-        return std::make_unique<MeasuredRods>(*context.plan.rods, context.plan.steady.value_or(0.0));
-      },
+      .make = measure_rods,
       .arrays =
           {
               {"trace/time_s", "times of the samples of single rods"},

@@ -1,30 +1,26 @@
 // SPDX-License-Identifier: MIT
 #include "analysis/rotation.h"
 
-#include <optional>
-
 #include "analysis/steady.h"
 #include "run/measure/estimates.h"
+#include "run/measure/measured.h"
 #include "run/measure/measurement_kinds.h"
 
 namespace shaken::run {
 namespace {
 
-class MeasuredRotation : public Measurement {
- public:
-  MeasuredRotation(double interval, std::optional<double> steady) : steady_(steady), rotation_(interval) {}
-
-  void sample(const Sample& sample) override {
-    if (!analysis::is_steady(sample->time, steady_.value_or(0.0))) return;
-    rotation_.accumulate(sample->time, sample->director);
-  }
-  void reduce(Reduction& result) const override {
-    const double from = steady_.value_or(result.t_steady);
-    const analysis::RotationCurve curve = rotation_.reduce(from);
+std::unique_ptr<Measurement> measure_rotation(const MeasureContext& context) {
+  const auto sample = [steady = context.plan.steady](const Sample& now, auto& rotation) {
+    if (!analysis::is_steady(now->time, steady.value_or(0.0))) return;
+    rotation.accumulate(now->time, now->director);
+  };
+  const auto reduce = [steady = context.plan.steady](Reduction& result, const auto& rotation) {
+    const double from = steady.value_or(result.t_steady);
+    const analysis::RotationCurve curve = rotation.reduce(from);
     result.arrays["/rotation/lag_s"] = curve.lag;
     put(result, "/rotation/msad", "_rad2", curve.msad);
     put(result, "/rotation/c2", "", curve.c2);
-    const analysis::RotationSummary summary = rotation_.summarize(from);
+    const analysis::RotationSummary summary = rotation.summarize(from);
     result.scalars["rotational_diffusion_rad2_s"] = scalar(summary.d_r);
     result.scalars["alpha_rotation_short"] = scalar(summary.growth.at_short.exponent);
     result.scalars["alpha_rotation_long"] = scalar(summary.growth.at_long.exponent);
@@ -35,14 +31,9 @@ class MeasuredRotation : public Measurement {
     result.scalars["rotation_lag_to_s"] = {{summary.growth.at_long.lag_to}};
     result.scalars["rotation_short_lag_from_s"] = {{summary.growth.at_short.lag_from}};
     result.scalars["rotation_short_lag_to_s"] = {{summary.growth.at_short.lag_to}};
-  }
-  void save(StateWriter& writer) const override { rotation_.save(writer); }
-  void restore(StateReader& reader) override { rotation_.restore(reader); }
-
- private:
-  std::optional<double> steady_;  ///< [s]; given, it leaves out what is before, or else the reduction does
-  analysis::Rotation rotation_;
-};
+  };
+  return measured(sample, reduce, analysis::Rotation(context.interval));
+}
 
 }  // namespace
 
@@ -50,9 +41,7 @@ MeasurementKind rotation_kind() {
   return {
       .name = "rotation",
       .sources = "rotation, lag_fits, lag_average",
-      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
-        return std::make_unique<MeasuredRotation>(context.interval, context.plan.steady);
-      },
+      .make = measure_rotation,
       .arrays =
           {
               {"lag_s", "lags"},

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <optional>
 #include <string>
 
 #include "analysis/self_scattering.h"
 #include "analysis/steady.h"
 #include "run/measure/estimates.h"
+#include "run/measure/measured.h"
 #include "run/measure/measurement_kinds.h"
 
 namespace shaken::run {
@@ -20,18 +20,15 @@ analysis::EstimateCurve row_by_row(const std::array<analysis::EstimateCurve, ana
   return rows;
 }
 
-class MeasuredScattering : public Measurement {
- public:
-  MeasuredScattering(double interval, double wavelength, std::optional<double> steady)
-      : steady_(steady), scattering_(interval, wavelength) {}
-
-  void sample(const Sample& sample) override {
-    if (!analysis::is_steady(sample->time, steady_.value_or(0.0))) return;
-    scattering_.accumulate(sample->time, sample.unwrapped(), sample.order().director);
-  }
-  void reduce(Reduction& result) const override {
-    const analysis::ScatteringCurve curve = scattering_.reduce(steady_.value_or(result.t_steady));
-    result.arrays["/scattering/q_per_mm"] = scattering_.wave_numbers();
+std::unique_ptr<Measurement> measure_scattering(const MeasureContext& context) {
+  const double wavelength = context.plan.scattering->wavelength_for(context.plan.system.rod.length);
+  const auto sample = [steady = context.plan.steady](const Sample& now, auto& scattering) {
+    if (!analysis::is_steady(now->time, steady.value_or(0.0))) return;
+    scattering.accumulate(now->time, now.unwrapped(), now.order().director);
+  };
+  const auto reduce = [steady = context.plan.steady](Reduction& result, const auto& scattering) {
+    const analysis::ScatteringCurve curve = scattering.reduce(steady.value_or(result.t_steady));
+    result.arrays["/scattering/q_per_mm"] = scattering.wave_numbers();
     result.arrays["/scattering/lag_s"] = curve.lag;
     put(result, "/scattering/f", "", row_by_row(curve.mean));
     put(result, "/scattering/f_along", "", row_by_row(curve.along));
@@ -45,14 +42,9 @@ class MeasuredScattering : public Measurement {
     }
     result.scalars["alpha_2_peak"] = scalar(summary.alpha_2_peak);
     result.scalars["alpha_2_peak_lag_s"] = {{summary.alpha_2_peak_lag}};
-  }
-  void save(StateWriter& writer) const override { scattering_.save(writer); }
-  void restore(StateReader& reader) override { scattering_.restore(reader); }
-
- private:
-  std::optional<double> steady_;  ///< [s]; given, it leaves out what is before, or else the reduction does
-  analysis::SelfScattering scattering_;
-};
+  };
+  return measured(sample, reduce, analysis::SelfScattering(context.interval, wavelength));
+}
 
 constexpr const char* kNotRelaxed = "F_s does not fall to 1/e within the lags measured";
 
@@ -62,10 +54,7 @@ MeasurementKind scattering_kind() {
   return {
       .name = "scattering",
       .sources = "self_scattering, lag_average",
-      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
-        const double wavelength = context.plan.scattering->wavelength_for(context.plan.system.rod.length);
-        return std::make_unique<MeasuredScattering>(context.interval, wavelength, context.plan.steady);
-      },
+      .make = measure_scattering,
       .arrays =
           {
               {"q_per_mm", "(4) wave numbers q"},

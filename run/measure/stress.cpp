@@ -2,10 +2,10 @@
 #include "analysis/stress.h"
 
 #include <array>
-#include <optional>
 #include <string>
 
 #include "run/measure/estimates.h"
+#include "run/measure/measured.h"
 #include "run/measure/measurement_kinds.h"
 
 namespace shaken::run {
@@ -13,40 +13,31 @@ namespace {
 
 constexpr std::array kComponents{"xx", "xy", "yx", "yy"};
 
-class MeasuredStress : public Measurement {
- public:
-  MeasuredStress(std::optional<double> steady, const scene::RunPlan& run)
-      : steady_(steady), area_(run.system.area()), n_rods_(static_cast<std::size_t>(run.system.n_all_rods())) {}
-
-  void sample(const Sample& sample) override {
-    series_.accumulate(sample->time, sample.totals().stress, area_, sample.order().director);
-  }
-  void reduce(Reduction& result) const override {
+std::unique_ptr<Measurement> measure_stress(const MeasureContext& context) {
+  const double area = context.run.system.area();
+  const auto n_rods = static_cast<std::size_t>(context.run.system.n_all_rods());
+  const auto sample = [area](const Sample& now, auto& series) {
+    series.accumulate(now->time, now.totals().stress, area, now.order().director);
+  };
+  const auto reduce = [n_rods, steady = context.plan.steady](Reduction& result, const auto& series) {
     const auto numbers =
-        block_estimates(series_.sums(), steady_.value_or(result.t_steady), [&](const analysis::PressureSums& part) {
-          const analysis::Pressure p = part.reduce(n_rods_);
+        block_estimates(series.sums(), steady.value_or(result.t_steady), [&](const analysis::PressureSums& part) {
+          const analysis::Pressure p = part.reduce(n_rods);
           return std::vector<double>{p.kinetic + p.collisional, p.collisional, p.along, p.across};
         });
-    result.arrays["/stress/time_s"] = series_.times();
+    result.arrays["/stress/time_s"] = series.times();
     for (std::size_t k = 0; k < kComponents.size(); ++k) {
-      result.arrays[std::string("/stress/kinetic_") + kComponents[k] + "_pJ_mm2"] = series_.kinetic(k);
-      result.arrays[std::string("/stress/collisional_") + kComponents[k] + "_pJ_mm2"] = series_.collisional(k);
+      result.arrays[std::string("/stress/kinetic_") + kComponents[k] + "_pJ_mm2"] = series.kinetic(k);
+      result.arrays[std::string("/stress/collisional_") + kComponents[k] + "_pJ_mm2"] = series.collisional(k);
     }
     const char* const names[] = {"pressure", "pressure_collisional", "pressure_along", "pressure_across"};
     for (std::size_t k = 0; k < numbers.size(); ++k) {
       Scalar& pressure = result.scalars[std::string(names[k]) + "_pJ_mm2"] = numbers[k];
-      if (n_rods_ == 1 && !is_known(pressure)) pressure.reason = "a single rod has no motion but that of all";
+      if (n_rods == 1 && !is_known(pressure)) pressure.reason = "a single rod has no motion but that of all";
     }
-  }
-  void save(StateWriter& writer) const override { series_.save(writer); }
-  void restore(StateReader& reader) override { series_.restore(reader); }
-
- private:
-  std::optional<double> steady_;  ///< [s]
-  double area_;                   ///< [mm^2]
-  std::size_t n_rods_;            ///< of all species
-  analysis::StressSeries series_{n_rods_};
-};
+  };
+  return measured(sample, reduce, analysis::StressSeries(n_rods));
+}
 
 }  // namespace
 
@@ -54,9 +45,7 @@ MeasurementKind stress_kind() {
   return {
       .name = "stress",
       .sources = "stress",
-      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
-        return std::make_unique<MeasuredStress>(context.plan.steady, context.run);
-      },
+      .make = measure_stress,
       .arrays =
           {
               {"time_s", "ends of the times from one sample to the next, over which the following are means"},

@@ -7,6 +7,7 @@
 
 #include "analysis/blocked.h"
 #include "run/measure/estimates.h"
+#include "run/measure/measured.h"
 #include "run/measure/measurement_kinds.h"
 
 namespace shaken::run {
@@ -25,18 +26,18 @@ constexpr std::array<std::pair<Freedom, const char*>, analysis::kFreedoms> kFree
     {Freedom::kRotation, "rotation"},
 }};
 
-class MeasuredTemperatures : public Measurement {
- public:
-  explicit MeasuredTemperatures(std::vector<analysis::RodInertia> inertias) : inertias_(std::move(inertias)) {}
-
-  void sample(const Sample& sample) override {
+std::unique_ptr<Measurement> measure_temperatures(const MeasureContext& context) {
+  const std::vector inertias = context.of_rods([](const Species& rod) {
+    return analysis::RodInertia{rod.mass, rod.inertia_perp, rod.inertia_par};
+  });
+  const auto sample = [inertias](const Sample& now, auto& series, auto& statistics) {
     const analysis::Temperatures found =
-        analysis::granular_temperatures(sample->director, sample->velocity, sample->angular_velocity, inertias_);
-    series_.accumulate(sample->time, found);
-    statistics_.accumulate(sample->time, found, sample->velocity);
-  }
-  void reduce(Reduction& result) const override {
-    const auto means = block_estimates(statistics_, result.t_steady, [](const analysis::TemperatureStatistics& part) {
+        analysis::granular_temperatures(now->director, now->velocity, now->angular_velocity, inertias);
+    series.accumulate(now->time, found);
+    statistics.accumulate(now->time, found, now->velocity);
+  };
+  const auto reduce = [](Reduction& result, const auto& series, const auto& statistics) {
+    const auto means = block_estimates(statistics, result.t_steady, [](const analysis::TemperatureStatistics& part) {
       const analysis::Temperatures found = part.reduce();
       std::vector<double> numbers(found.begin(), found.end());
       const analysis::Speeds speeds = part.speeds();
@@ -45,26 +46,14 @@ class MeasuredTemperatures : public Measurement {
     });
     result.scalars["speed_rms_mm_s"] = means[analysis::kFreedoms];
     result.scalars["speed_mean_mm_s"] = means[analysis::kFreedoms + 1];
-    result.arrays["/temperatures/time_s"] = series_.times();
+    result.arrays["/temperatures/time_s"] = series.times();
     for (const auto& [freedom, name] : kFreedomNames) {
-      result.arrays[std::string("/temperatures/") + name + "_pJ"] = series_.of(freedom);
+      result.arrays[std::string("/temperatures/") + name + "_pJ"] = series.of(freedom);
       result.scalars[std::string("temperature_") + name + "_pJ"] = means[static_cast<std::size_t>(freedom)];
     }
-  }
-  void save(StateWriter& writer) const override {
-    series_.save(writer);
-    statistics_.save(writer);
-  }
-  void restore(StateReader& reader) override {
-    series_.restore(reader);
-    statistics_.restore(reader);
-  }
-
- private:
-  std::vector<analysis::RodInertia> inertias_;
-  analysis::TemperatureSeries series_;
-  analysis::Blocked<analysis::TemperatureStatistics> statistics_{analysis::TemperatureStatistics()};
-};
+  };
+  return measured(sample, reduce, analysis::TemperatureSeries(), analysis::Blocked(analysis::TemperatureStatistics()));
+}
 
 }  // namespace
 
@@ -72,11 +61,7 @@ MeasurementKind temperatures_kind() {
   return {
       .name = "temperatures",
       .sources = "temperatures",
-      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
-        return std::make_unique<MeasuredTemperatures>(context.of_rods([](const Species& rod) {
-          return analysis::RodInertia{rod.mass, rod.inertia_perp, rod.inertia_par};
-        }));
-      },
+      .make = measure_temperatures,
       .arrays =
           {
               {"time_s", "times of T(t); of more than 65,536 samples, each point is a mean of several"},

@@ -8,53 +8,44 @@
 #include "analysis/tilt_switches.h"
 #include "run/measure/estimates.h"
 #include "run/measure/largest_tilt.h"
+#include "run/measure/measured.h"
 #include "run/measure/measurement_kinds.h"
 
 namespace shaken::run {
 namespace {
 
-class MeasuredTilt : public Measurement {
- public:
-  MeasuredTilt(int bins, double n_z_max) : tilt_(analysis::TiltVelocity(bins, n_z_max)), switches_(n_z_max / 2) {}
-
-  void sample(const Sample& sample) override {
-    tilt_.accumulate(sample->time, sample->director, sample->velocity);
-    switches_.accumulate(sample->time, sample->director);
-  }
-  void reduce(Reduction& result) const override {
-    const std::vector<analysis::TiltVelocity> blocks = tilt_.parts_after(result.t_steady, analysis::kMostParts);
-    const analysis::TiltCurve curve = analysis::TiltVelocity::reduce(tilt_.empty(), blocks);
+std::unique_ptr<Measurement> measure_tilt(const MeasureContext& context) {
+  // Soft overlaps let rods tilt a little further; a gap that lets them stand gives the whole range.
+  double n_z_max = 1e-6;
+  for (const Species& size : context.sizes) n_z_max = std::max(n_z_max, largest_tilt(size, context.plan.system.gap));
+  const auto sample = [](const Sample& now, auto& tilt, auto& switches) {
+    tilt.accumulate(now->time, now->director, now->velocity);
+    switches.accumulate(now->time, now->director);
+  };
+  const auto reduce = [](Reduction& result, const auto& tilt, const auto& switches) {
+    const std::vector<analysis::TiltVelocity> blocks = tilt.parts_after(result.t_steady, analysis::kMostParts);
+    const analysis::TiltCurve curve = analysis::TiltVelocity::reduce(tilt.empty(), blocks);
     result.arrays["/tilt/n_z"] = curve.n_z;
     result.arrays["/tilt/v_along_mm_s"] = curve.v_along;
     result.arrays["/tilt/v_along_sem_mm_s"] = curve.v_along_sem;
     result.arrays["/tilt/v_across_mm_s"] = curve.v_across;
     result.arrays["/tilt/v_across_sem_mm_s"] = curve.v_across_sem;
     result.arrays["/tilt/density"] = curve.density;
-    const analysis::TiltSummary summary = analysis::summarize_tilt(tilt_.empty(), blocks);
+    const analysis::TiltSummary summary = analysis::summarize_tilt(tilt.empty(), blocks);
     result.arrays["/tilt/folded/n_z"] = summary.folded.n_z;
     put(result, "/tilt/folded/v_along", "_mm_s", summary.folded.v_along);
     result.scalars["n_z_switching_time_s"] =
-        block_estimates(switches_.sums(), result.t_steady, [](const analysis::SwitchSums& sums) {
+        block_estimates(switches.sums(), result.t_steady, [](const analysis::SwitchSums& sums) {
           return std::vector<double>{analysis::TiltSwitches::switching_time(sums)};
         })[0];
     result.scalars["tilt_fastest_mm_s"] = scalar(summary.v_largest);
     result.scalars["tilt_fastest_n_z"] = scalar(summary.n_z_largest);
     result.scalars["tilt_reversal_n_z"] = scalar(summary.n_z_zero);
     result.scalars["tilt_reversal_sigmas"] = {{summary.zero_sigma}};
-  }
-  void save(StateWriter& writer) const override {
-    tilt_.save(writer);
-    switches_.save(writer);
-  }
-  void restore(StateReader& reader) override {
-    tilt_.restore(reader);
-    switches_.restore(reader);
-  }
-
- private:
-  analysis::Blocked<analysis::TiltVelocity> tilt_;
-  analysis::TiltSwitches switches_;
-};
+  };
+  return measured(sample, reduce, analysis::Blocked(analysis::TiltVelocity(context.plan.tilt->bins, n_z_max)),
+                  analysis::TiltSwitches(n_z_max / 2));
+}
 
 }  // namespace
 
@@ -62,13 +53,7 @@ MeasurementKind tilt_kind() {
   return {
       .name = "tilt",
       .sources = "tilt, tilt_summary, tilt_switches",
-      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
-        // Soft overlaps let rods tilt a little further; a gap that lets them stand gives the whole range.
-        double n_z_max = 1e-6;
-        for (const Species& size : context.sizes)
-          n_z_max = std::max(n_z_max, largest_tilt(size, context.plan.system.gap));
-        return std::make_unique<MeasuredTilt>(context.plan.tilt->bins, n_z_max);
-      },
+      .make = measure_tilt,
       .arrays =
           {
               {"n_z", "bin centres of the vertical component of the axis"},

@@ -1,31 +1,29 @@
 // SPDX-License-Identifier: MIT
 #include "analysis/van_hove.h"
 
-#include <optional>
-
 #include "analysis/steady.h"
 #include "run/measure/estimates.h"
+#include "run/measure/measured.h"
 #include "run/measure/measurement_kinds.h"
 
 namespace shaken::run {
 namespace {
 
-class MeasuredVanHove : public Measurement {
- public:
-  MeasuredVanHove(const analysis::VanHove& empty, std::optional<double> steady) : steady_(steady), van_hove_(empty) {}
-
-  void sample(const Sample& sample) override {
-    if (!analysis::is_steady(sample->time, steady_.value_or(0.0))) return;
-    van_hove_.accumulate(sample->time, sample.unwrapped(), sample.order().director);
-  }
-  void reduce(Reduction& result) const override {
-    const double from = steady_.value_or(result.t_steady);
+std::unique_ptr<Measurement> measure_van_hove(const MeasureContext& context) {
+  const scene::MeasureVanHove& settings = *context.plan.van_hove;
+  const double range = settings.range_for(context.plan.system.rod.length);
+  const auto sample = [steady = context.plan.steady](const Sample& now, auto& van_hove) {
+    if (!analysis::is_steady(now->time, steady.value_or(0.0))) return;
+    van_hove.accumulate(now->time, now.unwrapped(), now.order().director);
+  };
+  const auto reduce = [steady = context.plan.steady](Reduction& result, const auto& van_hove) {
+    const double from = steady.value_or(result.t_steady);
     // Rows by lag, one behind the other.
     std::vector<double> lags, displacements;
     analysis::EstimateCurve along, across, distance;
-    for (std::size_t k = 0; k < van_hove_.n_lags(); ++k) {
-      const auto& samples = van_hove_.displacements(k);
-      lags.push_back(van_hove_.lag(k));
+    for (std::size_t k = 0; k < van_hove.n_lags(); ++k) {
+      const auto& samples = van_hove.displacements(k);
+      lags.push_back(van_hove.lag(k));
       const std::vector<double> centres = samples.empty().reduce().displacement;
       displacements.insert(displacements.end(), centres.begin(), centres.end());
       const auto points = block_estimates(samples, from, [](const analysis::DisplacementHistogram& part) {
@@ -47,14 +45,9 @@ class MeasuredVanHove : public Measurement {
     put(result, "/van_hove/along", "_per_mm", along);
     put(result, "/van_hove/across", "_per_mm", across);
     put(result, "/van_hove/distance", "_per_mm", distance);
-  }
-  void save(StateWriter& writer) const override { van_hove_.save(writer); }
-  void restore(StateReader& reader) override { van_hove_.restore(reader); }
-
- private:
-  std::optional<double> steady_;  ///< [s]; given, it leaves out what is before, or else the reduction does
-  analysis::VanHove van_hove_;
-};
+  };
+  return measured(sample, reduce, analysis::VanHove(context.interval, settings.lag, settings.bins, range));
+}
 
 }  // namespace
 
@@ -62,12 +55,7 @@ MeasurementKind van_hove_kind() {
   return {
       .name = "van_hove",
       .sources = "van_hove",
-      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
-        const scene::MeasureVanHove& settings = *context.plan.van_hove;
-        const double range = settings.range_for(context.plan.system.rod.length);
-        return std::make_unique<MeasuredVanHove>(
-            analysis::VanHove(context.interval, settings.lag, settings.bins, range), context.plan.steady);
-      },
+      .make = measure_van_hove,
       .arrays =
           {
               {"lag_s", "(lags) lags, at most four"},

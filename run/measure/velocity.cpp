@@ -1,27 +1,23 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
-#include <optional>
 
 #include "analysis/steady.h"
 #include "analysis/velocity_correlation.h"
 #include "run/measure/estimates.h"
+#include "run/measure/measured.h"
 #include "run/measure/measurement_kinds.h"
 
 namespace shaken::run {
 namespace {
 
-class MeasuredVelocity : public Measurement {
- public:
-  MeasuredVelocity(double interval, double window, std::optional<double> steady)
-      : steady_(steady), velocity_(interval, window) {}
-
-  void sample(const Sample& sample) override {
-    if (!analysis::is_steady(sample->time, steady_.value_or(0.0))) return;
-    velocity_.accumulate(sample->time, sample.unwrapped(), sample.order().director);
-  }
-  void reduce(Reduction& result) const override {
-    const double from = steady_.value_or(result.t_steady);
-    const analysis::VelocityCurve curve = velocity_.reduce(from);
+std::unique_ptr<Measurement> measure_velocity(const MeasureContext& context) {
+  const auto sample = [steady = context.plan.steady](const Sample& now, auto& velocity) {
+    if (!analysis::is_steady(now->time, steady.value_or(0.0))) return;
+    velocity.accumulate(now->time, now.unwrapped(), now.order().director);
+  };
+  const auto reduce = [steady = context.plan.steady](Reduction& result, const auto& velocity) {
+    const double from = steady.value_or(result.t_steady);
+    const analysis::VelocityCurve curve = velocity.reduce(from);
     result.arrays["/velocity/lag_s"] = curve.lag;
     put(result, "/velocity/c_v", "", curve.c_v);
     put(result, "/velocity/c_v_along", "", curve.along);
@@ -30,7 +26,7 @@ class MeasuredVelocity : public Measurement {
     put(result, "/velocity/product_along", "_mm2_s2", curve.product_along);
     put(result, "/velocity/product_across", "_mm2_s2", curve.product_across);
     put(result, "/velocity/direction", "", curve.direction);
-    const analysis::VelocitySummary summary = velocity_.summarize(from);
+    const analysis::VelocitySummary summary = velocity.summarize(from);
     result.scalars["velocity_correlation_s"] = scalar(summary.correlation_time);
     result.scalars["velocity_decay_s"] = scalar(summary.decay_time);
     result.scalars["velocity_variance_along_mm2_s2"] = scalar(summary.mean_square_along);
@@ -41,14 +37,9 @@ class MeasuredVelocity : public Measurement {
     Scalar& velocity_rms = result.scalars["velocity_rms_mm_s"] = scalar(summary.mean_square);
     velocity_rms.value = rms;
     velocity_rms.sem /= 2 * rms;
-  }
-  void save(StateWriter& writer) const override { velocity_.save(writer); }
-  void restore(StateReader& reader) override { velocity_.restore(reader); }
-
- private:
-  std::optional<double> steady_;  ///< [s]; given, it leaves out what is before, or else the reduction does
-  analysis::VelocityCorrelation velocity_;
-};
+  };
+  return measured(sample, reduce, analysis::VelocityCorrelation(context.interval, context.plan.velocity->window));
+}
 
 }  // namespace
 
@@ -56,9 +47,7 @@ MeasurementKind velocity_kind() {
   return {
       .name = "velocity",
       .sources = "velocity_correlation, lag_average",
-      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
-        return std::make_unique<MeasuredVelocity>(context.interval, context.plan.velocity->window, context.plan.steady);
-      },
+      .make = measure_velocity,
       .arrays =
           {
               {"lag_s", "lags"},
