@@ -139,7 +139,7 @@ void Arguments::optional(const std::string& name, const std::string& help, Names
 
 void Arguments::list(const std::string& name, const std::string& help, const std::vector<std::string>& words) {
   without_variable_.push_back(app_.add_option(name, help)
-                                  ->expected(0, CLI::detail::expected_max_vector_size)
+                                  ->expected(1, CLI::detail::expected_max_vector_size)
                                   ->allow_extra_args()
                                   ->type_name(joined(words))
                                   ->option_text(kNothing));
@@ -165,13 +165,12 @@ void Arguments::hand_on(std::vector<std::string>& words) {
   app_.parse_complete_callback([options = without_variable_, &words] {
     std::vector<std::string> positionals;
     for (const CLI::Option* option : options) {
-      if (option->get_positional()) {
-        for (const std::string& value : option->results()) positionals.push_back(value);
-      } else if (option->count() > 0 && option->get_items_expected_max() == 0) {
-        words.push_back("--" + option->get_lnames().front());
-      } else {
-        for (const std::string& value : option->results()) {
-          words.push_back("--" + option->get_lnames().front() + "=" + value);
+      const int most = option->get_items_expected_max();
+      for (const std::string& value : option->results()) {
+        if (option->get_positional()) {
+          positionals.push_back(value);
+        } else if (most == 0 ? option->as<bool>() : most > 1 || !value.empty()) {
+          words.push_back("--" + option->get_lnames().front() + (most == 0 ? "" : "=" + value));
         }
       }
     }

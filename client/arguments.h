@@ -55,7 +55,8 @@ class Arguments {
   void repeatable(const std::string& flags, const std::string& value_name, const std::string& help,
                   Names names = Names::kAnything);
   void flag(const std::string& flags, const std::string& help);
-  /// What was given of those that were declared so: "--name=value", "--flag", then "--" and the positionals.
+  /// What was given of those that were declared so: "--name=value", "--flag", then "--" and the positionals
+  /// if there are any. An empty value of an option that is given once is none.
   void hand_on(std::vector<std::string>& words);
 
   /// Everything from the first word on, options too, as it stands: for a verb that hands its words on.

@@ -339,6 +339,7 @@ def test_bad_scenes_and_options_are_refused_with_exit_code_2(tmp_path):
         return done.stderr
     assert "--rotational-diffusion D is missing" in refused()
     assert "rods.lenth" in refused("-d", "40", "-s", "rods.lenth=3")
+    assert refused("-d", "40", "--area-fraction", "x") == "shaken: --area-fraction: invalid float value: 'x'\n"
     assert "--of rods_2: the scene has rods" in refused("-d", "40", "--of", "rods_2")
     assert "spheres" in refused("-d", "40", "-s", "rods.beads=1", "-s", "rods.mid_diameter=0.8")
     assert "nowhere.json" in refused(str(tmp_path / "nowhere.json"), "-d", "40")

@@ -382,3 +382,16 @@ def test_defects_are_found_where_they_are_in_a_box_of_any_shape():
     for (a, b), charge in cores.items():
         [nearest] = [row for row in found if np.hypot(row[0] - a, row[1] - b) < 1]
         assert nearest[2] == charge
+
+
+@pytest.mark.skipif(not (PROGRAMS / "shaken").exists(), reason="no programs")
+def test_the_client_hands_on_figures_and_what_was_given(tmp_path):
+    def listed(*arguments):
+        done = subprocess.run([PROGRAMS / "shaken", "figures", "--list", *arguments], cwd=tmp_path, text=True,
+                              capture_output=True, check=False)
+        return done.stdout or done.stderr
+
+    assert "Mean order" in listed("3") and "MSD" not in listed("3") and listed("3", "tilt") == listed("--", "3", "tilt")
+    assert listed("3", "--scale", "", "--archive", "", "--json=false") == listed("3")
+    assert listed("--report=a", "--report=b", "x").count("there is no such file") == 2
+    assert listed("--cores=x") == "shaken: --cores: invalid int value: 'x'\n"

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any, Sequence
 
 from ..errors import ShakenError
+from ..options import Options
 from .rods import Level, Measuring, NotDiffusive, Species, Unmet
 from .search import Calibrated, noise_for
 
@@ -20,7 +21,7 @@ _PICTURES = (".png", ".pdf", ".svg")
 
 def parser() -> argparse.ArgumentParser:
     """The options that client/verbs/calibrate.cpp hands on, where they are described."""
-    found = argparse.ArgumentParser(prog="shaken calibrate")
+    found = Options()
     found.add_argument("--species", required=True)  # the scenes of all species, JSON
     for name in ("rotational-diffusion", "of"):
         found.add_argument(f"--{name}", action="append", default=[])

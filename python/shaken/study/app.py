@@ -14,6 +14,7 @@ from typing import Any, Sequence
 from ..archive import archived_runs
 from ..daemon import Daemon
 from ..errors import ShakenError
+from ..options import Options
 from ..plots.style import inches
 from ..quantities import seconds
 from . import running
@@ -29,7 +30,7 @@ OK, FAILED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 
 def parser() -> argparse.ArgumentParser:
     """The options that client/verbs/figures.cpp hands on, where they are described."""
-    found = argparse.ArgumentParser(prog="shaken figures")
+    found = Options()
     found.add_argument("figures", nargs="*")
     found.add_argument("--scale", default="desk")
     found.add_argument("--format", default="png")

@@ -14,13 +14,14 @@ from typing import Sequence
 
 from ..errors import ShakenError
 from ..needed import not_installed
+from ..options import Options
 from .text import json_text, printable
 
 OK, FAILED = 0, 1
 
 
 def _options(words: Sequence[str]) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="shaken", add_help=False, allow_abbrev=False)
+    parser = Options()
     parser.add_argument("id", nargs="?", default="")
     parser.add_argument("--root")
     parser.add_argument("--keys", type=json.loads, default={})  # of the scene, and what each measures
