@@ -12,7 +12,7 @@ import urllib.parse
 from pathlib import Path
 from typing import Any, Callable, Mapping
 
-from .errors import DaemonFailed, NoDaemon, ShakenError
+from .errors import DaemonFailed, NoDaemon, NotFound, ShakenError
 from .root import root_folder
 from .quantities import seconds
 
@@ -72,7 +72,8 @@ class Daemon:
             connection.close()
         if response.status >= 400:
             problems = [_problem_text(problem) for problem in answer.get("problems", [])]
-            refusal = DaemonFailed if response.status >= 500 else ShakenError
+            refusal = (DaemonFailed if response.status >= 500 else NotFound if response.status == 404 else
+                       ShakenError)
             raise refusal("\n".join(problems or [answer.get("error", f"HTTP {response.status}")]))
         return answer
 
@@ -86,11 +87,11 @@ class Daemon:
 
     def jobs(self, sweep: str) -> list[dict[str, Any]]:
         """The jobs of a sweep, by its id ("s1") or its name, in the order of its points."""
-        return self.ask("GET", "/v1/sweeps/" + urllib.parse.quote(sweep, safe=""))["jobs"]
+        return self.ask("GET", "/v1/sweeps/" + quoted(sweep))["jobs"]
 
     def rows(self, sweep: str) -> list[dict[str, Any]]:
         """The jobs of a sweep with the summaries of those that have ended (ROW of docs/protocol.md)."""
-        return self.ask("GET", "/v1/results?sweep=" + urllib.parse.quote(sweep, safe=""))["rows"]
+        return self.ask("GET", "/v1/results?sweep=" + quoted(sweep))["rows"]
 
     def submit(self, scene: Mapping[str, Any] | str | Path, *, replicas: int | None = None, name: str | None = None,
                settings: Mapping[str, Any] | None = None, priority: int = 0, **terms: Any) -> str:
@@ -131,7 +132,7 @@ class Daemon:
         show = progress if callable(progress) else (_print_progress if progress and sys.stderr.isatty() else None)
         daemon = self
         while True:
-            found = daemon.ask("GET", "/v1/sweeps/" + urllib.parse.quote(sweep, safe=""))["sweep"]
+            found = daemon.ask("GET", "/v1/sweeps/" + quoted(sweep))["sweep"]
             daemon = Daemon(self.root, max(self.patience, _MAY_BE_AWAY))  # it has been there
             if show:
                 show(found)
@@ -146,7 +147,12 @@ class Daemon:
         """Cancels a sweep ("s1") or a job; returns how many jobs were changed. Their checkpoints stay."""
         is_job = re.fullmatch("[0-9a-f]{4,16}", sweep_or_job) and sweep_or_job not in {s["name"] for s in self.sweeps()}
         kind = "jobs" if is_job else "sweeps"
-        return self.ask("POST", f"/v1/{kind}/{urllib.parse.quote(sweep_or_job, safe='')}/cancel")["cancelled"]
+        return self.ask("POST", f"/v1/{kind}/{quoted(sweep_or_job)}/cancel")["cancelled"]
+
+
+def quoted(word: str) -> str:
+    """A name in the path of a request; it may have bytes that are no UTF-8, as `os.fsdecode` has them."""
+    return urllib.parse.quote(word, safe="", errors="surrogateescape")
 
 
 def _problem_text(problem: Mapping[str, Any]) -> str:

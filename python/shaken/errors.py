@@ -20,6 +20,10 @@ class NoDaemon(ShakenError):
     exit_code = 3
 
 
+class NotFound(ShakenError):
+    """The daemon has nothing of that name."""
+
+
 class DaemonFailed(ShakenError):
     """A daemon whose answer is none, or which could not do what it was asked for."""
 

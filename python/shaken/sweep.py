@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import json
-import urllib.parse
 from pathlib import Path
 from typing import Any, Iterable, Iterator, Mapping, Sequence
 
-from .daemon import Daemon
+from .daemon import Daemon, quoted
 from .errors import ShakenError, UnknownName
 from .estimate import Estimate, replica_mean
 from .plots import names
@@ -276,7 +275,7 @@ def results(source: "Daemon | str | Path | None" = None, sweep: str | None = Non
         if not sweeps:
             raise ShakenError(f"the daemon at {daemon.root} has no sweeps")
         sweep = sweeps[-1]["id"]
-    name = daemon.ask("GET", "/v1/sweeps/" + urllib.parse.quote(sweep, safe=""))["sweep"]["name"]
+    name = daemon.ask("GET", "/v1/sweeps/" + quoted(sweep))["sweep"]["name"]
 
     def runs() -> Iterator[tuple[Mapping[str, Any], Run | None]]:
         for row in daemon.rows(sweep):

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from shaken.errors import ShakenError, nearest
+from shaken.errors import NotFound, ShakenError, nearest
 from shaken.estimate import student_factor
 from shaken.quantities import quantity
 from shaken.tables import app, conditions, inset, results, rows, text
@@ -110,7 +110,8 @@ def test_every_problem_of_a_condition_is_marked_at_its_place():
     ("order.mean<0.5 mm", "a plain number takes no unit"), ("rods.lenght>2", "did you mean rods.length?"),
     ("box.gpa>2", "did you mean box.gap?"), ("steady=yes", "steady is true or false"),
     ("steady<true", "only = and != compare it"), ("rods.length=2.5s", "\"s\" is a unit of time, not of length"),
-    ("rods.length<2,5", "a decimal comma; write 2.5")])
+    ("rods.length<2,5", "a decimal comma; write 2.5"), ("order.mean<1e400", "1e400 is too large"),
+    ("order.mean<\u0663", "is not a number")])
 def test_every_mistake_is_told_in_words(words, message):
     assert message in problems_of(words)
 
@@ -327,7 +328,7 @@ def test_the_nearest_name_is_a_slip_away():
 
 def test_quantities_are_read_in_decimals():
     assert quantity("4.1us", "time") == 4.1e-6 and quantity("0.3 um", "length") == 0.0003
-    with pytest.raises(ShakenError, match="too many digits"):
+    with pytest.raises(ShakenError, match="too large"):
         quantity("1e999999999999999999us", "time")
 
 
@@ -339,8 +340,10 @@ class FakeDaemon:
         return [{"id": "s1", "name": "phases"}]
 
     def ask(self, method, path):
+        if path == "/v1/jobs/1f":
+            raise ShakenError("'1f' fits several jobs: 1f0c, 1f0d")
         if path != "/v1/sweeps/s1":
-            raise ShakenError(f"no such thing: {path}; did you mean s1?")
+            raise NotFound(f"no such thing: {path}; did you mean s1?")
         return {"sweep": {"id": "s1", "name": "phases"}, "jobs": [{"id": one["job"]} for one in self.answers]}
 
     def rows(self, sweep):
@@ -382,7 +385,9 @@ def test_json_is_as_the_daemon_sent_it(said):
     (["--where=order.mean>", "--where=(state=done"], ["a value is missing", "never closed"]),
     (["--where=no.such_field=1"], ["no row has a field", "`shaken results --csv` shows all names"]),
     (["--csv", "--json"], ["exclude each other"]),
-    (["--", "s2"], ["no sweep or job is called 's2'; did you mean s1?"])])
+    (["--", "s2"], ["no sweep or job is called 's2'; did you mean s1?"]),
+    (["--", "\udcff"], ["no sweep or job is called '\\xff'"]),
+    (["--", "1f"], ["'1f' fits several jobs: 1f0c, 1f0d"])])
 def test_bad_input_is_exit_code_two_with_all_that_is_wrong(said, words, why):
     code, out, err = said(*words)
     assert code == 2 and err.startswith("shaken: ") and all(part in err for part in why)

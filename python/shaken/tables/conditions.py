@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any, Callable, Iterator, NamedTuple, Sequence
 
 from ..errors import ShakenError, nearest
-from ..quantities import UNITS, quantity
+from ..quantities import NUMBER, UNITS, quantity
 from .rows import Keys, Row, field_named, field_names
 from .text import printable, value_text
 
@@ -17,7 +17,6 @@ _COMPARE: dict[str, Callable[[Any, Any], bool]] = {
     ">=": operator.ge}
 _TOKEN = re.compile(r"""(?P<open>\()|(?P<close>\))|(?P<quoted>"[^"]*"|'[^']*'|["'].*)|(?P<sign>[<>=!]+)"""
                     r"""|(?P<word>[^ \t\r\n<>=!()"']+)""", re.S)
-_NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
 _JOINTS = {"&&": "and", "&": "and", "||": "or", "|": "or"}
 #: Parentheses and `not` within each other; more are no condition that a person writes.
 _DEEPEST = 100
@@ -206,7 +205,7 @@ class Condition:
                 self._skip()
             return _always
         self._take()
-        if value.kind == "word" and _NUMBER.fullmatch(value.text) and self._next.is_word(*UNITS):
+        if value.kind == "word" and NUMBER.fullmatch(value.text) and self._next.is_word(*UNITS):
             value = value._replace(text=f"{value.text} {self._take().text}")
         made = _Comparison(name, sign, value)
         self.comparisons.append(made)

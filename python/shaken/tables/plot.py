@@ -127,7 +127,7 @@ def plot(options: argparse.Namespace) -> None:
     picture, origin = _picture(options), {"Software": f"shaken plot {__version__}"}
     figures: list[tuple[str, Any]] = []
     rows: list[Row] = []
-    if options.id and (Path(options.id) / "scene.json").exists():
+    if options.id and os.path.exists(f"{options.id}/scene.json"):
         if options.is_one or options.where:
             raise ShakenError("--x, --y, --map and --where are for sweeps, not for a run directory")
         folder, drawn = Path(options.id) / "plots", _runs([(Path(options.id), {}, "")])

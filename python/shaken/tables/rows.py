@@ -5,14 +5,14 @@ from __future__ import annotations
 import json
 import math
 import re
-import urllib.parse
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Iterable, Iterator, Mapping, Sequence
 
-from ..daemon import Daemon
-from ..errors import DaemonFailed, NoDaemon, ShakenError, nearest
+from ..daemon import Daemon, quoted
+from ..errors import NotFound, ShakenError, nearest
 from ..estimate import NAN, Estimate, replica_mean
+from ..quantities import NUMBER
 from ..summary import has_results
 
 Fields = dict[str, Any]
@@ -21,7 +21,6 @@ Keys = Mapping[str, Sequence[Any]]
 _VERSIONS = ("versions.shaken", "versions.physics")
 #: Fields that name a row rather than measure something; never averaged.
 _NAMES = {"job", "sweep", "state", "label", "replica", "directory", *_VERSIONS}
-_LEADING_NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
 _MEASURED = re.compile(r"measured\.(.*)\.value")
 
 
@@ -43,7 +42,7 @@ class Row:
         """A number, or one at the beginning of a text ("4.5 mm"); NaN if there is none."""
         value = self.fields.get(name)
         if isinstance(value, str):
-            found = _LEADING_NUMBER.match(value)
+            found = NUMBER.match(value)
             return float(found[0]) if found else NAN
         return float(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else NAN
 
@@ -113,10 +112,8 @@ def target_of(daemon: Daemon, word: str) -> Target:
     hint = ""
     for kind in ("sweep", "job"):
         try:
-            answer = daemon.ask("GET", f"/v1/{kind}s/{urllib.parse.quote(word, safe='')}")
-        except (NoDaemon, DaemonFailed):
-            raise
-        except ShakenError as refusal:
+            answer = daemon.ask("GET", f"/v1/{kind}s/{quoted(word)}")
+        except NotFound as refusal:
             hint = hint or "; did you mean".join(["", *str(refusal).split("; did you mean")[1:]])
             continue
         found, is_sweep = answer[kind], kind == "sweep"
