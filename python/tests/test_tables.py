@@ -394,6 +394,12 @@ def test_bad_input_is_exit_code_two_with_all_that_is_wrong(said, words, why):
     assert (json.loads(out)["exit_code"] == 2) if "--json" in words else out == ""
 
 
+def test_a_full_disk_is_told_in_one_line(said, monkeypatch):
+    with open("/dev/full", "w") as full:
+        monkeypatch.setattr(sys, "stdout", full)
+        assert said("--json", "--", "s1") == (1, "", "shaken: [Errno 28] No space left on device\n")
+
+
 def test_tables_fit_the_terminal():
     columns = [text.Column("JOB", ["1f0c"]), text.Column("LABEL", ["a long text in it"]),
                text.Column("N", ["1234"], True, 2), text.Column("S", ["0.5"], True), text.Column("M", ["1"], True, 2)]

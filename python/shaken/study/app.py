@@ -138,12 +138,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         code = _run(options)
         sys.stdout.flush()
         return code
-    except BrokenPipeError:  # whoever read has gone, as `head` does
+    except OSError as error:  # a full disk; or whoever read has gone, as `head` does
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return FAILED
-    except OSError as error:  # a full disk, or one that cannot be written to
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        print(f"shaken: {error}", file=sys.stderr)
+        if not isinstance(error, BrokenPipeError):
+            print(f"shaken: {error}", file=sys.stderr)
         return FAILED
     except ShakenError as error:
         print(f"shaken: {error}", file=sys.stderr)

@@ -55,15 +55,13 @@ def main(words: Sequence[str]) -> int:
     try:
         _run(words[0], options)
         sys.stdout.flush()
-    except BrokenPipeError:  # whoever read has gone, as `head` does
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return FAILED
     except ShakenError as problem:
         message, code = str(problem), problem.exit_code
     except (AttributeError, KeyError, TypeError) as error:
         message, code = f"an answer of the daemon is not as expected ({error!r}): is it of another version?", FAILED
-    except OSError as error:
-        message, code = str(error), FAILED
+    except OSError as error:  # a full disk; or whoever read has gone, as `head` does
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        message, code = "" if isinstance(error, BrokenPipeError) else str(error), FAILED
     if message and options.json:
         print(json_text({"error": message, "exit_code": code}))
     if message:
