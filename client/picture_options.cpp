@@ -91,7 +91,11 @@ std::string sweep_of(const Context& context, const std::vector<Drawn>& drawn) {
   for (const Drawn& one : drawn) command.push_back("--job=" + one.id);
   command.insert(command.end(), {"--", sweep});
   const Captured said = run_captured(command);
-  if (said.exit_code != 0) throw Failure(static_cast<ExitCode>(said.exit_code), said.output);
+  constexpr std::string_view kBefore = "shaken: ";
+  if (said.exit_code != 0) {
+    const bool has_it = said.output.starts_with(kBefore);
+    throw Failure(static_cast<ExitCode>(said.exit_code), said.output.substr(has_it ? kBefore.size() : 0));
+  }
   return said.output;
 }
 

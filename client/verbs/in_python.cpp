@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "client/verbs/in_python.h"
 
+#include <fmt/format.h>
+
 #include <cstdlib>
 
 #include "base/keys/units.h"
@@ -33,7 +35,13 @@ ExitCode InPython::go_on(const Context& context, const std::string& part,
   command.insert(command.end(), words_.begin(), words_.end());
   setenv("SHAKEN_PROGRAM", sibling_program("shaken").c_str(), 1);
   setenv("SHAKEN_CONFIGS", shipped_configs().c_str(), 1);
-  return context.console.run_instead(context.console, command);
+  try {
+    return context.console.run_instead(context.console, command);
+  } catch (const Failure& failure) {
+    throw Failure(ExitCode::kBadInput, fmt::format("`shaken {}` is done by Python: {} (`apt install python3`, or set "
+                                                   "SHAKEN_PYTHON)",
+                                                   info().name, failure.what()));
+  }
 }
 
 }  // namespace shaken::client

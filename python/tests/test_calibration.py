@@ -343,3 +343,7 @@ def test_bad_scenes_and_options_are_refused_with_exit_code_2(tmp_path):
     assert "--of rods_2: the scene has rods" in refused("-d", "40", "--of", "rods_2")
     assert "spheres" in refused("-d", "40", "-s", "rods.beads=1", "-s", "rods.mid_diameter=0.8")
     assert "nowhere.json" in refused(str(tmp_path / "nowhere.json"), "-d", "40")
+    for words in (["-d", "x"], ["-d", "40", "--threads", "x"]):  # wherever it is refused
+        done = subprocess.run([PROGRAMS / "shaken", "calibrate", "--json", *words], capture_output=True, text=True)
+        said = json.loads(done.stdout)
+        assert said["exit_code"] == done.returncode == 2 and done.stderr == f"shaken: {said['error']}\n"

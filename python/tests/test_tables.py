@@ -423,7 +423,7 @@ def test_the_inset_of_pictures_has_the_sweep_and_where_its_jobs_are(said):
     code, out, _ = said("--job=1f0c000000000001", "--", "s1", verb="inset")
     assert code == 0 and json.loads(out) == {
         "x": "rods.length", "y": "", "points": [[4.5, None, 0.75], [2.5, None, 0.25]], "here": [[2.5, None]]}
-    assert said("--job=2a", "--", "s1", verb="inset") == (2, "", "job 2a does not belong to sweep s1\n")
+    assert said("--job=2a", "--", "s1", verb="inset") == (2, "", "shaken: job 2a does not belong to sweep s1\n")
 
 
 def test_the_axes_of_a_diagram_are_two_numbers_that_say_more_than_one():

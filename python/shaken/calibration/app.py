@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any, Sequence
 
 from ..errors import ShakenError
-from ..options import Options
+from ..options import Options, failed
 from .rods import Level, Measuring, NotDiffusive, Species, Unmet
 from .search import Calibrated, noise_for
 
@@ -132,13 +132,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     species = [Species(**one) for one in json.loads(options.species)]
     problems = problems_of(options, species)
     if problems:
-        print("\n".join(f"shaken: {problem}" for problem in problems), file=sys.stderr)
-        return BAD_INPUT
+        return failed("\n".join(problems), BAD_INPUT, options.json)
     try:
         return _run(options, species)
     except (ShakenError, OSError) as error:
-        print(f"shaken: {error}", file=sys.stderr)
-        return FAILED
+        return failed(str(error), FAILED, options.json)
     except KeyboardInterrupt:
         print("interrupted", file=sys.stderr)
         return INTERRUPTED

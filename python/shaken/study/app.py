@@ -14,7 +14,7 @@ from typing import Any, Sequence
 from ..archive import archived_runs
 from ..daemon import Daemon
 from ..errors import ShakenError
-from ..options import Options
+from ..options import Options, failed
 from ..plots.style import inches
 from ..quantities import seconds
 from . import running
@@ -132,20 +132,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
         sys.stdout.reconfigure(errors="surrogateescape")  # names of files, whatever their bytes
     problems = problems_of(options)
     if problems:
-        print("\n".join(f"shaken: {problem}" for problem in problems), file=sys.stderr)
-        return BAD_INPUT
+        return failed("\n".join(problems), BAD_INPUT, options.json)
     try:
         code = _run(options)
         sys.stdout.flush()
         return code
     except OSError as error:  # a full disk; or whoever read has gone, as `head` does
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        if not isinstance(error, BrokenPipeError):
-            print(f"shaken: {error}", file=sys.stderr)
-        return FAILED
+        return FAILED if isinstance(error, BrokenPipeError) else failed(str(error), FAILED, False)
     except ShakenError as error:
-        print(f"shaken: {error}", file=sys.stderr)
-        return FAILED
+        return failed(str(error), FAILED, options.json)
     except KeyboardInterrupt:
         print("interrupted: jobs that are queued go on; the same command goes on from here", file=sys.stderr)
         return INTERRUPTED

@@ -14,8 +14,7 @@ from typing import Sequence
 
 from ..errors import ShakenError
 from ..needed import not_installed
-from ..options import Options
-from .text import json_text, printable
+from ..options import Options, failed
 
 OK, FAILED = 0, 1
 
@@ -62,9 +61,4 @@ def main(words: Sequence[str]) -> int:
     except OSError as error:  # a full disk; or whoever read has gone, as `head` does
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         message, code = "" if isinstance(error, BrokenPipeError) else str(error), FAILED
-    if message and options.json:
-        print(json_text({"error": message, "exit_code": code}))
-    if message:
-        said = printable(message, lines=True)
-        print(said if words[0] == "inset" else f"shaken: {said}", file=sys.stderr)
-    return code
+    return failed(message, code, options.json) if message else code

@@ -130,10 +130,10 @@ def add_from_scenes(target: Target, names: Iterable[str], keys: Keys) -> None:
     directories = {job["id"]: job.get("directory") for job in target.jobs}
     for row in target.rows:
         lacking = [name for name in wanted if name not in row.fields]
-        scene = Path(directories.get(row.fields["job"]) or "/nonexistent") / "scene.json"
-        if not lacking or not scene.is_file():
+        directory = directories.get(row.fields["job"])
+        if not lacking or not directory or not Path(directory, "scene.json").is_file():
             continue
-        known = dict(_flattened(json.loads(scene.read_text())))
+        known = dict(_flattened(json.loads(Path(directory, "scene.json").read_text())))
         said = {name: known.get(name, keys[name][1]) for name in lacking}
         row.scene |= {name: value for name, value in said.items() if isinstance(value, (int, float, str))}
         row.fields |= row.scene
