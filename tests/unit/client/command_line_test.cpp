@@ -98,7 +98,7 @@ TEST(HandOn, GivesWhatHasNoVariable) {
     return words;
   };
   using ::testing::ElementsAre;
-  EXPECT_THAT(handed("verb one --own x two -w a=1 -n=-5 --where b --root r -y three"),
+  EXPECT_THAT(handed("verb one --own x two -w a=1 --name=-5 --where b --root r -y three"),
               ElementsAre("--name=-5", "--where=a=1", "--where=b", "--yes", "--", "one", "two", "three"));
   EXPECT_THAT(handed("verb -y"), ElementsAre("--yes")) << "not every program takes words";
 }

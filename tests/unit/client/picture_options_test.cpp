@@ -66,6 +66,7 @@ TEST(SweepInset, HasThePointsOfTheSweepAndWhereTheRunsAre) {
   };
   add("a", {{"rods.area_fraction", 0.45}, {"rods.length", "2.5 mm"}}, {{"order", {{"mean", 0.25}}}});
   add("b", {{"rods.area_fraction", 0.75}, {"rods.length", "4.5 mm"}}, nullptr);
+  add("c", {{"rods.area_fraction", 0.75}, {"rods.length", "2.5 mm"}}, nullptr);
   daemon.on("GET /v1/sweeps/s1", Json{{"sweep", {{"id", "s1"}, {"name", "x"}}}, {"jobs", Json::array()}}.dump());
   daemon.on("GET /v1/results?sweep=s1", Json{{"rows", rows}}.dump());
   std::ostringstream out;
@@ -78,9 +79,9 @@ TEST(SweepInset, HasThePointsOfTheSweepAndWhereTheRunsAre) {
   const Json said = Json::parse(sweep_of(context, {drawn("b", "s1"), drawn("a", "s1")}));
   EXPECT_EQ(said.at("x"), "rods.area_fraction");
   EXPECT_EQ(said.at("y"), "rods.length");
-  EXPECT_EQ(said.at("points"), (Json{{0.45, 2.5, 0.25}, {0.75, 4.5, nullptr}}));
+  EXPECT_EQ(said.at("points"), (Json{{0.45, 2.5, 0.25}, {0.75, 4.5, nullptr}, {0.75, 2.5, nullptr}}));
   EXPECT_EQ(said.at("here"), (Json{{0.75, 4.5}, {0.45, 2.5}}));
-  EXPECT_THROW(sweep_of(context, {drawn("c", "s1")}), Failure) << "of another sweep";
+  EXPECT_THROW(sweep_of(context, {drawn("d", "s1")}), Failure) << "of another sweep";
   EXPECT_THROW(sweep_of(context, {drawn("a", "")}), Failure) << "a run directory";
   daemon.on("GET /v1/results?sweep=s1", Json{{"rows", {rows[0]}}}.dump());
   EXPECT_THROW(sweep_of(context, {drawn("a", "s1")}), Failure) << "nothing differs";
