@@ -27,8 +27,14 @@ std::vector<std::string> python_command(const std::string& module) {
     // with its own packages alone: those of a user, or of a module of a cluster, may not go with them
     command = {std::filesystem::exists(kDebian, unknown) ? kDebian : "python3", "-s", "-E"};
   }
-  // By its path, which also says in words what is not installed.
-  command.insert(command.end(), {"-W", "ignore", shipped_python() / "shaken" / module / "__main__.py"});
+  const std::filesystem::path program = shipped_python() / "shaken" / module / "__main__.py";
+  if (!std::filesystem::exists(program, unknown)) {
+    throw Failure(
+        ExitCode::kFailed,
+        fmt::format("{} is not there: `apt install python3-shaken`, whose Python does this", program.string()));
+  }
+  // By its path, which also says in words what else is not installed.
+  command.insert(command.end(), {"-W", "ignore", program});
   return command;
 }
 

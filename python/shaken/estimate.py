@@ -7,6 +7,8 @@ from dataclasses import dataclass, replace
 from typing import Iterable, Sequence
 
 NAN = float("nan")
+#: Before a value: "~" where it still relaxes, "?" where it is not known to be of a steady state.
+MARKS = {True: "", False: "~", None: "?"}
 
 
 @dataclass(frozen=True)
@@ -117,7 +119,7 @@ class Estimate:
     def __str__(self) -> str:
         if not self.is_known:
             return f"not known ({self.reason})" if self.reason else "not known"
-        mark = {True: "", False: "~", None: "?"}[self.steady]
+        mark = MARKS[self.steady]
         unit = "" if self.unit in ("1", None) else f" {self.unit}"
         if not math.isfinite(self.error):
             return f"{mark}{self.value:.4g} ± ?{unit}"

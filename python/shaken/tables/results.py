@@ -8,6 +8,7 @@ from typing import Sequence
 
 from ..daemon import Daemon
 from ..errors import ShakenError
+from ..estimate import MARKS
 from .conditions import read
 from .rows import Row, field_names, has_several_versions, resolved, short_name, swept, target_of
 from .selected import selected
@@ -22,10 +23,10 @@ _COLUMNS = (("REPLICAS", "n_replicas", 4), ("DONE", "n_done", 3), ("N", "n_rods"
             ("OVERLAP mm", "max_overlap_mm", 10))
 #: Of those, what is shown of single runs only.
 _OF_RUNS = ("order.t_steady_s", "rod_seconds_per_cpu_second", "max_overlap_mm")
-#: Mark and meaning of an average that is not known to be one of a steady state (base/steadiness.h).
-_MARKS = {False: ("~", "still relaxing: no steady state yet, run it longer (-s time.measure=...)"),
-          None: ("?", "not known to be steady: too short to tell, its error holds the drift; run it longer (-s "
-                      "time.measure=...)"), True: ("", "")}
+#: What the marks of averages say (base/steadiness.h).
+_MEANINGS = {False: "still relaxing: no steady state yet, run it longer (-s time.measure=...)",
+             None: "not known to be steady: too short to tell, its error holds the drift; run it longer (-s "
+                   "time.measure=...)"}
 
 
 def _chosen(rows: Sequence[Row], words: str) -> list[str]:
@@ -63,7 +64,7 @@ def _cell(row: Row, name: str) -> str:
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         return value_text(value)
     steady = row.steady(name)
-    text = _MARKS[steady][0] + number_text(value)
+    text = MARKS[steady] + number_text(value)
     if name + ":n" in row.fields:
         text += f" ({row.fields[name + ':n']})"
     return text if steady else in_yellow(text)
@@ -80,9 +81,9 @@ def _print_table(rows: Sequence[Row], options: argparse.Namespace) -> None:
         for title, name, rank in columns], terminal_width())
     print(text, end="")
     met = {row.steady(name) for row in rows for _, name, _ in columns}
-    for steady in (False, None):
+    for steady, meaning in _MEANINGS.items():
         if steady in met:
-            print(f"{in_yellow(_MARKS[steady][0])} {_MARKS[steady][1]}")
+            print(f"{in_yellow(MARKS[steady])} {meaning}")
     if left_out:
         print(f"no room for {', '.join(left_out)} (--columns FIELD,... chooses, --csv has all)", file=sys.stderr)
 

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "base/failure.h"
+#include "base/paths.h"
 #include "base/scratch_folder.h"
 
 namespace shaken {
@@ -47,6 +48,16 @@ Failure failure_of(const std::string& script) {
 TEST(PlotsByPython, HandsOverItsWordsAndItsInput) {
   const InPlaceOfPython python("shift 3; echo \"$@\"; cat; printf 'plots/a.png\\n'\n");
   EXPECT_THAT(plots_by_python({"bench", "a.json"}, "{}\n"), ElementsAre("bench a.json", "{}", "plots/a.png"));
+}
+
+TEST(PythonCommand, SaysHowThePackageIsHad) {
+  EXPECT_EQ(python_command("plots").back(), shipped_python() / "shaken/plots/__main__.py");
+  try {
+    (void)python_command("nothing");
+    ADD_FAILURE();
+  } catch (const Failure& failure) {
+    EXPECT_THAT(failure.what(), testing::HasSubstr("is not there: `apt install python3-shaken`"));
+  }
 }
 
 TEST(PlotsByPython, TellsInItsWordsWhyNothingWasDrawn) {
