@@ -114,10 +114,6 @@ def _start_text(runs: Runs) -> str:
     return " (from a fluid)" if n == len(runs) else " (in part from a fluid)" if n else ""
 
 
-def _boxes_text(runs: Runs) -> str:
-    return " and ".join(dict.fromkeys(box_text(run) for run in runs))
-
-
 def _gap_text(runs: Runs) -> str:
     return (f"w = {key_of(runs[0], GAP):g} mm: {_angle_text(runs)}, kurtosis of P(θ) {text(runs.of(kurtosis))}, "
             f"Bragg peak {text(runs.number('bragg_peak'))}")
@@ -269,7 +265,7 @@ def _trend(series: list[tuple[Runs, str]], of: Callable[[Runs], Estimate], risin
             continue
         where = ", ".join(f"{symbols[other]} = {key_of(runs[0], other):g}" for other in (LENGTH, PACKING)
                           if other != key)
-        where += f", {_boxes_text(runs)}{_start_text(runs)}"
+        where += f", {box_text(runs[0])}{_start_text(runs)}"
         if len({_goes_far(formed.where(key, value)) for value, _ in points}) > 1:
             answer = unknown("a fluid against a frozen state")
         else:
