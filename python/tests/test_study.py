@@ -102,6 +102,16 @@ def test_an_empty_archive_is_said_to_be_one(programs, tmp_path):
     assert done.returncode == 1 and "nothing to draw" in done.stderr
 
 
+def test_runs_are_archived_as_those_of_the_sets_that_ask_for_them(tmp_path):
+    run = made_up_run(tmp_path / "run")
+    id_ = json.loads((run / "summary.json").read_text())["run_id"]
+    job = {"id": id_, "state": "done", "parameters": {}, "directory": str(run)}
+    daemon = SimpleNamespace(sweeps=lambda: [{"id": "s1", "name": "part-desk"}], jobs=lambda _: [job])
+    for k, (known, sweeps) in enumerate((({id_: ["strip-desk"]}, ["strip-desk"]), ({}, ["part-desk"]))):
+        assert len(running.collect(daemon, tmp_path / str(k), known)) == 1
+        assert next(archived_runs(tmp_path / str(k))).sweeps == sweeps
+
+
 def test_a_figure_without_runs_is_said_to_have_none(programs, tmp_path):
     add_run(made_up_run(tmp_path / "run"), tmp_path / "archive", sweeps=["mechanism-tiny"])
     done = figures(programs, 4, "--draw-only", "--archive", tmp_path / "archive", "--out", tmp_path / "out",

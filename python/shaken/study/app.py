@@ -166,7 +166,8 @@ def _run(options: argparse.Namespace) -> int:
             print("\n".join(map(str, write_plan(options.plan, program, all_sweeps, options.cores, drawing))))
             return OK
         if options.collect:
-            running.collect(Daemon(options.root), archive)
+            known = running.sweeps_of_points(program, all_sweeps.values())
+            running.collect(Daemon(options.root), archive, known)
         plan = running.Plan(program, all_sweeps.items(), archive, None if options.dry_run else _say)
         if options.dry_run:
             print(json.dumps(_plan_json(plan), indent=2) if options.json else plan.table())

@@ -12,7 +12,7 @@ import tempfile
 import time
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Callable, Iterable, Iterator
+from typing import Any, Callable, Iterable, Iterator, Mapping
 
 import numpy as np
 
@@ -155,7 +155,7 @@ def run_plan(plan: Plan, daemon: Daemon, budget: float = math.inf, *, say: Calla
                 continue
             archived.add((job["id"], job["finished_utime"]))
             try:
-                path = archive_job(job, name, plan.archive)
+                path = archive_job(job, [name], plan.archive)
             except ShakenError as error:
                 damaged.append(f"{job['id'][:8]} {name} {job['label']}: {error}")
                 continue
@@ -199,18 +199,29 @@ def _copy_film(job: dict[str, Any], plan: Plan, films: Path) -> None:
         shutil.copyfile(film, films / f"S{names + 1}.mp4")
 
 
-def archive_job(job: dict[str, Any], sweep: str, archive: Path) -> Path | None:
-    """Archives a job that is done; None where it is there already."""
+def archive_job(job: dict[str, Any], sweeps: Iterable[str], archive: Path) -> Path | None:
+    """Archives a job that is done, as a run of these sweeps; None where it is there already."""
     parameters = {path: value for path, value in job["parameters"].items() if path != "time.seed"}
-    return add_run(job["directory"], archive, parameters, [sweep])
+    return add_run(job["directory"], archive, parameters, sweeps)
 
 
-def collect(daemon: Daemon, archive: Path) -> list[Path]:
-    """Archives every run of a daemon that is done."""
+def sweeps_of_points(shaken: str, sweeps: Iterable[dict[str, Any]]) -> dict[str, list[str]]:
+    """The names of the sweeps that ask for a run, by its id."""
+    found: dict[str, list[str]] = {}
+    for sweep in sweeps:
+        for point in points_of(shaken, sweep):
+            found.setdefault(point["id"], []).append(sweep["name"])
+    return found
+
+
+def collect(daemon: Daemon, archive: Path, known: Mapping[str, list[str]]) -> list[Path]:
+    """Archives every run of a daemon that is done: as one of the sweeps that ask for it (`known`, by its id), whatever
+    it was submitted in; of others the sweep's own name."""
     written = []
     for sweep in daemon.sweeps():
         for job in daemon.jobs(sweep["id"]):
-            if job["state"] == "done" and (path := archive_job(job, sweep["name"], archive)):
+            sweeps = known.get(job["id"], [sweep["name"]])
+            if job["state"] == "done" and (path := archive_job(job, sweeps, archive)):
                 written.append(path)
     return written
 
