@@ -58,8 +58,6 @@ bool is_temporary_of(std::string_view name, std::string_view temporary) {
   return temporary.substr(1, kDigits).find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
 
-}  // namespace
-
 std::filesystem::path temporary_for(const std::filesystem::path& file) {
   std::uint64_t random = 0;
   if (::getrandom(&random, sizeof random, 0) != sizeof random) random = std::random_device{}();
@@ -68,6 +66,8 @@ std::filesystem::path temporary_for(const std::filesystem::path& file) {
   name.resize(std::min(name.size(), NAME_MAX - ending.size()));
   return file.parent_path() / (name + ending);
 }
+
+}  // namespace
 
 void remove_unfinished(const std::filesystem::path& file) {
   std::error_code error;
@@ -80,16 +80,22 @@ void remove_unfinished(const std::filesystem::path& file) {
   }
 }
 
-Result<void> replace_file(const std::filesystem::path& written, const std::filesystem::path& file) {
-  Result<void> done = sync(written, O_RDONLY);
-  if (done && std::rename(written.c_str(), file.c_str()) != 0) done = system_error("cannot replace " + file.string());
-  if (!done) {
-    std::error_code ignored;
-    std::filesystem::remove(written, ignored);
-    return done;
-  }
-  const std::filesystem::path folder = file.parent_path();
-  return sync(folder.empty() ? "." : folder, O_RDONLY | O_DIRECTORY);
+UnfinishedFile::UnfinishedFile(std::filesystem::path file) : file_(std::move(file)), path_(temporary_for(file_)) {}
+
+UnfinishedFile::UnfinishedFile(UnfinishedFile&& other) noexcept
+    : file_(std::move(other.file_)), path_(std::exchange(other.path_, {})) {}
+
+UnfinishedFile::~UnfinishedFile() {
+  if (!path_.empty()) ::unlink(path_.c_str());
+}
+
+Result<void> UnfinishedFile::replace(Lasting lasting) {
+  const bool lasts = lasting == Lasting::kYes;
+  if (auto done = lasts ? sync(path_, O_RDONLY) : Result<void>(); !done) return done;
+  if (std::rename(path_.c_str(), file_.c_str()) != 0) return system_error("cannot replace " + file_.string());
+  path_.clear();
+  const auto folder = file_.has_parent_path() ? file_.parent_path() : ".";
+  return lasts ? sync(folder, O_RDONLY | O_DIRECTORY) : Result<void>();
 }
 
 Result<void> write_file(const std::filesystem::path& file, std::string_view content) {
@@ -101,23 +107,17 @@ Result<void> write_file(const std::filesystem::path& file, std::string_view cont
   return done;
 }
 
-Result<void> write_file_atomically(const std::filesystem::path& file, std::string_view content) {
-  const std::filesystem::path temporary = temporary_for(file);
-  if (auto done = write_file(temporary, content); !done) return done.error();
-  return replace_file(temporary, file);
+Result<void> write_file_atomically(const std::filesystem::path& file, std::string_view content, Lasting lasting) {
+  UnfinishedFile unfinished(file);
+  if (auto done = write_file(unfinished.path(), content); !done) return done;
+  return unfinished.replace(lasting);
 }
 
 Result<ReplacementFile> ReplacementFile::create(const std::filesystem::path& file) {
-  std::filesystem::path written = temporary_for(file);
-  Descriptor out = open_file(written, O_WRONLY | O_CREAT | O_EXCL);
-  if (!out) return system_error("cannot write " + file.string());
-  return ReplacementFile(file, std::move(written), std::move(out));
-}
-
-ReplacementFile::~ReplacementFile() {
-  if (!out_) return;
-  std::error_code ignored;
-  std::filesystem::remove(written_, ignored);
+  ReplacementFile next(file);
+  next.out_ = open_file(next.unfinished_.path(), O_WRONLY | O_CREAT | O_EXCL);
+  if (!next.out_) return system_error("cannot write " + file.string());
+  return next;
 }
 
 Result<void> ReplacementFile::append(std::string_view piece) {
@@ -126,13 +126,8 @@ Result<void> ReplacementFile::append(std::string_view piece) {
 }
 
 Result<void> ReplacementFile::finish() {
-  if (!out_.close_now()) {
-    const Error error = system_error("cannot write " + file_.string());
-    std::error_code ignored;
-    std::filesystem::remove(written_, ignored);
-    return error;
-  }
-  return replace_file(written_, file_);
+  if (!out_.close_now()) return system_error("cannot write " + file_.string());
+  return unfinished_.replace();
 }
 
 namespace {

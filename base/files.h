@@ -14,41 +14,52 @@
 
 namespace shaken {
 
+/// Whether what is written must outlast a loss of power from then on, which costs the writer a wait for the disk.
+enum class Lasting { kNo, kYes };
+
 /// Replaces `file` by `content` so that a reader, or a crash at any instant, sees the old file or the new, never a
 /// mixture: writes an unfinished file beside it, fsync, rename, fsync of the folder. Returns the reason if the disk
 /// refuses; the old file is then untouched. Of several writers at one time the last has its content there, whole.
-Result<void> write_file_atomically(const std::filesystem::path& file, std::string_view content);
+Result<void> write_file_atomically(const std::filesystem::path& file, std::string_view content,
+                                   Lasting lasting = Lasting::kYes);
 
-/// The second half of the above alone: fsync of `written`, rename to `file`, fsync of the folder. Both are in the same
-/// folder; `written` is gone if this fails.
-Result<void> replace_file(const std::filesystem::path& written, const std::filesystem::path& file);
-
-/// The first half alone: writes `content` without making it last, or removes what there is of it.
+/// The first step of the above alone: writes `content` without making it last, or removes what there is of it.
 Result<void> write_file(const std::filesystem::path& file, std::string_view content);
+
+/// The place beside `file` where its next content is prepared, under a name that no other object gets, on all machines
+/// that share the disk. What was written there goes with this object unless it has replaced the file, so an exception
+/// leaves nothing over.
+class UnfinishedFile {
+ public:
+  explicit UnfinishedFile(std::filesystem::path file);
+  UnfinishedFile(UnfinishedFile&& other) noexcept;
+  ~UnfinishedFile();
+
+  const std::filesystem::path& path() const { return path_; }
+  /// The content takes the file's place: rename, and where it has to last fsync before and of the folder afterwards.
+  Result<void> replace(Lasting lasting = Lasting::kYes);
+
+ private:
+  std::filesystem::path file_, path_;
+};
 
 /// As write_file_atomically, for content that comes piece by piece: an unfinished file grows until `finish` puts it in
 /// the place of FILE. If that never happens, FILE stays as it was, and the unfinished file goes with this object.
 class ReplacementFile {
  public:
   static Result<ReplacementFile> create(const std::filesystem::path& file);
-  ReplacementFile(ReplacementFile&& other) noexcept = default;
-  ~ReplacementFile();
 
   Result<void> append(std::string_view piece);
   /// Nothing may be appended afterwards.
   Result<void> finish();
 
  private:
-  ReplacementFile(std::filesystem::path file, std::filesystem::path written, Descriptor out)
-      : file_(std::move(file)), written_(std::move(written)), out_(std::move(out)) {}
+  explicit ReplacementFile(const std::filesystem::path& file) : file_(file), unfinished_(file) {}
 
-  std::filesystem::path file_, written_;
-  Descriptor out_;  ///< of the unfinished file; none once it is finished
+  std::filesystem::path file_;
+  UnfinishedFile unfinished_;
+  Descriptor out_;
 };
-
-/// A name beside `file`, where its next content is prepared: FILE.XXXXXXXXXXXX.tmp, with digits that no other call
-/// gets, in this process or in another one, on this machine or on another one that shares the disk.
-std::filesystem::path temporary_for(const std::filesystem::path& file);
 
 /// Removes what writers of `file` that were killed have left beside it. For one who knows that nobody else writes it.
 void remove_unfinished(const std::filesystem::path& file);

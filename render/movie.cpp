@@ -59,20 +59,20 @@ const Format* format_of(const std::filesystem::path& file) {
 }  // namespace
 
 struct MovieWriter::Impl {
-  std::filesystem::path file, unfinished;
+  std::filesystem::path file;
+  UnfinishedFile unfinished;
   int width = 0, height = 0;
   Notes gif_comment;  ///< ffmpeg writes those of other formats
   Descriptor frames;  ///< ffmpeg reads them; a socket, for writing to a pipe that nobody reads would end this program
   Descriptor messages;
   pid_t ffmpeg = 0;
 
+  explicit Impl(const std::filesystem::path& movie) : file(movie), unfinished(movie) {}
   ~Impl() {
     if (ffmpeg > 0) {
       kill(ffmpeg, SIGKILL);
       wait_for_child(ffmpeg);
     }
-    std::error_code ignored;
-    std::filesystem::remove(unfinished, ignored);
   }
 
   Error failed(const std::string& why) const { return Error{"cannot write " + file.string() + ": " + why}; }
@@ -136,12 +136,10 @@ Result<MovieWriter> MovieWriter::create(const std::filesystem::path& file, int w
   const Format* kind = format_of(file);
   if (kind == nullptr) return Error{"a film is written as " + movie_endings() + ", not as " + file.string()};
   if (auto done = check_movie(file, width, height, fps); !done) return done.error();
-  auto impl = std::make_unique<Impl>();
-  impl->file = file;
+  auto impl = std::make_unique<Impl>(file);
   impl->width = width;
   impl->height = height;
-  impl->unfinished = temporary_for(file);
-  if (!Descriptor(open(impl->unfinished.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666)))
+  if (!Descriptor(open(impl->unfinished.path().c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666)))
     return impl->failed(std::strerror(errno));
   // -xerror: else a disk that is full when the index is written would be no failure
   std::istringstream words(fmt::format(
@@ -155,7 +153,7 @@ Result<MovieWriter> MovieWriter::create(const std::filesystem::path& file, int w
     command.insert(command.end(), {"-crf", small ? kind->small_crf : kind->crf, "-metadata", "title=" + title,
                                    "-metadata", "comment=" + notes_text(notes)});
   }
-  command.push_back("file:" + impl->unfinished.string());  // a name alone may be taken for a protocol
+  command.push_back("file:" + impl->unfinished.path().string());  // a name alone may be taken for a protocol
   if (auto done = impl->start(command); !done) return done.error();
   return MovieWriter(std::move(impl));
 }
@@ -176,10 +174,9 @@ Result<void> MovieWriter::add(const Image& image) {
 
 Result<void> MovieWriter::finish() {
   if (auto done = impl_->end(); !done) return done;
-  if (auto done = add_notes_to_gif(impl_->unfinished, impl_->gif_comment); !done)
+  if (auto done = add_notes_to_gif(impl_->unfinished.path(), impl_->gif_comment); !done)
     return impl_->failed(done.error().message);
-  if (std::rename(impl_->unfinished.c_str(), impl_->file.c_str()) != 0) return impl_->failed(std::strerror(errno));
-  return {};
+  return impl_->unfinished.replace(Lasting::kNo);
 }
 
 }  // namespace shaken::render

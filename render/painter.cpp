@@ -146,13 +146,10 @@ Result<void> write_vector(const std::filesystem::path& file, const RodPicture& p
   const PictureStyle style = drawable(asked, picture);
   if (auto done = check(style, picture); !done) return done.error();
   if (style.view != ViewPoint::kTop) return Error{"only views from above can be drawn as " + file.extension().string()};
-  const std::filesystem::path unfinished = temporary_for(file);
-  const auto failed = [&](const std::string& why) {
-    std::remove(unfinished.c_str());
-    return Error{"cannot write " + file.string() + ": " + why};
-  };
+  UnfinishedFile unfinished(file);
+  const auto failed = [&](const std::string& why) { return Error{"cannot write " + file.string() + ": " + why}; };
   Result<Canvas> canvas =
-      Canvas::vector(unfinished, file.extension().string(), style.width, style.height,
+      Canvas::vector(unfinished.path(), file.extension().string(), style.width, style.height,
                      style.transparent ? std::nullopt : std::optional(page_colours(style.theme).page),
                      picture.captions.label, picture.captions.notes, style.dpi.value_or(72));
   if (!canvas) return failed(canvas.error().message);
@@ -174,13 +171,13 @@ Result<void> write_vector(const std::filesystem::path& file, const RodPicture& p
   }
   if (auto done = canvas->finish(); !done) return failed(done.error().message);
   if (file.extension() == ".svg") {
-    if (auto done = add_words_to_svg(unfinished, picture.captions.label, picture.captions.notes, canvas->svg_words());
+    if (auto done =
+            add_words_to_svg(unfinished.path(), picture.captions.label, picture.captions.notes, canvas->svg_words());
         !done) {
       return failed(done.error().message);
     }
   }
-  if (std::rename(unfinished.c_str(), file.c_str()) != 0) return failed(std::strerror(errno));
-  return {};
+  return unfinished.replace(Lasting::kNo);
 }
 
 }  // namespace shaken::render

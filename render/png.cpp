@@ -84,8 +84,8 @@ namespace {
 
 Result<void> write_rows(const std::filesystem::path& file, const Rows& rows, const Notes& texts, double dpi) {
   const auto failed = [&](const std::string& why) { return Error{"cannot write " + file.string() + ": " + why}; };
-  const std::filesystem::path unfinished = temporary_for(file);
-  std::unique_ptr<std::FILE, CloseFile> stream(std::fopen(unfinished.c_str(), "wb"));
+  UnfinishedFile unfinished(file);
+  std::unique_ptr<std::FILE, CloseFile> stream(std::fopen(unfinished.path().c_str(), "wb"));
   if (!stream) return failed(std::strerror(errno));
 
   std::vector<png_text> chunks;
@@ -105,11 +105,7 @@ Result<void> write_rows(const std::filesystem::path& file, const Rows& rows, con
     good = false;
     message = std::strerror(errno);
   }
-  if (good && std::rename(unfinished.c_str(), file.c_str()) == 0) return {};
-  if (good) message = std::strerror(errno);
-  stream.reset();
-  std::remove(unfinished.c_str());
-  return failed(message);
+  return good ? unfinished.replace(Lasting::kNo) : failed(message);
 }
 
 }  // namespace

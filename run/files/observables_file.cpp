@@ -49,15 +49,13 @@ herr_t collect(hid_t root, const char* name, const H5O_info_t* info, void* conte
 Result<void> write_observables(const std::filesystem::path& file, const Observables& arrays,
                                const Provenance& provenance) {
   hdf5::initialize();
-  const std::filesystem::path temporary = temporary_for(file);
+  UnfinishedFile unfinished(file);
   try {
-    write_arrays(temporary, arrays, provenance);
+    write_arrays(unfinished.path(), arrays, provenance);
   } catch (const hdf5::Failure& failure) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
     return Error{file.string() + ": " + failure.what()};
   }
-  return replace_file(temporary, file);
+  return unfinished.replace();
 }
 
 Result<Observables> read_observables(const std::filesystem::path& file) {

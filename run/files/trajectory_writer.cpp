@@ -166,15 +166,13 @@ Result<void> write_trajectory(const std::filesystem::path& file, const RecordedF
 Result<void> write_trajectory(const std::filesystem::path& file, const TrajectoryHeader& header,
                               const RecordedFrames& frames) {
   hdf5::initialize();
-  const std::filesystem::path written = temporary_for(file);
+  UnfinishedFile unfinished(file);
   try {
-    write_file(written, header, frames);
+    write_file(unfinished.path(), header, frames);
   } catch (const hdf5::Failure& failure) {
-    std::error_code ignored;
-    std::filesystem::remove(written, ignored);
     return Error{file.string() + ": " + failure.what()};
   }
-  return replace_file(written, file);
+  return unfinished.replace();
 }
 
 Result<FrameLog> reopen_frames(const RunDirectory& directory, std::size_t n_frames) {
@@ -190,15 +188,15 @@ Result<FrameLog> reopen_frames(const RunDirectory& directory, std::size_t n_fram
     return Error{directory.trajectory().string() + " has " + std::to_string(trajectory->n_frames()) +
                  " frames instead of " + std::to_string(n_frames)};
   }
-  const std::filesystem::path written = temporary_for(directory.frames());
-  Result<FrameLog> log = FrameLog::create(written, trajectory->header());
+  UnfinishedFile unfinished(directory.frames());
+  Result<FrameLog> log = FrameLog::create(unfinished.path(), trajectory->header());
   if (!log) return log.error();
   for (std::size_t i = 0; i < n_frames; ++i) {
     const Result<RecordedFrame> frame = trajectory->recorded().frame(i);
     if (!frame) return frame.error();
     if (auto done = log->append(*frame); !done) return done.error();
   }
-  if (auto done = replace_file(written, directory.frames()); !done) return done.error();
+  if (auto done = unfinished.replace(); !done) return done.error();
   return FrameLog::reopen(directory.frames(), n_frames);
 }
 

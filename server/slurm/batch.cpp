@@ -86,13 +86,7 @@ Result<TaskReport> read_report(const std::filesystem::path& file) {
 Result<void> write_stop(const std::filesystem::path& file, const std::set<int>& places, Lasting lasting) {
   std::string text;
   for (const int place : places) text += std::to_string(place) + "\n";
-  if (lasting == Lasting::kYes) return write_file_atomically(file, text);
-  const std::filesystem::path temporary = temporary_for(file);
-  if (auto written = write_file(temporary, text); !written) return written;
-  std::error_code error;
-  std::filesystem::rename(temporary, file, error);
-  if (error) return Error{"cannot replace " + file.string() + ": " + error.message()};
-  return {};
+  return write_file_atomically(file, text, lasting);
 }
 
 std::set<int> read_stop(const std::filesystem::path& file) {

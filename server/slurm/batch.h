@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/core/result.h"
+#include "base/files.h"
 #include "server/executor.h"
 
 namespace shaken::server::slurm {
@@ -46,8 +47,6 @@ Result<void> write_batch(const BatchFolder& folder, const Batch& batch);
 Result<Batch> read_batch(const BatchFolder& folder);
 Result<void> write_report(const std::filesystem::path& file, const TaskReport& report);
 Result<TaskReport> read_report(const std::filesystem::path& file);
-/// Whether what is written must outlast a loss of power from then on, which costs the writer a wait for the disk.
-enum class Lasting { kNo, kYes };
 /// A reader sees the old file or the new.
 Result<void> write_stop(const std::filesystem::path& file, const std::set<int>& places, Lasting lasting);
 /// Nobody where there is no such file.

@@ -107,6 +107,26 @@ TEST(AtomicFile, FullDiskKeepsTheOldContent) {
   EXPECT_EQ(*read_file(file), "old");
 }
 
+TEST(UnfinishedFile, GoesWhereAnExceptionPasses) {
+  const ScratchFolder folder;
+  const auto write = [&] {
+    UnfinishedFile unfinished(folder / "state.json");
+    if (auto done = write_file(unfinished.path(), "half"); !done) return done;
+    if (std::filesystem::exists(unfinished.path())) throw std::bad_alloc();
+    return unfinished.replace();
+  };
+  EXPECT_THROW(static_cast<void>(write()), std::bad_alloc);
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(UnfinishedFile, GoesWhereItCannotReplaceTheFile) {
+  const ScratchFolder folder;
+  std::filesystem::create_directories(folder / "state.json" / "in the way");
+  EXPECT_FALSE(write_file_atomically(folder / "state.json", "new", Lasting::kNo));
+  const std::filesystem::directory_iterator entries(folder.path());
+  EXPECT_EQ(std::distance(begin(entries), end(entries)), 1);
+}
+
 TEST(ReplacementFile, TakesThePlaceOfTheOldContentOnlyAtItsEnd) {
   const ScratchFolder folder;
   const auto file = folder / "frames.xyz";
