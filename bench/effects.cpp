@@ -7,6 +7,7 @@
 
 #include "bench/bench.h"
 #include "bench/timing.h"
+#include "scene/deciding_key.h"
 #include "sim/effects/registry.h"
 
 namespace shaken::bench {
@@ -51,7 +52,7 @@ void switch_off_in_turn(const Case& everything, Report& report,
     if (effect.switch_off == nullptr || !effect.is_on(everything.system())) continue;
     Case without = everything;
     effect.switch_off(without.plan.system);
-    try_to(std::string(effect.name), without, effect.why(without.system()));
+    try_to(std::string(effect.name), without, scene::deciding_key(without.plan, effect.keys));
   }
 }
 

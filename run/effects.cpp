@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "run/measure/measurement_kinds.h"
+#include "scene/deciding_key.h"
 #include "scene/fields.h"
 #include "sim/effects/registry.h"
 
@@ -25,8 +26,8 @@ EffectLine of_block(const scene::RunPlan& plan, const std::string& name, const s
 std::vector<EffectLine> list_effects(const scene::RunPlan& plan) {
   std::vector<EffectLine> lines;
   for (const Effect& effect : all_effects()) {
-    lines.push_back(
-        {std::string(effect.name), std::string(effect.what), effect.is_on(plan.system), effect.why(plan.system)});
+    lines.push_back({std::string(effect.name), std::string(effect.what), effect.is_on(plan.system),
+                     scene::deciding_key(plan, effect.keys)});
   }
   for (const MeasurementKind& kind : measurement_kinds()) {
     const std::string name(kind.name);

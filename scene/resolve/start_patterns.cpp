@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scene/resolve/steps.h"
+#include "sim/rod/sizes.h"
 
 namespace shaken::scene {
 

@@ -16,8 +16,9 @@ struct Effect {
   std::string_view name;  ///< in summary.json: "rod_rod_friction"
   std::string_view what;  ///< one line
   bool (*is_on)(const System& system);
-  /// The key of the scene that decides, with its value: "contacts.rod_rod.friction = 0.05".
-  std::string (*why)(const System& system);
+  /// The keys of the scene that decide, those that matter most in front; * stands for any letters, as in
+  /// "rods*.length_spread".
+  std::string_view keys;
   /// Work done since tick 0, in `unit`s; 0 where the effect is off.
   std::int64_t (*work)(const World& world);
   std::string_view unit;  ///< "impulses"; also the key in summary.json

@@ -180,5 +180,30 @@ TEST(Effects, AreListedWithTheKeyThatDecides) {
   EXPECT_EQ(lines.at("rod_lid_friction").why, "contacts.rod_lid.friction = 0.01");
 }
 
+TEST(Effects, SayWhichOfTheirKeysDecides) {
+  scene::RunPlan plan = busy_plan();
+  System& system = plan.system;
+  const auto why = [&](const std::string& name) {
+    const std::vector<EffectLine> lines = list_effects(plan);
+    return std::ranges::find(lines, name, &EffectLine::name)->why;
+  };
+  EXPECT_EQ(why("spin"), why("rod_rod_friction"));
+  EXPECT_EQ(why("gravity"), "gravity = 9.81 m/s^2");
+  EXPECT_EQ(why("second_vibration"), "plates.second is absent");
+  EXPECT_EQ(why("impacts_at_instant"), "time.impacts = \"tick_end\"");
+  system.base = false;
+  EXPECT_EQ(why("tilt"), "plates.lid = on") << "of several keys the first that is not neutral";
+  EXPECT_EQ(why("restitution_speed"), "contacts.rod_rod.restitution_speed = 0 mm/s");
+  system.rod_lid.restitution_speed = 30;
+  EXPECT_EQ(why("restitution_speed"), "contacts.rod_lid.restitution_speed = 30 mm/s");
+  system.added = {AddedRods{}, AddedRods{}};
+  system.rod_rod.own[Contacts::place(2, 1)].friction = 0.25;
+  system.rod_rod.friction = 0;
+  EXPECT_EQ(why("species_contacts"), "contacts.rod_rod.rods_2_rods_3.friction = 0.25");
+  EXPECT_EQ(why("rod_rod_friction"), "contacts.rod_rod.rods_2_rods_3.friction = 0.25");
+  system.added_noise[1] = 0.2;
+  EXPECT_EQ(why("rotational_noise"), "plates.rods_3.noise = 0.2 rad/mm");
+}
+
 }  // namespace
 }  // namespace shaken::run

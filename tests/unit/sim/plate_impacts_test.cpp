@@ -104,7 +104,7 @@ TEST(PlateImpacts, AreNotInLanesWhereAnEffectIsOnThatTheLanesDoNotKnow) {
   effects.push_back({.name = "sideways_kicks",
                      .what = "Plates kick rods sideways.",
                      .is_on = [](const System&) { return false; },
-                     .why = nullptr,
+                     .keys = "plates.kicks",
                      .work = nullptr,
                      .unit = "kicks",
                      .switch_off = nullptr});
