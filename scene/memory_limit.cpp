@@ -40,17 +40,16 @@ double memory_allowed() {
 
 std::optional<Problem> memory_problem(const RunPlan& plan, double allowed, const std::string& file,
                                       const std::string& label) {
-  const std::vector<MeasureMemory> memory = measure_memory(plan);
+  const std::map<std::string, MeasureMemory> memory = measure_memory(plan);
   const double peak = peak_of(memory);
   if (peak <= allowed) return std::nullopt;
-  const auto alone = [](const MeasureMemory& one) { return peak_of({one}); };
-  const auto largest =
-      std::max_element(memory.begin(), memory.end(), [&](const auto& a, const auto& b) { return alone(a) < alone(b); });
-  return Problem{file, 0, 0, "/measure/" + largest->name,
+  const auto alone = [](const auto& one) { return peak_of({one}); };
+  const auto largest = std::ranges::max_element(memory, {}, alone);
+  return Problem{file, 0, 0, "/measure/" + largest->first,
                  fmt::format("{}the measurements of this run would take about {} of memory, {} alone {}, and a process "
                              "may have {} here; smaller with {}",
-                             label.empty() ? "" : label + ": ", bytes_shown(peak), largest->name,
-                             bytes_shown(alone(*largest)), bytes_shown(allowed), observable(largest->name).remedy)};
+                             label.empty() ? "" : label + ": ", bytes_shown(peak), largest->first,
+                             bytes_shown(alone(*largest)), bytes_shown(allowed), observable(largest->first).remedy)};
 }
 
 }  // namespace shaken::scene

@@ -19,26 +19,6 @@ constexpr double kSeries = 65536;   ///< points of a series against time, at mos
 /// Arrays that grow with the run double when they are full too: they have room for 1 to 2 times what is in them.
 constexpr double kSpare = 0.5;
 
-}  // namespace
-
-double Sizes::spare_series(double columns) const {
-  return std::min(kSeries, samples) * columns * kNumberBytes - series(columns);
-}
-
-double Sizes::series(double columns) const {
-  double points = samples;
-  while (points >= kSeries) points /= 2;
-  return std::floor(points) * columns * kNumberBytes;
-}
-
-double Sizes::for_lags(double columns, double quantities) const {
-  double kept = 0;
-  for (int k = 0; k < 16; ++k) kept += std::min(8.0, std::ceil(samples / std::exp2(k)));
-  return kept * rods * columns * kNumberBytes + in_blocks(69 * (2 + quantities) * kNumberBytes);
-}
-
-namespace {
-
 template <class Access>
 Field phases(Access access) {
   return choice<SamplePhases>("phases", access, {{"spread", SamplePhases::kSpread}, {"locked", SamplePhases::kLocked}},
@@ -70,19 +50,18 @@ MeasureMemory of_defects(const Sizes& sizes) {
   const double found = std::min(system.box().area() / (4 * std::numbers::pi * smoothing * smoothing), nodes);
   constexpr double kTrack = 1200;  // with its last 17 places
   const double list = defects.list ? 6 * kNumberBytes * found * sizes.samples : 0;
-  return {"", sizes.series(3) + found * kTrack + list, field_bytes(nodes), sizes.series(3) + list,
-          sizes.spare_series(3) + kSpare * list};
+  return {found * kTrack + list, field_bytes(nodes), list, kSpare * list};
 }
+
+/// Seven a bin and charge.
+double map_sums(double bins) { return 2 * 7 * bins * bins; }
 
 MeasureMemory of_defect_maps(const Sizes& sizes) {
   const System& system = sizes.plan.system;
-  const MeasureDefectMaps& maps = *sizes.plan.defect_maps;
-  const double bins = maps.bins;
-  // Seven sums a bin and charge. Errors are found from copies of all stretches, twice, and from what each stretch adds
-  // to each number.
-  const double state = sizes.in_blocks(2 * 7 * kNumberBytes * bins * bins);
-  const double field = field_bytes(field_nodes(system.box(), maps.grid_for(system.rod.length)));
-  return {"", state + 9 * kNumberBytes * sizes.rods, std::max(field, 3 * state)};
+  // Errors are found from copies of all stretches, twice, and from what each stretch adds to each number.
+  const double bins = sizes.plan.defect_maps->bins, copies = 3 * sizes.stretches * kNumberBytes * map_sums(bins);
+  const double nodes = field_nodes(system.box(), sizes.plan.defect_maps->grid_for(system.rod.length));
+  return {0, std::max(field_bytes(nodes), copies)};
 }
 
 MeasureMemory of_density(const Sizes& sizes) {
@@ -91,43 +70,34 @@ MeasureMemory of_density(const Sizes& sizes) {
   const double cells = field_nodes(system.box(), density.grid_for(system.rod.length));
   const double maps = std::floor(sizes.samples / std::max(1.0, std::round(density.duration / density.every)));
   const double bytes = maps * (cells + 1) * kNumberBytes;
-  return {"", bytes + 3 * kNumberBytes * cells, 0, bytes, kSpare * bytes};
+  return {bytes + 3 * kNumberBytes * cells, 0, bytes, kSpare * bytes};
 }
 
 MeasureMemory of_velocity(const Sizes& sizes) {
   const MeasureVelocity& velocity = *sizes.plan.velocity;
   const double window = std::max(1.0, std::round(velocity.window / velocity.every));
-  return {"", sizes.for_lags(2, 4) + std::min(window, sizes.samples) * (sizes.rods * 2 * kNumberBytes + 100), 0};
+  return {std::min(window, sizes.samples) * (sizes.rods * 2 * kNumberBytes + 100)};
 }
 
 MeasureMemory of_rods(const Sizes& sizes) {
   const MeasureRods& rods = *sizes.plan.rods;
   const double kept = std::min(sizes.samples, std::floor(rods.duration / rods.every * (1 + 1e-12)) + 1);
   const double bytes = kept * kNumberBytes * (4 * std::min<double>(rods.count, sizes.rods) + 1);
-  return {"", bytes, 0, bytes, kSpare * bytes};
+  return {bytes, 0, bytes, kSpare * bytes};
 }
 
-MeasureMemory of_pairs(const Sizes& sizes) {
-  const double bins = sizes.plan.pairs->bins;
-  const Box box = sizes.plan.system.box();
-  const double side = box.shorter();
-  const double range = std::min(sizes.plan.pairs->range_for(sizes.plan.system.rod.length, side), side / 2);
-  const double cut = box.longer() / 2 / (2 * range / bins);
-  return {"", sizes.in_blocks(2 * kNumberBytes * (bins * bins + 2 * cut)), 0};
+double pair_sums(const RunPlan& plan) {
+  const Box box = plan.system.box();
+  const double side = box.shorter(), bins = plan.pairs->bins;
+  const double range = std::min(plan.pairs->range_for(plan.system.rod.length, side), side / 2);
+  return 2 * (bins * bins + 2 * box.longer() / 2 / (2 * range / bins));
 }
 
-MeasureMemory of_flow(const Sizes& sizes) {
-  const double bins = sizes.plan.flow->bins;
-  return {"", sizes.in_blocks(4 * kNumberBytes * bins + 100) + sizes.rods * 7 * kNumberBytes,
-          sizes.rods * 12 * kNumberBytes};
-}
-
-MeasureMemory of_layers(const Sizes& sizes) {
-  const Box box = sizes.plan.system.box();
-  const double waves = std::floor(
-      std::min(40 * std::sqrt(box.longer() / box.shorter()), 2 * box.longer() / sizes.plan.system.rod.length));
-  const double vectors = half_plane(waves, box);
-  return {"", sizes.in_blocks(2 * kNumberBytes * (vectors + 2 * waves)), vectors * kNumberBytes};
+double layer_sums(const RunPlan& plan) {
+  const Box box = plan.system.box();
+  const double waves =
+      std::floor(std::min(40 * std::sqrt(box.longer() / box.shorter()), 2 * box.longer() / plan.system.rod.length));
+  return 2 * (half_plane(waves, box) + 2 * waves);
 }
 
 /// The rows, each by the name of its observable.
@@ -142,10 +112,7 @@ Observable order() {
     .doc = "Nematic order parameter S(t) in the plane.",
     .is_usual = true,
     .axis = AxisUse::kNeeded,
-    // t, S, and S times cosine and sine of twice the director's angle, which the file holds as one angle; P(S) in 100
-    // bins; its reduction looks for correlations, in copies of the series
-    .memory = [](const Sizes& s) -> MeasureMemory {
-      return {"", s.series(4) + s.in_blocks(100 * kNumberBytes + 40), s.series(6), s.series(3), s.spare_series(4)}; },
+    .series = 4, .angles = 1,
     .remedy = "a longer `every`"};
 }
 
@@ -155,8 +122,7 @@ Observable angles() {
     .axis = AxisUse::kNeeded,
     .keys = {
       whole("bins", at<&Plan::angles, &MeasureAngles::bins>, 2, 10000, "Number of bins over [-pi/2, pi/2).")},
-    .memory = [](const Sizes& s) -> MeasureMemory {
-      return {"", s.in_blocks(kNumberBytes * s.plan.angles->bins + 100), 0}; },
+    .sums = [](const RunPlan& p) -> double { return p.angles->bins; },
     .remedy = "fewer `bins`"};
 }
 
@@ -169,8 +135,7 @@ Observable tilt() {
       phases(at<&Plan::tilt, &MeasureTilt::phases>),
       whole("bins", at<&Plan::tilt, &MeasureTilt::bins>, 2, 10000,
             "Number of bins, from the largest downward to the largest upward tilt that the gap allows.")},
-    .memory = [](const Sizes& s) -> MeasureMemory {
-      return {"", s.in_blocks(3 * kNumberBytes * s.plan.tilt->bins + 200) + kNumberBytes * s.rods, 0}; },
+    .sums = [](const RunPlan& p) -> double { return 3 * p.tilt->bins; },
     .remedy = "fewer `bins`"};
 }
 
@@ -193,7 +158,7 @@ Observable defects() {
       later(quantity("min_lifetime", at<&Plan::defects, &MeasureDefects::min_lifetime>, kTime, 1e-7, 1e5,
                      "Tracks at least this long are also reported separately, because noise makes short-lived "
                      "pairs."))},
-    .memory = of_defects,
+    .series = 3, .memory = of_defects,
     .remedy = "a coarser `grid`, or no `list`"};
 }
 
@@ -205,8 +170,7 @@ Observable g2() {
     .keys = {
       whole("bins", at<&Plan::g2, &MeasureG2::bins>, 2, 10000,
             "Number of bins over distances from 0 to half the box, by its shorter side.")},
-    .memory = [](const Sizes& s) -> MeasureMemory {
-      return {"", s.in_blocks(3 * kNumberBytes * s.plan.g2->bins + 100), 0}; },
+    .sums = [](const RunPlan& p) -> double { return 3 * p.g2->bins; },
     .remedy = "fewer `bins`"};
 }
 
@@ -215,16 +179,14 @@ Observable msd() {
     .doc = "Mean square displacement (MSD) against lag.",
     .axis = AxisUse::kPartly,
     .every_doc = "Time between samples, which is the shortest lag.",
-    .memory = [](const Sizes& s) -> MeasureMemory { return {"", s.for_lags(2, 6), 0}; },
+    .lags = {2, 8},
     .remedy = "fewer rods"};
 }
 
 Observable fluctuations() {
   return {
     .doc = "Giant number fluctuations, from the numbers of rods in boxes of 1/4 to 1/400 of the area.",
-    .open = "numbers in boxes of equal area",
-    // 1054 boxes of ten sizes
-    .memory = [](const Sizes& s) -> MeasureMemory { return {"", s.in_blocks(1054 * 20), 0}; }};
+    .open = "numbers in boxes of equal area"};
 }
 
 Observable frank() {
@@ -233,9 +195,7 @@ Observable frank() {
            "splay.",
     .periodic = "the waves",
     .is_of_squares = true,
-    .axis = AxisUse::kNeeded,
-    // 84 waves in each sector that the director visits; a few of 36
-    .memory = [](const Sizes& s) -> MeasureMemory { return {"", s.in_blocks(3 * 90 * kNumberBytes), 0}; }};
+    .axis = AxisUse::kNeeded};
 }
 
 Observable rotation() {
@@ -244,7 +204,7 @@ Observable rotation() {
     .axis = AxisUse::kNeeded,
     .every_doc = "Time between samples, which is the shortest lag. In this time a rod must turn by much less than a "
                  "quarter turn.",
-    .memory = [](const Sizes& s) -> MeasureMemory { return {"", s.for_lags(1, 4) + 2 * kNumberBytes * s.rods, 0}; },
+    .lags = {1, 6},
     .remedy = "fewer rods"};
 }
 
@@ -256,7 +216,7 @@ Observable velocity() {
     .keys = {
       quantity("window", at<&Plan::velocity, &MeasureVelocity::window>, kTime, 1e-7, 1e5,
                "Velocities are displacements over this time, which is rounded to a multiple of `every`.")},
-    .memory = of_velocity,
+    .lags = {2, 6}, .memory = of_velocity,
     .remedy = "a shorter `window`, or a longer `every`"};
 }
 
@@ -284,7 +244,7 @@ Observable pairs() {
       derived(quantity("range", at<&Plan::pairs, &MeasurePairs::range>, kLength, 0.01, 1000,
                        "Half the width of the map. It is at most half the box, by its shorter side."),
               "three rod lengths, at most half the box")},
-    .memory = of_pairs,
+    .sums = pair_sums,
     .remedy = "fewer `bins`"};
 }
 
@@ -293,16 +253,13 @@ Observable layers() {
     .doc = "Layers along the director: spectrum, wavelength and order.",
     .periodic = "the waves",
     .axis = AxisUse::kNeeded,
-    .memory = of_layers};
+    .sums = layer_sums};
 }
 
 Observable lattice() {
   return {
     .doc = "Crystalline order: psi_6 and the largest Bragg peak.",
-    .periodic = "the nearest images and waves",
-    .memory = [](const Sizes& s) -> MeasureMemory {
-      const Box box = s.plan.system.box();
-      return {"", s.in_blocks(200), half_plane(128 * std::sqrt(box.longer() / box.shorter()), box) * kNumberBytes}; }};
+    .periodic = "the nearest images and waves"};
 }
 
 Observable structure() {
@@ -313,9 +270,6 @@ Observable structure() {
     .keys = {
       whole("waves", at<&Plan::structure, &MeasureStructure::waves>, 2, 128,
             "Number of wave numbers 2 pi k / L, L being the longer side of the box. The time that a sample takes grows with its square.")},
-    .memory = [](const Sizes& s) -> MeasureMemory {
-      const double waves = s.plan.structure->waves;
-      return {"", s.in_blocks(6 * kNumberBytes * waves + 100), half_plane(waves, s.plan.system.box()) * kNumberBytes}; },
     .remedy = "fewer `waves`"};
 }
 
@@ -326,9 +280,7 @@ Observable polar() {
     .every_doc = "Mean time between samples.",
     .keys = {
       phases(at<&Plan::polar, &MeasurePolar::phases>)},
-    // t, P, and P times cosine and sine of the direction, which the file holds as one angle
-    .memory = [](const Sizes& s) -> MeasureMemory {
-      return {"", s.series(4) + s.in_blocks(100), 0, s.series(3), s.spare_series(4)}; },
+    .series = 4, .angles = 1,
     .remedy = "a longer `every`"};
 }
 
@@ -339,8 +291,7 @@ Observable temperatures() {
     .every_doc = "Mean time between samples.",
     .keys = {
       phases(at<&Plan::temperatures, &MeasureTemperatures::phases>)},
-    .memory = [](const Sizes& s) -> MeasureMemory {
-      return {"", s.series(9) + s.in_blocks(150), 0, s.series(9), s.spare_series(9)}; },
+    .series = 9,
     .remedy = "a longer `every`"};
 }
 
@@ -353,7 +304,7 @@ Observable scattering() {
       derived(quantity("wavelength", at<&Plan::scattering, &MeasureScattering::wavelength>, kLength, 0.001, 1000,
                        "Longest of four wavelengths 2 pi / q, each of which is half of that before."),
               "a rod length")},
-    .memory = [](const Sizes& s) -> MeasureMemory { return {"", s.for_lags(2, 13), 0}; },
+    .lags = {2, 15},
     .remedy = "fewer rods"};
 }
 
@@ -370,8 +321,7 @@ Observable van_hove() {
       derived(quantity("range", at<&Plan::van_hove, &MeasureVanHove::range>, kLength, 1e-6, 1e5,
                        "Largest displacement at the longest lag; at the others it is 1/2, 1/4 and 1/8 of it."),
               "a rod length")},
-    .memory = [](const Sizes& s) -> MeasureMemory {
-      return {"", 4 * (s.in_blocks(2 * kNumberBytes * s.plan.van_hove->bins + 100) + 2 * kNumberBytes * s.rods), 0}; },
+    .sums = [](const RunPlan& p) -> double { return 8 * p.van_hove->bins; }, .per_rod = 64,
     .remedy = "fewer `bins`"};
 }
 
@@ -384,7 +334,7 @@ Observable flow() {
     .keys = {
       whole("bins", at<&Plan::flow, &MeasureFlow::bins>, 2, 10000,
             "Number of bins over distances from 0 to half the box, by its shorter side.")},
-    .memory = of_flow,
+    .sums = [](const RunPlan& p) -> double { return 4 * p.flow->bins; }, .per_rod = 150,
     .remedy = "fewer `bins`"};
 }
 
@@ -398,8 +348,7 @@ Observable clusters() {
               "1.25 middle diameters"),
       quantity("angle", at<&Plan::clusters, &MeasureClusters::angle>, kPlain, 0, 90,
                "Largest angle in degrees between the axes of two neighbours of one cluster. 90: any.")},
-    .memory = [](const Sizes& s) -> MeasureMemory {
-      return {"", s.series(3) + s.in_blocks(700), 150 * s.rods, s.series(3), s.spare_series(3)}; },
+    .series = 3, .per_rod = 150,
     .remedy = "a longer `every`"};
 }
 
@@ -407,8 +356,7 @@ Observable collisions() {
   return {
     .doc = "Rates of impacts, mean free time, and the energy that impacts move; of all rods, whatever their species.",
     .every_doc = "Time between samples, over which rates are means.",
-    .memory = [](const Sizes& s) -> MeasureMemory {
-      return {"", s.series(8) + s.in_blocks(100), 0, s.series(8), s.spare_series(8)}; },
+    .series = 8,
     .remedy = "a longer `every`"};
 }
 
@@ -419,8 +367,7 @@ Observable stress() {
     .axis = AxisUse::kPartly,
     .every_doc = "Mean time between samples, over which momentum that impacts carry is summed.",
     .keys = {phases(at<&Plan::stress, &MeasureStress::phases>)},
-    .memory = [](const Sizes& s) -> MeasureMemory {
-      return {"", s.series(9) + s.in_blocks(60), 0, s.series(9), s.spare_series(9)}; },
+    .series = 9,
     .remedy = "a longer `every`"};
 }
 
@@ -436,11 +383,8 @@ Observable mixing() {
                        "Rods are neighbours if their centres are nearer than this: at most half the box, by its "
                        "shorter side."),
               "a rod length, at most half the box")},
-    .memory = [](const Sizes& s) -> MeasureMemory {
-      double species = 1;
-      for (const auto& added : s.run.system.added) species += added ? 1 : 0;
-      const double kinds = species * (species + 1) / 2, all = s.run.system.n_all_rods();
-      return {"", s.in_blocks(kinds * (2 * kNumberBytes * s.plan.mixing->bins + 20) + 200), all * 40}; },
+    // 3 or 6 pairs of species
+    .sums = [](const RunPlan& p) -> double { return 2 * 4 * p.mixing->bins; }, .per_rod = 40,
     .remedy = "fewer `bins`"};
 }
 
@@ -467,7 +411,7 @@ Observable defect_maps() {
       derived(quantity("grid", at<&Plan::defect_maps, &MeasureDefectMaps::grid>, kLength, 0.01, 200,
                        "Mesh width of the director field."),
               "an eighth of a rod length")},
-    .memory = of_defect_maps,
+    .sums = [](const RunPlan& p) { return map_sums(p.defect_maps->bins); }, .per_rod = 72, .memory = of_defect_maps,
     .remedy = "fewer `bins`, or a coarser `grid`"};
 }
 
@@ -490,8 +434,7 @@ Observable drift() {
   return {
     .doc = "The common drift of all rods in the plane: displacement of the mean of their centres, and mean velocity.",
     .keys = {},
-    .memory = [](const Sizes& s) -> MeasureMemory {
-      return {"", s.series(3) + s.in_blocks(70), 0, s.series(3), s.spare_series(3)}; },
+    .series = 3,
     .remedy = "a longer `every`"};
 }
 
@@ -546,23 +489,30 @@ const Observable& observable(std::string_view name) {
 
 namespace {
 
-/// Adds what an observable takes of one species to what it takes of others.
-void add(const MeasureMemory& needed, std::vector<MeasureMemory>& memory) {
-  const auto same = std::ranges::find(memory, needed.name, &MeasureMemory::name);
-  if (same == memory.end()) {
-    memory.push_back(needed);
-    return;
-  }
-  same->state += needed.state;
-  same->scratch = std::max(same->scratch, needed.scratch);
-  same->file += needed.file;
-  same->spare += needed.spare;
+/// Of each of 16 levels the last 8 of every 2^k-th sample are kept for lags to come (analysis/lag_average.h).
+double kept_for_lags(double samples) {
+  double kept = 0;
+  for (int k = 0; k < 16; ++k) kept += std::min(8.0, std::ceil(samples / std::exp2(k)));
+  return kept;
+}
+
+MeasureMemory memory_of(const Observable& one, const Sizes& sizes) {
+  double points = sizes.samples;  // of a series, whose neighbours are averaged in pairs where it is full
+  while (points >= kSeries) points /= 2;
+  const double series = std::floor(points) * one.series * kNumberBytes;
+  const double sums = (one.sums == nullptr ? 0 : one.sums(sizes.plan)) + 69 * one.lags.sums;
+  MeasureMemory needed = one.memory == nullptr ? MeasureMemory{} : one.memory(sizes);
+  needed.state += series + sizes.rods * (one.per_rod + kept_for_lags(sizes.samples) * one.lags.columns * kNumberBytes) +
+                  sizes.stretches * sums * kNumberBytes;
+  needed.file += series - std::floor(points) * one.angles * kNumberBytes;
+  needed.spare += std::min(kSeries, sizes.samples) * one.series * kNumberBytes - series;
+  return needed;
 }
 
 }  // namespace
 
-std::vector<MeasureMemory> measure_memory(const RunPlan& plan) {
-  std::vector<MeasureMemory> memory;
+std::map<std::string, MeasureMemory> measure_memory(const RunPlan& plan) {
+  std::map<std::string, MeasureMemory> memory;
   for (const MeasuredRods& rods : measured_species(plan)) {
     for (const Observable& one : observables()) {
       const auto every = one.period(rods.plan);
@@ -571,21 +521,22 @@ std::vector<MeasureMemory> measure_memory(const RunPlan& plan) {
       const double samples = std::floor(plan.longest_time() / (ticks * plan.system.dt) * (1 + 1e-12)) + 1;
       double in_stretch = 1;
       while (samples > kBlocks * in_stretch) in_stretch *= 2;
-      Sizes sizes{rods.plan, plan, samples, static_cast<double>(rods.plan.system.n_rods),
-                  std::ceil(samples / in_stretch)};
-      MeasureMemory needed = one.memory(sizes);
+      Sizes sizes{rods.plan, samples, static_cast<double>(rods.plan.system.n_rods), std::ceil(samples / in_stretch)};
+      const MeasureMemory needed = memory_of(one, sizes);
       sizes.stretches = std::min(kBlocks, samples);
-      needed.spare += one.memory(sizes).state - needed.state;
-      needed.name = one.name;
-      add(needed, memory);
+      MeasureMemory& sum = memory[one.name];
+      sum.state += needed.state;
+      sum.scratch = std::max(sum.scratch, needed.scratch);
+      sum.file += needed.file;
+      sum.spare += needed.spare + memory_of(one, sizes).state - needed.state;
     }
   }
   return memory;
 }
 
-double peak_of(const std::vector<MeasureMemory>& memory) {
+double peak_of(const std::map<std::string, MeasureMemory>& memory) {
   double states = 0, spare = 0, scratch = 0;
-  for (const MeasureMemory& one : memory) {
+  for (const auto& [name, one] : memory) {
     states += one.state;
     spare += one.spare;
     scratch = std::max(scratch, one.scratch);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,29 +20,24 @@ enum class AxisUse {
 
 /// The bytes of one measurement.
 struct MeasureMemory {
-  std::string name;    ///< of the observable
   double state = 0;    ///< what it has gathered at the end of the run; all of it goes into each checkpoint
   double scratch = 0;  ///< what it needs besides while it takes a sample
   double file = 0;     ///< what it adds to observables.h5 beyond what a few samples make of it
   double spare = 0;    ///< what it holds besides at some time before the end, or in arrays that are not full
 };
 
-/// What formulas of memory are made of.
+/// What the memory of a measurement follows from.
 struct Sizes {
   const RunPlan& plan;   ///< of the rods that are measured
-  const RunPlan& run;    ///< of all species
   double samples = 0;    ///< of this measurement in the whole run
   double rods = 0;       ///< that are measured
   double stretches = 0;  ///< of time that sums are kept for; neighbours are merged now and then
+};
 
-  double in_blocks(double bytes) const { return stretches * bytes; }
-  /// Columns of a BoundedSeries, that of times among them, at the end of the run, when neighbouring points may have
-  /// been averaged in pairs; and the room that it holds beyond that.
-  double series(double columns) const;
-  double spare_series(double columns) const;
-  /// Kept for lags to come: of each of 16 levels the last 8 of every 2^k-th sample (analysis/lag_average.h), and sums
-  /// over so many quantities at 69 lags.
-  double for_lags(double columns, double quantities) const;
+/// What a measurement against lags keeps.
+struct PerLag {
+  int columns = 0;  ///< numbers of each rod, of samples for lags to come
+  int sums = 0;     ///< of each lag and stretch of time
 };
 
 /// All that a scene knows of one observable: the block "measure.NAME". What a run makes of it, the adapter
@@ -54,9 +50,15 @@ struct Observable {
   std::string open = "";       ///< what it takes of a plane without posts ("lines of sight"); empty: nothing
   bool is_of_squares = false;  ///< of a periodic box it takes that it is square
   AxisUse axis = AxisUse::kNone;
-  std::string every_doc = "Time between samples.";     ///< of the key `every`
-  std::vector<Field> keys = {};                        ///< further keys, by their names in the block
-  MeasureMemory (*memory)(const Sizes&) = nullptr;     ///< how it follows from the plan
+  std::string every_doc = "Time between samples.";  ///< of the key `every`
+  std::vector<Field> keys = {};                     ///< further keys, by their names in the block
+  // What it keeps, if that can be more than 2 MB:
+  int series = 0;                            ///< columns of a BoundedSeries, that of times among them
+  int angles = 0;                            ///< pairs of them, as cosine and sine, that the file holds as one angle
+  double (*sums)(const RunPlan&) = nullptr;  ///< numbers that are kept for each stretch of time
+  PerLag lags = {};
+  double per_rod = 0;                                  ///< bytes
+  MeasureMemory (*memory)(const Sizes&) = nullptr;     ///< all else
   std::string remedy = "nothing but to leave it out";  ///< what makes it smaller
   Field block = {}, every = {};                        ///< follow from the above
 
@@ -76,12 +78,12 @@ const std::vector<Observable>& observables();
 /// The one of this name, which must exist.
 const Observable& observable(std::string_view name);
 
-/// Of everything that the plan measures. Within a factor of two of what is held, wherever that is more than 2 MB;
-/// where it depends on what the rods do (`defects.list`), that of disordered rods, which have the most defects.
-std::vector<MeasureMemory> measure_memory(const RunPlan& plan);
+/// Of everything that the plan measures, by name. Within a factor of two of what is held, wherever that is more than
+/// 2 MB; where it depends on what the rods do (`defects.list`), that of disordered rods, which have the most defects.
+std::map<std::string, MeasureMemory> measure_memory(const RunPlan& plan);
 
 /// Bytes that all measurements hold together when they hold most: their states with their spare room, and on top
 /// either the copy of the states that a checkpoint is written from, or the scratch of one.
-double peak_of(const std::vector<MeasureMemory>& memory);
+double peak_of(const std::map<std::string, MeasureMemory>& memory);
 
 }  // namespace shaken::scene

@@ -126,7 +126,7 @@ class Prober {
     if (write_observables(folder / "observables.h5", arrays)) {
       cost_.disk.observables = bytes_in(folder / "observables.h5");
     }
-    for (const scene::MeasureMemory& one : measured_) cost_.disk.observables += one.file;
+    for (const auto& [name, one] : measured_) cost_.disk.observables += one.file;
   }
 
   /// Records `n` frames of the present state, `cadence` apart, as a run does, into DIR/trajectory.h5. Returns the CPU
@@ -191,7 +191,7 @@ class Prober {
 
   Result<void> time_checkpoints() {
     double state = 0;
-    for (const scene::MeasureMemory& one : measured_) state += one.state;
+    for (const auto& [name, one] : measured_) state += one.state;
     const ScratchFolder folder;
     const RunDirectory directory{folder.path()};
     const double begin = thread_cpu_seconds();
@@ -220,7 +220,7 @@ class Prober {
   }
 
   const scene::RunPlan& plan_;
-  const std::vector<scene::MeasureMemory> measured_ = scene::measure_memory(plan_);
+  const std::map<std::string, scene::MeasureMemory> measured_ = scene::measure_memory(plan_);
   Simulation simulation_;
   double cpu_;       ///< for steps [s]
   double each_ = 0;  ///< for timing one kind of work [s]
