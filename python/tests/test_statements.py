@@ -681,7 +681,7 @@ def test_layers_of_blunt_rods_that_depend_on_the_start_are_open():
     assert verdict("peaks-end", rows) == rules.DISAGREES
     assert verdict("peaks-end", rows + rods(0.6, PLAIN, "fluid-start")) == rules.DISAGREES
     found = CHECKS["peaks-end"].check(Evidence(rows + rods(0.6, LAYERED, "fluid-start")))
-    assert found.verdict == rules.OPEN and found.why == "d = 0.6 mm (it depends on start and packing)"
+    assert found.verdict == rules.OPEN and found.why == "d′ = 0.6 mm (it depends on start and packing)"
     assert found.found.count("(from a fluid)") == 1
     frozen = layers(0.85, LAYERED, "fluid-start", length=4.0, end=0.6, S=0.2)
     assert "froze without order" in CHECKS["peaks-end"].check(Evidence(rows + frozen)).why

@@ -8,6 +8,7 @@ from typing import Callable, Iterable, Sequence
 import numpy as np
 
 from ..estimate import Estimate, derived
+from ..plots import names
 from ..run import Run
 from . import late_lags, response, scaling
 from .evidence import (BEADS, END, FREQUENCY, GAMMA, LENGTH, PACKING, SIDE, Evidence, Runs, box_of, box_text,
@@ -412,7 +413,7 @@ def blunt(evidence: Evidence) -> str:
               for here in by(Runs(run for run in evidence[name].at(4.0) if key_of(run, PACKING) > 0.78), END, PACKING)]
     points.sort(key=lambda here: (key_of(here[0], END), key_of(here[0], PACKING)))
     return table(points, [
-        key("d", END, " mm"), PACKED, BOX, START, SEEDS, number("S", "S"),
+        key(names.plain(names.symbol(END)), END, " mm"), PACKED, BOX, START, SEEDS, number("S", "S"),
         number("ψ₆", "psi_6"), number("Bragg peak", "bragg_peak"), number("P(0)/maximum", "dip"),
         number("layer order", "layer_order"), number("D along (mm²/s)", "diffusion_along_mm2_s")])
 

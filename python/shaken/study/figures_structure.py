@@ -232,8 +232,8 @@ def ends(material: Material) -> Sheet:
     """Rods of 4 mm at 0.85, sharp as the paper's and blunter, from rows and from a fluid: the last rods, P(theta)."""
     rows, fluid = (material.evidence[name].at(4.0, 0.85) for name in ("layer-trends", "fluid-start"))
     sheet = material.sheet(6, columns=3, height=58)
-    shown = [(rows.at(end=end), f"d = {end:g} mm, from rows") for end in (0.4, 0.5)]
-    shown += [(fluid.at(end=end), f"d = {end:g} mm, from a fluid") for end in (0.5, 0.6)]
+    shown = [(rows.at(end=end), f"{names.plain(names.value_label(END, end))}, from rows") for end in (0.4, 0.5)]
+    shown += [(fluid.at(end=end), f"{names.plain(names.value_label(END, end))}, from a fluid") for end in (0.5, 0.6)]
     for panel, (runs, title) in zip(sheet, shown):
         snapshot = first_snapshot(runs)
         if snapshot:

@@ -10,6 +10,7 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from ..estimate import Estimate, mean_of_samples, student_factor
+from ..plots import names
 from ..run import Array, Run
 from .evidence import (END, GAP, LENGTH, PACKING, SIDE, Evidence, Runs, box_of, box_text, by, is_from_a_fluid, key_of,
                        number_of, place_on, points_of)
@@ -252,26 +253,29 @@ def _goes_far(runs: Runs) -> bool:
     return not way < 2 * key_of(runs[0], LENGTH)
 
 
+def _symbol(path: str) -> str:
+    return names.plain(names.symbol(path))
+
+
 def _trend(series: list[tuple[Runs, str]], of: Callable[[Runs], Estimate], rising: bool, unit: str) -> Finding:
     """A trend of the layers in series of one key each. It is one question of steady states: a series that cannot tell,
     or that compares a fluid with what is frozen, is named beside those that can, and leaves no more than
     consistency."""
-    symbols = {PACKING: "φ", LENGTH: "ℓ", END: "d"}
     answers, found = [], []
     for runs, key in series:
         formed = layered(runs)
         points = points_of(formed, key, of)
         if len(runs.values(key)) < 2:
             continue
-        where = ", ".join(f"{symbols[other]} = {key_of(runs[0], other):g}" for other in (LENGTH, PACKING)
-                          if other != key)
+        others = [other for other in (LENGTH, PACKING) if other != key]
+        where = ", ".join(f"{_symbol(other)} = {key_of(runs[0], other):g}" for other in others)
         where += f", {box_text(runs[0])}{_start_text(runs)}"
         if len({_goes_far(formed.where(key, value)) for value, _ in points}) > 1:
             answer = unknown("a fluid against a frozen state")
         else:
             answer = trend(points, rising) if len(points) > 1 else unknown("layers at fewer than two points")
         answers.append(answer.placed(where))
-        found.append(f"{where}: " + (listed(points, symbols[key], unit) or "no layers"))
+        found.append(f"{where}: " + (listed(points, _symbol(key), unit) or "no layers"))
     able = [answer for answer in answers if answer.word is not None]
     finding = conclude(able or answers, ". ".join(found))
     unable = "; ".join(f"{answer.at} ({answer.why})" for answer in answers if answer.word is None)
@@ -329,8 +333,9 @@ def two_peaks_at_every_end(evidence: Evidence) -> Finding:
     ends = sorted({end for runs in series for end in runs.values(END)})
     for end in ends if len(ends) > 1 else []:
         starts = [here for runs in series if (here := runs.at(end=end))]
-        answers.append(_whatever_the_start([_two_peaks_in_order(here) for here in starts]).placed(f"d = {end:g} mm"))
-        found.append(f"d = {end:g} mm: " + ", ".join(
+        ends_of = names.plain(names.value_label(END, end))
+        answers.append(_whatever_the_start([_two_peaks_in_order(here) for here in starts]).placed(ends_of))
+        found.append(f"{ends_of}: " + ", ".join(
             f"{_angle_text(here)} at φ = {key_of(here[0], PACKING):g} in {box_text(here[0])}{_start_text(here)}"
             for here in starts))
     return conclude(answers, "; ".join(found), everywhere=True)
