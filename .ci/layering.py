@@ -38,6 +38,8 @@ ALLOWED = {
     # S of a frame is that of the measurement
     "run/files/order_curve.cpp": ["run/files", "base", "analysis/order.h"],
     "run/files": ["base", "sim/cell.h", "sim/snapshot.h"],
+    # the arrays of a group are in the order of their records
+    "run/export/columns.cpp": ["base", "run/export", "run/files", "run/measure/measurement_kinds.h"],
     "run/export": ["base", "run/files", "sim/system.h"],
     # whether rods of another run are those of a scene, and how fast rods are at a start, the simulation itself says
     "run/import": ["run", "base", "scene", "sim/motion/start_motion.h", "sim/start/from_another_run.h",
@@ -71,6 +73,9 @@ ALLOWED = {
     # walls are drawn where they are
     "client/watch/rod_samples.cpp": ["client", "sim/motion/side_walls.h"],
     "client/verbs/schema.cpp": ["client", "scene", "render/style_file.h"],
+    # all that has a name
+    "client/catalogue.cpp": ["client/catalogue.h", "client/live/json.h", "base/keys", "scene", "render/style_keys.h",
+                             "run/files/unit_of_name.h", "run/measure/measurement_kinds.h", "sim/effects/registry.h"],
     "client": ["proto", "base", "scene", "run/files", "run/export", "sim/rod", "sim/cell.h", "sim/system.h"],
     # the page in a browser: what the terminal's live view makes of messages, the daemon's way of HTTP, a run's files
     "web": ["proto", "base", "client/live", "client/starter_scene.h", "base/http", "run/files", "analysis/order.h",

@@ -4,37 +4,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <sstream>
 #include <string_view>
-#include <utility>
 
 #include "base/keys/units.h"
 #include "scene/fields.h"
 
 namespace shaken::render {
-namespace {
-
-/// What physicists write for the keys that are swept most.
-constexpr std::pair<std::string_view, const char*> kSymbols[] = {
-    {"rods.area_fraction", "\u03c6"},
-    {"rods.length", "\u2113"},
-    {"rods.count", "N"},
-    {"plates.gamma", "\u0393"},
-    {"plates.frequency", "f"},
-    {"plates.amplitude", "a"},
-    {"box.side", "L"},
-    {"box.gap", "w"},
-    {"time.step", "dt"},
-};
-
-}  // namespace
 
 std::string symbol_of(const std::string& path) {
-  const auto* symbol =
-      std::find_if(std::begin(kSymbols), std::end(kSymbols), [&](const auto& known) { return known.first == path; });
-  return symbol != std::end(kSymbols) ? symbol->second : path.substr(path.rfind('.') + 1);
+  const std::string word = path.substr(path.rfind('.') + 1);
+  if (scene::field_index(path) < 0) return word;
+  const std::string& symbol = scene::field_at(path).symbol;
+  return symbol.empty() ? word : symbol;
 }
 
 namespace {

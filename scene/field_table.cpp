@@ -66,16 +66,19 @@ Field inner_wall() {
 }
 
 Field length_of_arena() {
-  Field field = derived(quantity("walls.length", sys<&System::walls, &SideWalls::length>, kLength, 0, 2000,
-                                 "Length along x: of a stadium's straight walls, of an ellipse, or of a wedge."),
-                        "so that the arena is twice as long as wide");
+  Field field =
+      derived(called("length of the arena", "",
+                     quantity("walls.length", sys<&System::walls, &SideWalls::length>, kLength, 0, 2000,
+                              "Length along x: of a stadium's straight walls, of an ellipse, or of a wedge.")),
+              "so that the arena is twice as long as wide");
   field.fetch = [](const RunPlan& p) { return p.system.walls->has_length() ? Value(p.system.walls->length) : Value(); };
   return field;
 }
 
 Field narrow_end() {
-  Field field = quantity("walls.narrow", sys<&System::walls, &SideWalls::narrow>, kLength, 0, 2000,
-                         "Width of a wedge at its narrow end, at larger x; 0: a triangle.");
+  Field field = called("narrow end of the wedge", "",
+                       quantity("walls.narrow", sys<&System::walls, &SideWalls::narrow>, kLength, 0, 2000,
+                                "Width of a wedge at its narrow end, at larger x; 0: a triangle."));
   field.fallback = SideWalls{}.narrow;
   field.fetch = [](const RunPlan& p) {
     return p.system.walls->arena == Arena::kWedge ? Value(p.system.walls->narrow) : Value();
@@ -245,11 +248,14 @@ Value added_fraction(const RunPlan& p) {
 template <auto... rod>
 std::vector<Field> shape(const std::string& name, const std::string& of_density) {
   return {
-    quantity(name + ".length", at<rod..., &RodShape::length>, kLength, 0.05, 50, "Length from tip to tip."),
+    called("rod length", "ℓ",
+    quantity(name + ".length", at<rod..., &RodShape::length>, kLength, 0.05, 50, "Length from tip to tip.")),
+    called("middle diameter", "d",
     quantity(name + ".mid_diameter", at<rod..., &RodShape::mid_diameter>, kLength, 0.05, 20,
-             "Diameter of the centre bead, or of the tail of a polar rod."),
+             "Diameter of the centre bead, or of the tail of a polar rod.")),
+    called("end diameter", "d′",
     quantity(name + ".end_diameter", at<rod..., &RodShape::end_diameter>, kLength, 0.05, 20,
-             "Diameter of the two end beads, or of the head of a polar rod."),
+             "Diameter of the two end beads, or of the head of a polar rod.")),
     later(choice<Profile>(name + ".profile", at<rod..., &RodShape::profile>,
                           {{"symmetric", Profile::kSymmetric}, {"polar", Profile::kPolar}},
                           "Whether the thickness falls from the centre to both ends, or from tail to head.")),
@@ -281,12 +287,14 @@ std::vector<Field> added_rods(const std::string& name) {
     block(name, sys<&System::added, k>, false, "Rods of another species, at random places among the first.")};
   std::ranges::move(shape<&RunPlan::system, &System::added, k, &AddedRods::rod>(name, ""), std::back_inserter(rows));
   rows.push_back(
+    called("area fraction", "φ",
     derived(instead(name + ".area_fraction", added_fraction<k>, kPlain, 1e-6, kMaxAreaFractionAligned, {},
                     "Area of these rods, lying flat, divided by the area of the box (or arena) that posts leave."),
-            "from count"));
+            "from count")));
   rows.push_back(
+    called("number of rods", "N",
     derived(whole(name + ".count", sys<&System::added, k, &AddedRods::count>, 1, 1e6, "Number of rods."),
-            "from area_fraction"));
+            "from area_fraction")));
   return rows;
 }
 
@@ -303,10 +311,10 @@ void add_own_contact(std::vector<Field>& rows, const std::string& name, const st
   rows.push_back(derived(
     quantity(path + ".restitution", sys<steps..., &Contacts::own, place, &OwnContact::restitution>, kPlain, 0, 1,
              "Coefficient of restitution between " + between + "."), "that of " + name));
-  rows.push_back(derived(
+  rows.push_back(called("", "", "mm/s", derived(
     quantity(path + ".restitution_speed", sys<steps..., &Contacts::own, place, &OwnContact::restitution_speed>, kPlain,
              0, kMostRestitutionSpeed, "The speed that `restitution_speed` is, between " + between + "."),
-    "that of " + name));
+    "that of " + name)));
 }
 
 /// Friction and restitution of the contacts at `steps` of the system, with keys beneath `name`.
@@ -317,10 +325,11 @@ std::vector<Field> contact(const std::string& name, const std::string& between) 
              "Coefficient of Coulomb friction between " + between + "."),
     quantity(name + ".restitution", sys<steps..., &ContactParameters::restitution>, kPlain, 0, 1,
              "Coefficient of restitution between " + between + "."),
+    called("", "", "mm/s",
     later(quantity(name + ".restitution_speed", sys<steps..., &ContactParameters::restitution_speed>, kPlain, 0,
                    kMostRestitutionSpeed,
                    "Speed in mm/s at which `restitution` is the coefficient, which falls with the speed of the impact "
-                   "(docs/physics.md); 0: it is the same at every speed.")),
+                   "(docs/physics.md); 0: it is the same at every speed."))),
   };
 }
 
@@ -348,9 +357,9 @@ std::vector<Field> rod_contact() {
 /// The noise of the rods that are added as number k + 2.
 template <std::size_t k>
 Field own_noise(const std::string& name) {
-  return derived(quantity("plates." + name + ".noise", sys<&System::added_noise, k>, kPlain, 0, kMostNoise,
-                          "Rotational noise of `" + name + "`, in rad/mm, as `plates.noise`."),
-                 "that of plates.noise");
+  const Field noise = quantity("plates." + name + ".noise", sys<&System::added_noise, k>, kPlain, 0, kMostNoise,
+                               "Rotational noise of `" + name + "`, in rad/mm, as `plates.noise`.");
+  return called("rotational noise of " + name, "ε_" + name.substr(5), "rad/mm", derived(noise, "that of plates.noise"));
 }
 
 /// The blocks of all observables.
@@ -371,10 +380,12 @@ std::vector<Field> measure() {
 std::vector<std::vector<Field>> groups() {
   return {
     shape<&RunPlan::system, &System::rod>("rods", " It sets the unit of energy; between species it is the ratio that matters."), {
+    called("area fraction", "φ",
     instead("rods.area_fraction", [](const RunPlan& p) { return Value(to_ten_digits(area_fraction_of(p.system))); },
             kPlain, 1e-6, kMaxAreaFractionAligned, kDefaultAreaFraction,
-            "Area of all rods, lying flat, divided by the area of the box (or arena) that posts leave."),
-    derived(whole("rods.count", sys<&System::n_rods>, 1, 1e6, "Number of rods."), "from area_fraction and side"),
+            "Area of all rods, lying flat, divided by the area of the box (or arena) that posts leave.")),
+    called("number of rods", "N",
+    derived(whole("rods.count", sys<&System::n_rods>, 1, 1e6, "Number of rods."), "from area_fraction and side")),
     rods_start(),
     rods_start_angle(),
     rods_start_domains(),
@@ -385,52 +396,69 @@ std::vector<std::vector<Field>> groups() {
     start_run(),
     start_time(),
 
+    called("side of the box", "L",
     quantity("box.side", sys<&System::box_side>, kLength, 1, 2000,
-             "Side L of the box along x. The box is periodic in x and y."),
+             "Side L of the box along x. The box is periodic in x and y.")),
+    called("aspect of the box", "L_y/L_x",
     later(quantity("box.aspect", sys<&System::box_aspect>, kPlain, 0.02, 50,
-                   "Side of the box along y over that along x; 1: a square.")),
-    quantity("box.gap", sys<&System::gap>, kLength, 0.05, 100, "Distance w between base and lid."),
+                   "Side of the box along y over that along x; 1: a square."))),
+    called("gap between the plates", "w",
+    quantity("box.gap", sys<&System::gap>, kLength, 0.05, 100, "Distance w between base and lid.")),
 
+    called("shaking strength", "Γ",
     instead("plates.gamma", fetch_gamma, kPlain, 0, 200, kDefaultGamma,
-            "Strength of shaking: the largest acceleration of the plates divided by gravity."),
+            "Strength of shaking: the largest acceleration of the plates divided by gravity.")),
+    called("amplitude of the plates", "a",
     derived(quantity("plates.amplitude", sys<&System::amplitude>, kLength, 0, 10,
                      "Amplitude a of the plates' vibration."),
-            "from gamma and frequency"),
+            "from gamma and frequency")),
+    called("frequency of the plates", "f",
     quantity("plates.frequency", sys<&System::frequency>, kFrequency, 0.1, 1e5,
-             "Frequency f of the plates' vibration."),
+             "Frequency f of the plates' vibration.")),
     gravity(),
+    called("amplitude in the plane", "b",
     later(quantity("plates.horizontal_amplitude", sys<&System::horizontal_amplitude>, kLength, 0, 10,
-                   "Amplitude b of the plates' vibration in the plane, at the same frequency; 0: none.")),
+                   "Amplitude b of the plates' vibration in the plane, at the same frequency; 0: none."))),
+    called("phase of the vibration in the plane", "φ", "degrees",
     later(quantity("plates.horizontal_phase", sys<&System::horizontal_phase>, kPlain, -360, 360,
                    "Angle in degrees by which the vibration in the plane is ahead of that along z: 0 or 180 shake along "
-                   "a line, 90 or -90 along an ellipse.")),
+                   "a line, 90 or -90 along an ellipse."))),
+    called("direction of the vibration in the plane", "", "degrees",
     later(quantity("plates.horizontal_angle", sys<&System::horizontal_angle>, kPlain, -360, 360,
-                   "Direction of the vibration in the plane, in degrees to the x axis.")),
+                   "Direction of the vibration in the plane, in degrees to the x axis."))),
     block("plates.second", sys<&System::second>, false,
           "A second vibration of the plates along z, which is added to the first. `plates.gamma` is that of the first."),
+    called("amplitude of the second vibration", "a_2",
     quantity("plates.second.amplitude", sys<&System::second, &SecondVibration::amplitude>, kLength, 0, 10,
-             "Amplitude a2 of the second vibration; 0: none."),
+             "Amplitude a2 of the second vibration; 0: none.")),
+    called("frequency of the second vibration", "f_2",
     quantity("plates.second.frequency", sys<&System::second, &SecondVibration::frequency>, kFrequency, 0.1, 1e5,
-             "Its frequency f2."),
+             "Its frequency f2.")),
+    called("phase of the second vibration", "φ_2", "degrees",
     quantity("plates.second.phase", sys<&System::second, &SecondVibration::phase>, kPlain, -360, 360,
-             "Its phase in degrees where the first vibration is at its highest, as at the start."),
+             "Its phase in degrees where the first vibration is at its highest, as at the start.")),
     block("plates.lid_motion", sys<&System::lid_motion>, false,
           "The lid does not move with the base: it rests, or vibrates along z with the same frequency by itself. "
           "`box.gap` is then the mean gap."),
+    called("amplitude of the lid", "d",
     quantity("plates.lid_motion.amplitude", sys<&System::lid_motion, &LidMotion::amplitude>, kLength, 0, 10,
-             "Amplitude of the lid's vibration; 0: it rests."),
+             "Amplitude of the lid's vibration; 0: it rests.")),
+    called("phase of the lid", "ψ", "degrees",
     quantity("plates.lid_motion.phase", sys<&System::lid_motion, &LidMotion::phase>, kPlain, -360, 360,
-             "Angle in degrees by which the lid is ahead of the base."),
+             "Angle in degrees by which the lid is ahead of the base.")),
+    called("inclination of the plates", "α", "degrees",
     later(quantity("plates.inclination", sys<&System::inclination>, kPlain, 0, 90,
                    "Angle in degrees of the plates to the horizontal. Gravity then has a part along them. z stays the "
-                   "direction across the plates.")),
+                   "direction across the plates."))),
+    called("direction down the slope", "", "degrees",
     later(quantity("plates.inclination_angle", sys<&System::inclination_angle>, kPlain, -360, 360,
-                   "Direction down the slope, in degrees to the x axis.")),
+                   "Direction down the slope, in degrees to the x axis."))),
     later(on_or_off("plates.base", sys<&System::base>, "Whether there is a base.")),
     later(on_or_off("plates.lid", sys<&System::lid>, "Whether there is a lid.")),
+    called("rotational noise", "ε", "rad/mm",
     later(quantity("plates.noise", sys<&System::rotational_noise>, kPlain, 0, kMostNoise,
                    "Rotational noise in rad/mm: each hit by a plate changes the rod's angular velocity about the "
-                   "vertical by this much per speed of the hit, to either side at random.")),
+                   "vertical by this much per speed of the hit, to either side at random."))),
     own_noise<0>("rods_2"),
     own_noise<1>("rods_3"),
 
@@ -438,10 +466,11 @@ std::vector<std::vector<Field>> groups() {
           "Side walls around an arena in the middle of the box, in place of periodic boundaries; a channel "
           "goes on along x."),
     choice("walls.arena", sys<&System::walls, &SideWalls::arena>, kArenaNames, "Shape of the arena."),
+    called("size of the arena", "",
     derived(quantity("walls.size", sys<&System::walls, &SideWalls::size>, kLength, 1, 2000,
                      "Diameter of the disc, of the outer wall or of a stadium's round ends, side of the square, or "
                      "width along y of the channel, of the ellipse or of the wedge's wide end."),
-            "as large as the box allows"),
+            "as large as the box allows")),
     inner_wall(),
     length_of_arena(),
     narrow_end(),
@@ -475,8 +504,9 @@ std::vector<std::vector<Field>> groups() {
                                "on it.")),
 
     accuracy(),
+    called("time step", "Δt",
     quantity("time.step", sys<&System::dt>, kTime, 1e-7, 1e-4,
-             "Length of a tick (the time step). It determines the accuracy."),
+             "Length of a tick (the time step). It determines the accuracy.")),
     choice<StepperKind>("time.engine", sys<&System::stepper>,
                    {{"scheduled", StepperKind::kScheduled}, {"reference", StepperKind::kReference}},
                    "Which stepper moves the rods. Both give bitwise the same trajectory."),

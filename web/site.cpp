@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <charconv>
 #include <chrono>
@@ -42,11 +41,6 @@ constexpr std::chrono::milliseconds kFrame{50};
 /// In which a run that streams 5 frames a second or more sends one.
 constexpr std::chrono::milliseconds kNextFrame{250};
 constexpr std::size_t kPiece = std::size_t{1} << 20;  // of a file
-/// What the page consists of.
-constexpr std::array kPageFiles{"icon.svg", "page.css",    "main.js",   "queue.js",   "sweep.js", "map.js",
-                                "jobs.js",  "results.js",  "loader.js", "run.js",     "rods.js",  "charts.js",
-                                "shown.js", "dom.js",      "submit.js", "painter.js", "gl.js",    "orbit.js",
-                                "plane.js", "pictures.js", "beside.js", "path.js"};
 
 std::string type_of(const fs::path& file) {
   const std::string suffix = file.extension().string();
@@ -175,8 +169,10 @@ Reply Site::routed(const Request& request) {
   if (!reads) return refusal(405, request.path + " can only be read");
   if (parts.empty()) return page_file("index.html");
   if (first == "page" && parts.size() == 2) {
-    const bool is_known = std::find(kPageFiles.begin(), kPageFiles.end(), parts[1]) != kPageFiles.end();
-    return is_known ? page_file(parts[1]) : refusal(404, "the page has no file " + parts[1]);
+    const bool is_name = fs::path(parts[1]).filename() == parts[1] && parts[1] != "index.html";
+    std::error_code unknown;
+    const bool is_there = is_name && fs::is_regular_file(setup_.page / parts[1], unknown);
+    return is_there ? page_file(parts[1]) : refusal(404, "the page has no file " + parts[1]);
   }
   if (parts == std::vector<std::string>{"chart.js"}) return file_reply(setup_.chart_library);
   if (parts == std::vector<std::string>{"palettes.json"}) return json_reply(palettes());

@@ -60,6 +60,9 @@ struct Rule {
   Value fallback = {};             ///< what holds if the key is absent; nothing where that is derived from other keys
   std::string fallback_note = {};  ///< says so in words, for the reference
   std::string doc = {};            ///< one line
+  std::string title = {};          ///< in figures, in few words: "area fraction"
+  std::string symbol = {};         ///< in LaTeX's mathematics: "L_y/L_x"
+  std::string unit = {};           ///< of a plain number that has one all the same: "degrees"
   /// Left out of a canonical text where it has its default value, so that texts from before the key keep their names.
   bool omit_if_default = false;
 };

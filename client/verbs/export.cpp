@@ -170,9 +170,7 @@ class Export : public Verb {
       if (!table) throw Failure(ExitCode::kFailed, files_.summary().string() + ": " + table.error().message);
       text = *table;
     } else {
-      std::vector<std::string> measurable;
-      for (const scene::Observable& observable : scene::observables()) measurable.push_back(observable.name);
-      text = value_or_fail(run::observables_csv(read_observables(), observables_, measurable), ExitCode::kBadInput);
+      text = value_or_fail(run::observables_csv(read_observables(), observables_), ExitCode::kBadInput);
     }
     if (to_stdout()) return print(console, text);
     if (out_.empty()) out_ = fmt::format("{}-{}.csv", name_, fs::path(observables_.front()).filename().string());

@@ -5,26 +5,11 @@
 
 #include <cstdlib>
 
-#include "base/keys/units.h"
 #include "base/paths.h"
 #include "base/plots_by_python.h"
 #include "base/process.h"
-#include "client/live/json.h"
-#include "scene/canonical.h"
-#include "scene/fields.h"
-#include "scene/load.h"
 
 namespace shaken::client {
-
-std::string keys_option() {
-  const scene::RunPlan plain = *scene::load_scene("{}", "");  // the paper's
-  Json keys = Json::object();
-  for (const scene::Field& field : scene::fields()) {
-    const Json value = to_json(field, scene::fields().value(plain, field));
-    keys[field.path] = Json::array({keys::name_of(field.dimension), value});
-  }
-  return "--keys=" + keys.dump();
-}
 
 std::string root_option(const Context& context) { return "--root=" + context.root().string(); }
 

@@ -29,8 +29,5 @@ class InPython : public Verb {
 
 /// The daemon's root, as --root of all of them.
 std::string root_option(const Context& context);
-/// The keys of a scene, what each measures and its value in a scene that does not say it, as --keys of shaken.tables:
-/// {"rods.length": ["length", 4.5]}.
-std::string keys_option();
 
 }  // namespace shaken::client

@@ -38,7 +38,7 @@ class Plot : public InPython {
   }
 
   ExitCode run(const Context& context) override {
-    return go_on(context, "tables", {"plot", keys_option(), root_option(context)});
+    return go_on(context, "tables", {"plot", root_option(context)});
   }
 };
 

@@ -40,7 +40,7 @@ class Results : public InPython {
   }
 
   ExitCode run(const Context& context) override {
-    return go_on(context, "tables", {"results", keys_option(), root_option(context)});
+    return go_on(context, "tables", {"results", root_option(context)});
   }
 };
 

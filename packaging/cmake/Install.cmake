@@ -20,7 +20,7 @@ if(NOT SHAKEN_ONLY_SIM)
   install(DIRECTORY ${CMAKE_BINARY_DIR}/share/shaken/schemas DESTINATION ${CMAKE_INSTALL_DATADIR}/shaken COMPONENT programs)
   # the Python package: where the programs look for it, and by a link where Debian's Python does
   install(DIRECTORY python/shaken DESTINATION ${CMAKE_INSTALL_DATADIR}/shaken/python COMPONENT python
-    FILES_MATCHING PATTERN *.py PATTERN py.typed PATTERN __pycache__ EXCLUDE)
+    FILES_MATCHING PATTERN *.py PATTERN *.json PATTERN py.typed PATTERN __pycache__ EXCLUDE)
   file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/dist-packages)
   file(CREATE_LINK ../../../${CMAKE_INSTALL_DATADIR}/shaken/python/shaken ${CMAKE_BINARY_DIR}/dist-packages/shaken SYMBOLIC)
   install(FILES ${CMAKE_BINARY_DIR}/dist-packages/shaken DESTINATION lib/python3/dist-packages COMPONENT python)

@@ -7,19 +7,11 @@ import re
 from decimal import Decimal
 from typing import Any
 
+from .catalogue import UNITS
 from .errors import ShakenError, nearest
 
-#: Unit -> (what it measures, how many of the default unit, which comes first, it is): those of base/keys/units.cpp.
-UNITS: dict[str, tuple[str, float]] = {
-    "mm": ("length", 1.0), "m": ("length", 1e3), "cm": ("length", 10.0), "um": ("length", 1e-3),
-    "\u00b5m": ("length", 1e-3), "\u03bcm": ("length", 1e-3),
-    "s": ("time", 1.0), "h": ("time", 3600.0), "min": ("time", 60.0), "ms": ("time", 1e-3), "us": ("time", 1e-6),
-    "\u00b5s": ("time", 1e-6), "\u03bcs": ("time", 1e-6), "ns": ("time", 1e-9),
-    "Hz": ("frequency", 1.0), "kHz": ("frequency", 1e3),
-    "mm/s^2": ("acceleration", 1.0), "m/s^2": ("acceleration", 1e3), "cm/s^2": ("acceleration", 10.0),
-    "mg/mm^3": ("density", 1.0), "g/cm^3": ("density", 1.0), "kg/m^3": ("density", 1e-3)}
 #: Times of people and of their computers, too.
-_SECONDS = {**{unit: factor for unit, (of, factor) in UNITS.items() if of == "time"}, "d": 86400.0}
+_SECONDS = {**{unit: row["scale"] for unit, row in UNITS.items() if row["of"] == "time"}, "d": 86400.0}
 NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)", re.ASCII)
 _QUANTITY = re.compile(NUMBER.pattern + r"\s*(\S*)\s*", re.ASCII)
 
@@ -37,7 +29,7 @@ def number_of(value: Any) -> Any:
     match = _QUANTITY.fullmatch(value)
     if not match or (match[2] and match[2] not in UNITS):
         return value
-    return float(match[1]) * (UNITS[match[2]][1] if match[2] else 1.0)
+    return float(match[1]) * (UNITS[match[2]]["scale"] if match[2] else 1.0)
 
 
 def quantity(text: str, dimension: str) -> float:
@@ -51,14 +43,16 @@ def quantity(text: str, dimension: str) -> float:
         raise ShakenError(f"{match[1]} is too large")
     if not unit:
         return float(match[1])
-    if unit in UNITS and UNITS[unit][0] == dimension:
-        return float(Decimal(match[1]) * Decimal(repr(UNITS[unit][1])))  # 4.1 us is what a scene with 4.1e-6 s has
+    if unit in UNITS and UNITS[unit]["of"] == dimension:
+        # 4.1 us is what a scene with 4.1e-6 s has
+        return float(Decimal(match[1]) * Decimal(repr(UNITS[unit]["scale"])))
     if dimension == "plain number":
         raise ShakenError(f'"{unit}": a plain number takes no unit')
     if decimals := re.match(r",(\d+)", unit):
         raise ShakenError(f'"{text}": a decimal comma; write {match[1]}.{decimals[1]}')
-    use = [name for name, (of, _) in UNITS.items() if of == dimension and name.isascii()]
-    other = f"a unit of {UNITS[unit][0]}, not of {dimension}" if unit in UNITS else f"not a unit of {dimension}"
+    use = [name for name, row in UNITS.items() if row["of"] == dimension and name.isascii()]
+    of = UNITS[unit]["of"] if unit in UNITS else ""
+    other = f"a unit of {of}, not of {dimension}" if of else f"not a unit of {dimension}"
     raise ShakenError(f'"{unit}" is {other}; use {", ".join(use)}{"" if unit in UNITS else nearest(unit, use)}')
 
 

@@ -12,39 +12,15 @@ from typing import Any, Iterator, Mapping
 
 import numpy as np
 
+from .catalogue import ARRAYS
 from .errors import ShakenError, UnknownName
 from .estimate import NAN, Estimate
 from .frames import Frame, Trajectory
 from .hdf5 import h5py_module, open_file
 from .units import split_species, split_unit, unit_of
 
-#: The array that the others of its group are measured at.
-_AXES = {
-    "/order": "/order/time_s", "/order/pdf": "/order/pdf/order", "/angles": "/angles/theta_rad", "/tilt": "/tilt/n_z",
-    "/tilt/folded": "/tilt/folded/n_z", "/defects": "/defects/time_s", "/defects/tracks": "/defects/tracks/span_s",
-    "/defects/tracks/lasting": "/defects/tracks/span_s", "/g2": "/g2/r_mm", "/msd": "/msd/lag_s",
-    "/rotation": "/rotation/lag_s", "/velocity": "/velocity/lag_s", "/fluctuations": "/fluctuations/mean_n",
-    "/pairs/cut": "/pairs/cut/r_mm", "/layers": "/layers/q_per_mm", "/structure": "/structure/q_per_mm",
-    "/polar": "/polar/time_s", "/temperatures": "/temperatures/time_s", "/scattering": "/scattering/lag_s",
-    "/flow": "/flow/r_mm", "/clusters": "/clusters/time_s", "/clusters/sizes": "/clusters/sizes/size",
-    "/collisions": "/collisions/time_s", "/stress": "/stress/time_s", "/mixing": "/mixing/r_mm",
-    "/density/memory": "/density/memory/lag_s",
-    "/drift": "/drift/time_s",
-}
-_SCATTERING = ("/scattering/q_per_mm", "/scattering/lag_s")
-_VAN_HOVE = ("/van_hove/lag_s", "/van_hove/displacement_mm")
-_DEFECT_MAPS = ("/defect_maps/across_mm", "/defect_maps/along_mm")
-_CELLS = ("/density/y_mm", "/density/x_mm")
-#: The axes of the rows and of the columns of what files hold row by row, and of the times where there is a map of each.
-_MAPS = {
-    **dict.fromkeys(("/pairs/g", "/pairs/g2"), ("/pairs/across_mm", "/pairs/along_mm")),
-    **{f"/scattering/{name}{sem}": _SCATTERING for name in ("f", "f_along", "f_across") for sem in ("", "_sem")},
-    **{f"/van_hove/{name}{sem}_per_mm": _VAN_HOVE for name in ("along", "across", "distance") for sem in ("", "_sem")},
-    **{f"/defect_maps/{charge}/{name}{sem}{unit}": _DEFECT_MAPS for charge in ("plus", "minus") for sem in ("", "_sem")
-       for name, unit in (("density", ""), ("cos_2theta", ""), ("sin_2theta", ""), ("v_along", "_mm_s"),
-                          ("v_across", "_mm_s"), ("tilt_squared", ""))},
-    "/density/mean_area_fraction": _CELLS, "/density/area_fraction": ("/density/time_s", *_CELLS),
-}
+#: What an array is called in the catalogue: that of standard errors as what they are of, that of one rod as of any.
+_DESCRIBED = ((re.compile("^/rods/trace/[0-9]+/"), "/rods/trace/K/"), (re.compile("_sem(?=_|$)"), ""))
 _SPECIES = re.compile("rods_[0-9]+")
 _TABLE = "/van_hove/displacement_mm"  # a row for each lag
 
@@ -143,18 +119,17 @@ class Arrays(Mapping[str, Array]):
         array = Array(values, path, unit)
         species, own = split_species(path)
         species = f"/{species}" if species else ""
-        if own in _MAPS:
-            *rows, columns = axes = tuple(self._fetch(species + axis) for axis in _MAPS[own])
+        for part, described in _DESCRIBED:
+            own = part.sub(described, own)
+        at = [species + axis for axis in ARRAYS.get(own, {}).get("axes", ())]
+        if len(at) > 1:
+            *rows, columns = axes = tuple(self._fetch(axis) for axis in at)
             array = Array(np.asarray(array).reshape(*map(len, rows), columns.shape[-1]), path, unit)
             array.axis = axes
         elif own == _TABLE:
-            rows = self._fetch(species + _MAPS["/van_hove/along_per_mm"][0])
-            array = Array(np.asarray(array).reshape(len(rows), -1), path, unit)
-        else:
-            group = own.rpartition("/")[0]
-            axis = species + _AXES.get(group, "/rods/trace/time_s" if group.startswith("/rods/trace/") else "")
-            if axis in self._names and axis != path:
-                array.axis = self._fetch(axis)
+            array = Array(np.asarray(array).reshape(len(self._fetch(f"{species}/van_hove/lag_s")), -1), path, unit)
+        elif at and at[0] in self._names:
+            array.axis = self._fetch(at[0])
         if error_name(path) in self._names:
             array.error = self._fetch(error_name(path))
         return array

@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import Any, Iterable, Iterator, Mapping, Sequence
 
 from .daemon import Daemon, quoted
+from .catalogue import KEYS, UNITS
 from .errors import ShakenError, UnknownName
 from .estimate import Estimate, replica_mean
-from .plots import names
-from .quantities import UNITS, number_of, unit_in
+from .quantities import number_of, unit_in
 from .run import DirectoryRun, Run
 from .summary import has_results, version_text
 
@@ -99,9 +99,9 @@ class Sweep:
         found = self.points
         for word, wanted in conditions.items():
             path = word if word == "version" else self._path(word)
-            unit, own = unit_in(wanted), names.TABLE.get(path, ("", "", ""))[2]
-            if unit and own in UNITS and UNITS[own][0] != UNITS[unit][0]:
-                raise ShakenError(f"'{wanted}' is a {UNITS[unit][0]}, and {path} is in {own}")
+            unit, own = unit_in(wanted), KEYS.get(path, {}).get("unit")
+            if unit and own in UNITS and UNITS[own]["of"] != UNITS[unit]["of"]:
+                raise ShakenError(f"'{wanted}' is a {UNITS[unit]['of']}, and {path} is in {own}")
             values = [point.version if word == "version" else point.key(path) for point in found]
             left = [point for point, value in zip(found, values) if _equal(value, wanted)]
             if found and not left:

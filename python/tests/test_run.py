@@ -2,7 +2,6 @@
 import copy
 import json
 import pickle
-import re
 from pathlib import Path
 
 import h5py
@@ -79,12 +78,7 @@ def test_parts_and_copies_of_arrays_know_what_they_are(run_at):
     assert shaken.Array([1, 2]).unit is None and shaken.Array([1, 2], "/g2/g2").unit == "1"
 
 
-def test_units_are_those_of_the_programs():
-    source = (Path(__file__).resolve().parents[2] / "base/keys/units.cpp").read_text()
-    rows = re.findall(r'\{"([^"]+)", Dimension::k(\w+), (\d+), (-?\d+), (?:true|false)\}', source)
-    of_programs = {name.encode().decode("unicode_escape"): (of.lower(), int(factor) * 10.0 ** int(power))
-                   for name, of, factor, power in rows}
-    assert len(rows) > 20 and quantities.UNITS == of_programs
+def test_texts_of_quantities_are_numbers_in_default_units():
     assert quantities.seconds("1.5 min") == 90 and quantities.number_of("20ms") == pytest.approx(0.02)
     assert quantities.number_of("high") == "high" and quantities.number_of("3 apples") == "3 apples"
     for text in ("x", "3 mm", "", "1.2.3 s"):

@@ -16,9 +16,6 @@ from shaken.quantities import quantity
 from shaken.tables import app, conditions, inset, results, rows, text
 from shaken.tables.conditions import Condition, marked
 
-KEYS = {"rods.length": ["length", 4.5], "time.step": ["time", 4e-6], "box.gap": ["length", 1.2],
-        "plates.frequency": ["frequency", 200.0], "rods.area_fraction": ["plain number", None]}
-
 
 def row_with(**fields):
     return rows.Row({}, fields.get("state", ""), {name.replace("__", "."): value for name, value in fields.items()})
@@ -31,14 +28,14 @@ QUEUED = row_with(job="1f0c000000000002", state="queued", rods__length=4.5)
 
 def holds(words, row=DONE):
     condition = Condition(words)
-    problems = condition.problems or condition.bind([DONE, QUEUED], KEYS)
+    problems = condition.problems or condition.bind([DONE, QUEUED])
     assert not problems, marked(words, problems)
     return condition(row)
 
 
 def problems_of(words):
     condition = Condition(words)
-    return marked(words, condition.problems or condition.bind([DONE, QUEUED], KEYS))
+    return marked(words, condition.problems or condition.bind([DONE, QUEUED]))
 
 
 @pytest.mark.parametrize("words, expected", [
@@ -65,14 +62,14 @@ def test_a_comparison_is_false_for_a_row_without_the_field():
         assert not holds(words, QUEUED)
     assert holds("not order.mean>0.5", QUEUED)
     asked = conditions.read(["theta_m_deg>1 or order.mean>1 or order.mean<0.5 or rods.length>1"])
-    kept, lacking = conditions.matching([DONE, QUEUED, QUEUED], asked, KEYS, True)
+    kept, lacking = conditions.matching([DONE, QUEUED, QUEUED], asked, True)
     assert len(kept) == 3 and lacking == {"measured.theta_m_deg.value": 2, "order.mean": 2}
 
 
 def test_keys_of_scenes_and_unknown_summaries_are_no_mistake():
     condition = Condition("box.gap>1 or measured.d_mm2_s.value>1")
-    assert len(condition.bind([QUEUED], KEYS)) == 1
-    assert not condition.bind([QUEUED], KEYS, all_known=False) and not condition(QUEUED)
+    assert len(condition.bind([QUEUED])) == 1
+    assert not condition.bind([QUEUED], all_known=False) and not condition(QUEUED)
 
 
 def test_every_problem_of_a_condition_is_marked_at_its_place():
@@ -164,7 +161,7 @@ def test_conditions_agree_with_an_independent_evaluator():
         made = [rows.Row({}, "", {name: value for name, value in one.items() if draw.random() < 0.75}) for one in some]
         made.append(row_with(state="x", rods__length=9, order__mean=9, n_rods=9))
         condition = Condition(words)
-        assert not condition.problems and not condition.bind(made, KEYS), words
+        assert not condition.problems and not condition.bind(made), words
         assert [condition(row) for row in made] == [truth(row) for row in made], words
 
 
@@ -175,7 +172,7 @@ def test_any_text_is_read_or_refused_with_places_in_it():
         made = "".join(draw.choice(words) + draw.choice(["", " "]) for _ in range(draw.randrange(12)))
         condition = Condition(made)
         assert all(0 <= problem.at <= len(made) for problem in condition.problems)
-        if not condition.problems and not condition.bind([DONE, QUEUED], KEYS):
+        if not condition.problems and not condition.bind([DONE, QUEUED]):
             condition(DONE)
 
 
@@ -356,7 +353,7 @@ def said(monkeypatch, capsys):
     monkeypatch.setattr(inset, "Daemon", FakeDaemon)
 
     def run(*words, verb="results"):
-        code = app.main([verb, "--keys=" + json.dumps(KEYS), *words])
+        code = app.main([verb, *words])
         return (code, *capsys.readouterr())
 
     return run

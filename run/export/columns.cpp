@@ -4,31 +4,41 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
 #include <string_view>
 
 #include "base/text.h"
 #include "run/files/unit_of_name.h"
+#include "run/measure/measurement_kinds.h"
 
 namespace shaken::run {
 namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-/// What curves are drawn against.
-constexpr std::array kAbscissae{"time_s",   "lag_s",     "r_mm",          "q_per_mm",       "theta_rad",
-                                "n_z",      "span_s",    "area_fraction", "q_along_per_mm", "q_across_per_mm",
-                                "along_mm", "across_mm", "order"};
-
 /// "/msd/total_mm2" is in the group "/msd".
 std::string group_of(const std::string& path) { return path.substr(0, path.find_last_of('/')); }
-std::string last_word(const std::string& path) { return path.substr(path.find_last_of('/') + 1); }
 
+/// Where an array stands among the records of its observable, its errors behind it; what has no record comes last.
 std::size_t rank_of(const std::string& path) {
-  const auto found = std::find(kAbscissae.begin(), kAbscissae.end(), last_word(path));
-  return static_cast<std::size_t>(found - kAbscissae.begin());
+  const std::optional<ArrayRecord> record = array_record(path);
+  if (!record) return std::numeric_limits<std::size_t>::max();
+  return 2 * static_cast<std::size_t>(record->output - record->kind->arrays.data()) + (record->is_error ? 1 : 0);
+}
+
+/// Paths of what an array is measured at, the fastest first; none of an axis.
+std::vector<std::string> axes_of(const std::string& path) {
+  std::vector<std::string> axes;
+  if (const std::optional<ArrayRecord> record = array_record(path)) {
+    for (const std::string& name : record->kind->axes_of(record->output->name)) axes.push_back(record->block + name);
+  }
+  std::ranges::reverse(axes);
+  return axes;
 }
 
 /// Paths of the arrays that `name` stands for; none if it names nothing.
@@ -41,8 +51,7 @@ std::vector<std::string> arrays_of(const Observables& arrays, std::string_view w
   for (const auto& [path, values] : arrays) {
     if (group_of(path) == name) paths.push_back(path);
   }
-  std::stable_sort(paths.begin(), paths.end(),
-                   [](const std::string& a, const std::string& b) { return rank_of(a) < rank_of(b); });
+  std::ranges::stable_sort(paths, {}, rank_of);
   return paths;
 }
 
@@ -60,54 +69,28 @@ struct Column {
   std::vector<double> values;
 };
 
-/// The blocks whose arrays are maps, with the axes of these, the fastest first; python/shaken/run.py has them too.
-struct Maps {
-  std::string_view block;
-  std::vector<std::string_view> axes;
-};
-const std::vector<Maps>& all_maps() {
-  static const std::vector<Maps> all{{"pairs", {"along_mm", "across_mm"}},
-                                     {"scattering", {"lag_s", "q_per_mm"}},
-                                     {"van_hove", {"displacement_mm", "lag_s"}},
-                                     {"defect_maps", {"along_mm", "across_mm"}},
-                                     {"density", {"x_mm", "y_mm", "time_s"}}};
-  return all;
-}
-
-/// The maps that a path is of, and the folder of their axes, "/rods_2/pairs"; none if it is no map and no axis of one.
-struct MapFolder {
-  const Maps* maps = nullptr;
-  std::string folder;
-};
-MapFolder map_folder(const std::string& path) {
-  for (const Maps& maps : all_maps()) {
-    for (const std::string_view below : {"", "/plus", "/minus"}) {
-      const std::string folder = group_of(path), end = fmt::format("/{}{}", maps.block, below);
-      if (folder.ends_with(end)) return {&maps, folder.substr(0, folder.size() - below.size())};
-    }
+/// Of a group that has nothing but the axes of maps, as `defect_maps` has: those maps, which lie in groups below it.
+void add_maps(const Observables& arrays, std::vector<std::string>& paths) {
+  const std::set<std::string> axes(paths.begin(), paths.end());
+  if (axes.size() < 2) return;
+  for (const auto& [path, values] : arrays) {
+    const std::vector<std::string> its_axes = axes_of(path);
+    if (std::set<std::string>(its_axes.begin(), its_axes.end()) == axes) paths.push_back(path);
   }
-  return {};
+  std::ranges::stable_sort(paths, {}, rank_of);
 }
 
-/// Arrays of a group that has nothing but axes, as `defect_maps` has: those of its charges.
-void add_charges(const Observables& arrays, std::vector<std::string>& paths) {
-  const MapFolder of = paths.empty() ? MapFolder{} : map_folder(paths.front());
-  if (of.maps == nullptr || of.maps->block != "defect_maps" || paths.size() != of.maps->axes.size()) return;
-  for (const char* charge : {"/plus", "/minus"}) {
-    for (const auto& [path, values] : arrays) {
-      if (group_of(path) == of.folder + charge) paths.push_back(path);
-    }
-  }
-}
-
-/// If all columns are of one block of maps, and one of them is a map: each axis and each value in a line for each
-/// point, also of what depends on the faster axes only.
+/// If all columns are of one observable, and one of them is a map: each axis and each value in a line for each point,
+/// also of what depends on the faster axes only.
 void spread_axes(const Observables& arrays, std::vector<Column>& columns) {
-  const MapFolder of = columns.empty() ? MapFolder{} : map_folder(columns.front().path);
-  if (of.maps == nullptr) return;
+  std::vector<std::string> names;
+  for (const Column& column : columns) {
+    if (auto axes = axes_of(column.path); axes.size() > names.size()) names = std::move(axes);
+  }
+  if (names.size() < 2) return;
   std::vector<Column> axes;
-  for (const std::string_view name : of.maps->axes) {
-    const auto axis = arrays.find(fmt::format("{}/{}", of.folder, name));
+  for (const std::string& name : names) {
+    const auto axis = arrays.find(name);
     if (axis == arrays.end() || axis->second.empty()) return;
     axes.push_back({axis->first, axis->second});
   }
@@ -118,11 +101,13 @@ void spread_axes(const Observables& arrays, std::vector<Column>& columns) {
   };
   std::vector<std::size_t> sizes{1};  // of what depends on the first 0, 1, 2 ... axes
   for (std::size_t k = 0; k < axes.size(); ++k) sizes.push_back(sizes.back() * points(k));
+  const auto is_axis = [&](const Column& column) { return std::ranges::find(names, column.path) != names.end(); };
   std::size_t n_axes = 0;
   for (const Column& column : columns) {
-    if (map_folder(column.path).folder != of.folder) return;
-    const bool is_axis = std::any_of(axes.begin(), axes.end(), [&](const Column& a) { return a.path == column.path; });
-    if (is_axis) continue;
+    if (is_axis(column)) continue;
+    const std::vector<std::string> own = axes_of(column.path);
+    const auto is_shared = [&](const std::string& name) { return std::ranges::find(names, name) != names.end(); };
+    if (own.empty() || !std::ranges::all_of(own, is_shared)) return;
     std::size_t depth = axes.size();
     while (depth > 0 && sizes[depth] != column.values.size()) --depth;
     if (depth == 0) return;
@@ -136,7 +121,7 @@ void spread_axes(const Observables& arrays, std::vector<Column>& columns) {
       axis.values[row] = axes[k].values[row / sizes[k] % axes[k].values.size()];
   }
   for (const Column& column : columns) {
-    if (std::any_of(axes.begin(), axes.end(), [&](const Column& axis) { return axis.path == column.path; })) continue;
+    if (is_axis(column)) continue;
     Column& spread = table.emplace_back(Column{column.path, std::vector<double>(sizes[n_axes])});
     for (std::size_t row = 0; row < sizes[n_axes]; ++row)
       spread.values[row] = column.values[row % column.values.size()];
@@ -168,15 +153,14 @@ void append_numbers(const std::string& path, const OrderedJson& value, std::stri
 }
 
 /// Why `written` names nothing: it was not measured, or there is no such thing.
-std::string why_nothing_is_called(std::string_view written, const Observables& arrays,
-                                  const std::vector<std::string>& measurable) {
+std::string why_nothing_is_called(std::string_view written, const Observables& arrays) {
   std::string_view name = written;
   while (name.starts_with('/')) name.remove_prefix(1);
   const std::string block(name.substr(0, name.find('/')));
-  const bool is_measured = std::any_of(arrays.begin(), arrays.end(), [&](const auto& array) {
-    return array.first.starts_with(fmt::format("/{}/", block));
-  });
-  if (!is_measured && std::find(measurable.begin(), measurable.end(), block) != measurable.end()) {
+  const bool is_measured = std::ranges::any_of(
+      arrays, [&](const auto& array) { return array.first.starts_with(fmt::format("/{}/", block)); });
+  if (!is_measured &&
+      std::ranges::find(measurement_kinds(), block, &MeasurementKind::name) != measurement_kinds().end()) {
     return fmt::format("'{}' was not measured in this run: its scene has no measure.{}, or its rods no axis",
                        printable(written), block);
   }
@@ -185,14 +169,13 @@ std::string why_nothing_is_called(std::string_view written, const Observables& a
 
 }  // namespace
 
-Result<std::string> observables_csv(const Observables& arrays, const std::vector<std::string>& names,
-                                    const std::vector<std::string>& measurable) {
+Result<std::string> observables_csv(const Observables& arrays, const std::vector<std::string>& names) {
   std::vector<std::string> paths;
   std::string problems;
   for (const std::string& name : names) {
     std::vector<std::string> found = arrays_of(arrays, name);
-    add_charges(arrays, found);
-    if (found.empty()) problems += why_nothing_is_called(name, arrays, measurable) + "\n";
+    add_maps(arrays, found);
+    if (found.empty()) problems += why_nothing_is_called(name, arrays) + "\n";
     for (const std::string& path : found) {
       if (std::find(paths.begin(), paths.end(), path) == paths.end()) paths.push_back(path);
     }

@@ -43,15 +43,17 @@ MeasurementKind angles_kind() {
       .make = measure_angles,
       .arrays =
           {
-              {"theta_rad", "bin centres over [-π/2, π/2)"},
-              {"density_per_rad", "P(θ) about the director, of integral 1"},
+              called("angle to the director", "θ", {"theta_rad", "bin centres over [-π/2, π/2)"}),
+              called("probability density", "P(θ)", {"density_per_rad", "P(θ) about the director, of integral 1"}),
           },
       .numbers =
           {
-              {"theta_m_deg",
-               "angle by which layers are turned: ± the means of two Gaussians fitted to P(θ); null if there is one "
-               "peak",
-               false, "P(theta) has one peak, or too few samples to tell two"},
+              called("tilt of the layers", R"(θ_\mathrm{m})",
+                     {"theta_m_deg",
+                      "angle by which layers are turned: ± the means of two Gaussians fitted to P(θ); null if there is "
+                      "one "
+                      "peak",
+                      false, "P(theta) has one peak, or too few samples to tell two"}),
               {"theta_m_maximum_deg",
                "angle at which P(θ) itself is highest, both signs taken together; null if there is one peak", false,
                "P(theta) has one peak, or too few samples to tell two"},

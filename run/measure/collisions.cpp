@@ -54,12 +54,14 @@ MeasurementKind collisions_kind() {
       .make = measure_collisions,
       .arrays =
           {
-              {"time_s", "ends of the times from one sample to the next, over which the following are means"},
+              called("time", "t",
+                     {"time_s", "ends of the times from one sample to the next, over which the following are means"}),
               {"impacts_rods_Hz", "impacts of one rod with others in a second"},
               {"impacts_base_Hz", "with the base"},
               {"impacts_lid_Hz", "with the lid"},
               {"impacts_walls_Hz", "with side walls"},
-              {"power_given_pJ_s", "energy that plates, walls and noise give to one rod in a second"},
+              called("power given to a rod", "P",
+                     {"power_given_pJ_s", "energy that plates, walls and noise give to one rod in a second"}),
               {"power_lost_rods_pJ_s", "energy that one rod loses in impacts with others in a second"},
               {"power_lost_surfaces_pJ_s", "energy that it loses in impacts with plates and walls"},
           },
@@ -69,11 +71,13 @@ MeasurementKind collisions_kind() {
               {"impacts_base_Hz", "with the base"},
               {"impacts_lid_Hz", "with the lid"},
               {"impacts_walls_Hz", "with side walls"},
-              {"power_given_pJ_s", "energy that plates, walls and noise give to one rod in a second"},
+              called("power given to a rod", "P",
+                     {"power_given_pJ_s", "energy that plates, walls and noise give to one rod in a second"}),
               {"power_lost_rods_pJ_s", "energy that one rod loses in impacts with others in a second"},
               {"power_lost_surfaces_pJ_s", "energy that it loses in impacts with plates and walls"},
-              {"mean_free_time_s", "mean time of a rod between impacts with others: 1 / `impacts_rods_Hz`", false,
-               "no impacts of rods with each other"},
+              called("mean free time", R"(τ_\mathrm{f})",
+                     {"mean_free_time_s", "mean time of a rod between impacts with others: 1 / `impacts_rods_Hz`",
+                      false, "no impacts of rods with each other"}),
           },
   };
 }

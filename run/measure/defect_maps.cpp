@@ -87,16 +87,22 @@ MeasurementKind defect_maps_kind() {
       .make = measure_defect_maps,
       .arrays =
           {
-              {"along_mm", "(bins) bin centres along x′: of +1/2 defects from the head to the tail"},
-              {"across_mm", "(bins) bin centres along y′, to the left of x′"},
-              {"plus/density",
-               "(bins · bins) number density of rods about +1/2 defects over its mean, row by row: "
-               "`density.reshape(bins, bins)[across, along]`",
-               kWithError},
+              called("along the defect", "x′",
+                     {"along_mm", "(bins) bin centres along x′: of +1/2 defects from the head to the tail"}),
+              called("across the defect", "y′", {"across_mm", "(bins) bin centres along y′, to the left of x′"}),
+              called("density of rods over its mean", "",
+                     {"plus/density",
+                      "(bins · bins) number density of rods about +1/2 defects over its mean, row by row: "
+                      "`density.reshape(bins, bins)[across, along]`",
+                      kWithError}),
               {"plus/cos_2theta", "mean of cos 2θ′, θ′ being the angle of a rod to x′; in the same order", kWithError},
               {"plus/sin_2theta", "mean of sin 2θ′", kWithError},
-              over("every", {"plus/v_along_mm_s", "mean velocity of rods along x′", kWithError}, 2),
-              over("every", {"plus/v_across_mm_s", "that along y′", kWithError}, 2),
+              over("every",
+                   called("velocity of rods along $x′$", "",
+                          {"plus/v_along_mm_s", "mean velocity of rods along x′", kWithError}),
+                   2),
+              over("every",
+                   called("velocity of rods along $y′$", "", {"plus/v_across_mm_s", "that along y′", kWithError}), 2),
               {"plus/tilt_squared", "mean of n_z²", kWithError},
               {"minus/density", "the same about -1/2 defects, mean over their three rays", kWithError},
               {"minus/cos_2theta", "the same about -1/2 defects", kWithError},
@@ -105,6 +111,7 @@ MeasurementKind defect_maps_kind() {
               over("every", {"minus/v_across_mm_s", "the same about -1/2 defects", kWithError}, 2),
               {"minus/tilt_squared", "the same about -1/2 defects", kWithError},
           },
+      .axes = {{"plus/", "across_mm along_mm"}, {"minus/", "across_mm along_mm"}},
       .numbers =
           {
               {"mapped_defects_plus", "number of +1/2 defects that are mapped, of a sample"},

@@ -57,16 +57,19 @@ MeasurementKind density_kind() {
       .arrays =
           {
               {"time_s", "(maps) middle of the time that a map is averaged over"},
-              {"x_mm", "(columns) centres of the cells along x"},
-              {"y_mm", "(rows) centres of the cells along y"},
-              over("duration",
-                   {"area_fraction",
-                    "(maps · rows · columns) area fraction in the cells, map by map and row by row; NaN beyond walls"}),
+              called("place", "x", {"x_mm", "(columns) centres of the cells along x"}),
+              called("place", "y", {"y_mm", "(rows) centres of the cells along y"}),
+              over("duration", called("area fraction", "φ",
+                                      {"area_fraction",
+                                       "(maps · rows · columns) area fraction in the cells, map by map and row by row; "
+                                       "NaN beyond walls"})),
               {"mean_area_fraction", "(rows · columns) mean over the maps of the steady state"},
-              {"memory/lag_s", "time from one map to another"},
-              {"memory/correlation", "⟨δ(t)δ(t + lag)⟩/⟨δ²⟩ of the relative deviations δ of cells from the mean",
-               kWithError},
+              called("lag", "t", {"memory/lag_s", "time from one map to another"}),
+              called("memory of the density", "C_φ(t)",
+                     {"memory/correlation", "⟨δ(t)δ(t + lag)⟩/⟨δ²⟩ of the relative deviations δ of cells from the mean",
+                      kWithError}),
           },
+      .axes = {{"area_fraction", "time_s y_mm x_mm"}, {"mean_area_fraction", "y_mm x_mm"}},
       .numbers =
           {
               over("duration", {"density_variance",

@@ -36,14 +36,15 @@ MeasurementKind drift_kind() {
       .make = measure_drift,
       .arrays =
           {
-              {"time_s", "times; of more than 65,536 samples, each point is a mean of several"},
-              {"x_mm", "displacement along x of the mean of all centres since the first sample"},
-              {"y_mm", "the same along y"},
+              called("time", "t", {"time_s", "times; of more than 65,536 samples, each point is a mean of several"}),
+              called("displacement along x", "x",
+                     {"x_mm", "displacement along x of the mean of all centres since the first sample"}),
+              called("displacement along y", "y", {"y_mm", "the same along y"}),
           },
       .numbers =
           {
-              {"drift_x_mm_s", "mean velocity of all rods along x"},
-              {"drift_y_mm_s", "mean velocity of all rods along y"},
+              called("drift velocity along x", "v_x", {"drift_x_mm_s", "mean velocity of all rods along x"}),
+              called("drift velocity along y", "v_y", {"drift_y_mm_s", "mean velocity of all rods along y"}),
           },
   };
 }

@@ -50,17 +50,20 @@ MeasurementKind flow_kind() {
       .make = measure_flow,
       .arrays =
           {
-              {"r_mm", "bin centres"},
-              over("every", {"c", "C(r) of mean velocities; 1 if all rods move together", kWithError}),
+              called("distance", "r", {"r_mm", "bin centres"}),
+              over("every", called("velocity correlation", "C(r)",
+                                   {"c", "C(r) of mean velocities; 1 if all rods move together", kWithError})),
               over("every", {"c_along", "of the components along the director", kWithError}),
               over("every", {"c_across", "of the components across it", kWithError}),
           },
       .numbers =
           {
-              over("every", {"flow_of_neighbours",
-                             "C of mean velocities of rods whose centres are less than two diameters apart"}),
-              over("every", {"flow_length_mm", "distance at which C falls to 1/e", false,
-                             "C does not fall to 1/e within half the box"}),
+              over("every", called("velocity correlation of neighbours", "C",
+                                   {"flow_of_neighbours",
+                                    "C of mean velocities of rods whose centres are less than two diameters apart"})),
+              over("every", called("velocity correlation length", "ξ_v",
+                                   {"flow_length_mm", "distance at which C falls to 1/e", false,
+                                    "C does not fall to 1/e within half the box"})),
           },
       .of_axis = {"c_along", "c_across"},
   };

@@ -52,10 +52,12 @@ MeasurementKind fluctuations_kind() {
       .arrays =
           {
               {"area_fraction", "area of a counting box as a fraction of the whole area"},
-              {"mean_n", "mean number of rods in a box"},
-              {"std_n", "standard deviation of that number over boxes and time", kWithError},
+              called("mean number in a box", R"(\langle N\rangle)", {"mean_n", "mean number of rods in a box"}),
+              called("its standard deviation", "ΔN",
+                     {"std_n", "standard deviation of that number over boxes and time", kWithError}),
               {"std_n_without_map", "standard deviation over time, about each box's own mean", kWithError},
           },
+      .axes = {{"", "mean_n"}},
       .numbers =
           {
               {"fluctuation_exponent",

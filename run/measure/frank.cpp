@@ -46,6 +46,7 @@ MeasurementKind frank_kind() {
               {"power_mm2", "power of the director fluctuations", kWithError},
               {"fit_mm2", "the same from the fitted Frank constants"},
           },
+      .axes = {{"", ""}},
       .numbers =
           {
               {"frank_ratio", "K₃/K₁, bend over splay"},

@@ -45,9 +45,9 @@ MeasurementKind g2_kind() {
       .make = measure_g2,
       .arrays =
           {
-              {"r_mm", "bin centres"},
-              {"g2", "G₂(r)", kWithError},
-              {"g", "g(r)", kWithError},
+              called("distance", "r", {"r_mm", "bin centres"}),
+              called("orientational correlation", "G_2(r)", {"g2", "G₂(r)", kWithError}),
+              called("pair correlation", "g(r)", {"g", "g(r)", kWithError}),
           },
       .of_axis = {"g2"},
   };

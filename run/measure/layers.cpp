@@ -51,15 +51,19 @@ MeasurementKind layers_kind() {
       .make = measure_layers,
       .arrays =
           {
-              {"q_per_mm", "wave numbers 2πk/L, L being the longer side of the box"},
-              {"spectrum_across", "power of sin 2(θ - director), wave vectors across the director"},
+              called("wave number across the director", "q_⊥",
+                     {"q_per_mm", "wave numbers 2πk/L, L being the longer side of the box"}),
+              called("spectrum of the layers", R"(\langle|s(q_⊥)|^2\rangle)",
+                     {"spectrum_across", "power of sin 2(θ - director), wave vectors across the director"}),
               {"spectrum_along", "wave vectors along it"},
           },
       .numbers =
           {
-              {"wavelength_mm", "wavelength of the layers; null where there are none"},
+              called("wavelength of the layers", "λ",
+                     {"wavelength_mm", "wavelength of the layers; null where there are none"}),
               {"layers_per_box", "side of the box across the layers, over that wavelength"},
-              {"layer_order", "amplitude of the wave of sin 2(θ − θ_N) with the most power"},
+              called("order of the layers", "",
+                     {"layer_order", "amplitude of the wave of sin 2(θ − θ_N) with the most power"}),
           },
   };
 }

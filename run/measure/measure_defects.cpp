@@ -100,9 +100,9 @@ MeasurementKind defects_kind() {
       },
       .arrays =
           {
-              {"time_s", "times of the samples"},
-              {"n_plus", "number of defects of charge +1/2"},
-              {"n_minus", "number of defects of charge -1/2"},
+              called("time", "t", {"time_s", "times of the samples"}),
+              called("number of +1/2 defects", "N_+", {"n_plus", "number of defects of charge +1/2"}),
+              called("number of −1/2 defects", "N_-", {"n_minus", "number of defects of charge -1/2"}),
               {"tracks/span_s", "time over which a speed is measured"},
               {"tracks/speed_plus_mm_s", "mean speed of +1/2 defects", kWithError},
               {"tracks/speed_minus_mm_s", "mean speed of -1/2 defects", kWithError},
@@ -120,9 +120,10 @@ MeasurementKind defects_kind() {
               {"list/direction_rad", "of the ray on which the director is radial"},
               {"list/track", "number of its track"},
           },
+      .axes = {{"tracks/lasting/", "tracks/span_s"}, {"list/", ""}},
       .numbers =
           {
-              {"defect_density_per_mm2", "number per area, of both signs"},
+              called("defects per area", "", {"defect_density_per_mm2", "number per area, of both signs"}),
               {"defect_creation_rate_per_mm2_s", "pairs that appear, per area and time"},
               {"defect_annihilation_rate_per_mm2_s", "pairs that vanish"},
               {"defect_lone_birth_rate_per_mm2_s", "defects that appear without a partner"},

@@ -45,15 +45,17 @@ MeasurementKind order_kind() {
       },
       .arrays =
           {
-              {"time_s", "times of S(t); of more than 65,536 samples, each point is a mean of several"},
-              {"order", "S(t)"},
+              called("time", "t",
+                     {"time_s", "times of S(t); of more than 65,536 samples, each point is a mean of several"}),
+              called("nematic order", "S", {"order", "S(t)"}),
               {"director_rad", "angle of the director to the x axis"},
-              {"pdf/order", "bin centres"},
-              {"pdf/density", "P[S], of integral 1"},
+              called("nematic order", "S", {"pdf/order", "bin centres"}),
+              called("probability density", "P(S)", {"pdf/density", "P[S], of integral 1"}),
           },
       .numbers =
           {
-              {"binder", "Binder cumulant U₂ = 2 − ⟨S⁴⟩/⟨S²⟩²: 0 in disorder, 1 in order"},
+              called("Binder cumulant", "U_2",
+                     {"binder", "Binder cumulant U₂ = 2 − ⟨S⁴⟩/⟨S²⟩²: 0 in disorder, 1 in order"}),
               {"susceptibility", "N · var S"},
           },
   };

@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <regex>
+#include <sstream>
 
 #include "scene/fields.h"
 #include "scene/observables.h"
@@ -29,6 +32,50 @@ std::optional<Cadence> MeasurementKind::cadence(const scene::RunPlan& plan) cons
   const System& system = plan.system;
   if (is_spread != nullptr && is_spread(plan)) return Cadence::spread(*period, system.dt, system.seed);
   return Cadence(*period, system.dt);
+}
+
+namespace {
+
+/// "tracks/" of "tracks/span_s".
+std::string_view group_of(std::string_view array) { return array.substr(0, array.find_last_of('/') + 1); }
+
+/// What `array`, or an axis, is said to be measured at.
+std::vector<std::string> listed_axes(const MeasurementKind& kind, std::string_view array) {
+  const auto said = [&](std::string_view of) {
+    return std::ranges::find(kind.axes, of, [](auto& row) { return row.first; });
+  };
+  auto found = said(array);
+  if (found == kind.axes.end()) found = said(group_of(array));
+  if (found == kind.axes.end()) {
+    return {
+        std::string(std::ranges::find(kind.arrays, group_of(array), [](auto& a) { return group_of(a.name); })->name)};
+  }
+  std::istringstream names{std::string(found->second)};
+  return {std::istream_iterator<std::string>(names), {}};
+}
+
+}  // namespace
+
+std::vector<std::string> MeasurementKind::axes_of(std::string_view array) const {
+  for (const Output& other : arrays) {
+    const std::vector<std::string> its_axes = listed_axes(*this, other.name);
+    if (std::ranges::find(its_axes, array) != its_axes.end()) return {};
+  }
+  return listed_axes(*this, array);
+}
+
+std::optional<ArrayRecord> array_record(const std::string& path) {
+  static const std::regex kParts("((?:/rods_[0-9]+)?/([^/]+)/)(.+)"), kRod("^trace/[0-9]+/"), kSem("_sem(?=_|$)");
+  std::smatch parts;
+  if (!std::regex_match(path, parts, kParts)) return std::nullopt;
+  const std::string name = std::regex_replace(parts[3].str(), kRod, "trace/K/");
+  const std::string own = std::regex_replace(name, kSem, "");
+  for (const MeasurementKind& kind : measurement_kinds()) {
+    const auto output = std::ranges::find(kind.arrays, own, &Output::name);
+    if (kind.name == parts[2].str() && output != kind.arrays.end())
+      return ArrayRecord{&kind, &*output, own != name, parts[1]};
+  }
+  return std::nullopt;
 }
 
 std::string MeasurementKind::meaning(const Output& output) const {

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "run/cadence.h"
@@ -25,8 +26,17 @@ struct Output {
   /// how many such times.
   std::string_view over = {};
   int times = 1;
+  std::string_view title = {};   ///< in figures, in few words: "wavelength of the layers"
+  std::string_view symbol = {};  ///< in LaTeX's mathematics
 };
 inline constexpr bool kWithError = true;
+
+/// `output` as figures call it (Output::title, symbol).
+constexpr Output called(std::string_view title, std::string_view symbol, Output output) {
+  output.title = title;
+  output.symbol = symbol;
+  return output;
+}
 
 /// `output`, whose value depends on the time over which it is taken (Output::over).
 constexpr Output over(std::string_view key, Output output, int times = 1) {
@@ -41,6 +51,9 @@ struct MeasurementKind {
   std::string_view sources;  ///< files of analysis/, "tilt, tilt_summary"
   std::unique_ptr<Measurement> (*make)(const MeasureContext&) = nullptr;
   std::vector<Output> arrays = {};
+  /// A group of arrays, or one of them, and those that it is measured at, the slowest first, as in {"area_fraction",
+  /// "time_s y_mm x_mm"}. All others are measured at the first array of their group.
+  std::vector<std::pair<std::string_view, std::string_view>> axes = {};
   std::vector<Output> numbers = {};
   /// Names of arrays and numbers that need an axis, where others of the same measurement do not: spheres lack them.
   std::vector<std::string_view> of_axis = {};
@@ -52,6 +65,9 @@ struct MeasurementKind {
   /// When samples are taken; none: it is not measured.
   std::optional<Cadence> cadence(const scene::RunPlan& plan) const;
 
+  /// Names of the arrays that one is measured at, the slowest first; none of an axis itself.
+  std::vector<std::string> axes_of(std::string_view array) const;
+
   /// For the pages: the meaning, and the key that sets the time over which it is taken.
   std::string meaning(const Output& output) const;
   /// That time with `interval` between samples, a multiple of it [s]; NaN if the value depends on no such time.
@@ -60,6 +76,16 @@ struct MeasurementKind {
 
 /// All of them, in the order in which they sample and are saved.
 std::span<const MeasurementKind> measurement_kinds();
+
+/// What an array of observables.h5 is.
+struct ArrayRecord {
+  const MeasurementKind* kind;
+  const Output* output;
+  bool is_error = false;  ///< whether it has the standard errors of `output`
+  std::string block;      ///< "/rods_2/msd/"
+};
+/// Of an array by its path; none if no kind has such a one.
+std::optional<ArrayRecord> array_record(const std::string& path);
 
 /// The plan with `kind` as all that is measured, from its start on.
 scene::RunPlan only(scene::RunPlan plan, const MeasurementKind& kind);

@@ -62,9 +62,10 @@ MeasurementKind mixing_kind() {
       .make = measure_mixing,
       .arrays =
           {
-              {"r_mm", "bin centres"},
+              called("distance", "r", {"r_mm", "bin centres"}),
               {"g_11", "g(r) of `rods` with each other", kWithError},
-              {"g_12", "of `rods` and `rods_2`; likewise the others, of species that there are", kWithError},
+              called("pair distribution between species", "g_{12}(r)",
+                     {"g_12", "of `rods` and `rods_2`; likewise the others, of species that there are", kWithError}),
               {"g_13", "of `rods` and `rods_3`", kWithError},
               {"g_22", "of `rods_2` with each other", kWithError},
               {"g_23", "of `rods_2` and `rods_3`", kWithError},
@@ -72,10 +73,11 @@ MeasurementKind mixing_kind() {
           },
       .numbers =
           {
-              {"segregation_12",
-               "how far `rods` and `rods_2` keep apart: 0 if they are mixed at random, 1 if no rod has "
-               "a neighbour of the other species",
-               false, "no neighbours"},
+              called("segregation of the first two species", "",
+                     {"segregation_12",
+                      "how far `rods` and `rods_2` keep apart: 0 if they are mixed at random, 1 if no rod has "
+                      "a neighbour of the other species",
+                      false, "no neighbours"}),
               {"segregation_13", "the same of `rods` and `rods_3`", false, "no neighbours"},
               {"segregation_23", "the same of `rods_2` and `rods_3`", false, "no neighbours"},
           },

@@ -69,10 +69,11 @@ MeasurementKind msd_kind() {
       .make = measure_msd,
       .arrays =
           {
-              {"lag_s", "lags"},
-              {"total_mm2", "mean square displacement in the plane", kWithError},
-              {"along_mm2", "along the director", kWithError},
-              {"across_mm2", "across the director", kWithError},
+              called("lag", "t", {"lag_s", "lags"}),
+              called("mean square displacement", R"(\mathrm{MSD})",
+                     {"total_mm2", "mean square displacement in the plane", kWithError}),
+              called("MSD along the director", "", {"along_mm2", "along the director", kWithError}),
+              called("MSD across the director", "", {"across_mm2", "across the director", kWithError}),
               {"relative_total_mm2", "in the plane, without the common drift of all N rods, times N/(N − 1)",
                kWithError},
               {"relative_along_mm2", "along the director, without that drift", kWithError},
@@ -84,9 +85,11 @@ MeasurementKind msd_kind() {
           },
       .numbers =
           {
-              {"diffusion_mm2_s",
-               "D at long lags, from `diffusion_lag_from_s` to `diffusion_lag_to_s`: a quarter of the slope of the "
-               "MSD"},
+              called(
+                  "diffusion coefficient", "D",
+                  {"diffusion_mm2_s",
+                   "D at long lags, from `diffusion_lag_from_s` to `diffusion_lag_to_s`: a quarter of the slope of the "
+                   "MSD"}),
               {"diffusion_short_mm2_s",
                "the same at short lags, from `diffusion_short_lag_from_s` to `diffusion_short_lag_to_s`"},
               {"diffusion_along_mm2_s", "D along the director, at long lags"},

@@ -62,16 +62,20 @@ MeasurementKind pairs_kind() {
           {
               {"along_mm", "(bins) bin centres along the director"},
               {"across_mm", "(bins) bin centres across it"},
-              {"g", "(bins · bins) g(x, y), row by row: `g.reshape(bins, bins)[across, along]`"},
-              {"g2", "(bins · bins) G₂(x, y), in the same order"},
-              {"cut/r_mm",
-               "bin centres of cuts through the maps, up to half the longer side of the box; NaN stands where images "
-               "end"},
+              called("pair correlation", "g",
+                     {"g", "(bins · bins) g(x, y), row by row: `g.reshape(bins, bins)[across, along]`"}),
+              called("orientational correlation", "G_2", {"g2", "(bins · bins) G₂(x, y), in the same order"}),
+              called("distance across the director", "r_⊥",
+                     {"cut/r_mm",
+                      "bin centres of cuts through the maps, up to half the longer side of the box; NaN stands where "
+                      "images "
+                      "end"}),
               {"cut/g_along", "g along the director", kWithError},
               {"cut/g_across", "g across it", kWithError},
               {"cut/g2_along", "G₂ along the director", kWithError},
-              {"cut/g2_across", "G₂ across it", kWithError},
+              called("orientational correlation", "G_2(r_⊥)", {"cut/g2_across", "G₂ across it", kWithError}),
           },
+      .axes = {{"g", "across_mm along_mm"}, {"g2", "across_mm along_mm"}},
       .numbers =
           {
               {"wavelength_g2_mm",

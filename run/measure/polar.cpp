@@ -43,16 +43,20 @@ MeasurementKind polar_kind() {
       .make = measure_polar,
       .arrays =
           {
-              {"time_s", "times of P(t); of more than 65,536 samples, each point is a mean of several"},
-              {"order", "P(t)"},
-              {"direction_rad", "angle to the x axis of the mean direction of the heads"},
+              called("time", "t",
+                     {"time_s", "times of P(t); of more than 65,536 samples, each point is a mean of several"}),
+              called("polar order", "P", {"order", "P(t)"}),
+              called("direction of the heads", "",
+                     {"direction_rad", "angle to the x axis of the mean direction of the heads"}),
           },
       .numbers =
           {
-              {"P", "mean polar order: 1 where all heads point the same way"},
+              called("polar order", R"(\langle P\rangle)",
+                     {"P", "mean polar order: 1 where all heads point the same way"}),
               {"polar_susceptibility", "N · var P"},
-              {"v_forward_mm_s",
-               "mean of velocities of instants in the plane towards the head; negative: tails swim first"},
+              called("velocity towards the head", R"(\langle v·u\rangle)",
+                     {"v_forward_mm_s",
+                      "mean of velocities of instants in the plane towards the head; negative: tails swim first"}),
               {"v_along_rms_mm_s", "root mean square of velocities of instants along the rod, in the plane"},
               {"v_across_rms_mm_s", "that across the rod"},
               {"velocity_polarity",

@@ -44,6 +44,7 @@ MeasurementKind rods_kind() {
               {"trace/K/theta_rad", "angle of its axis in the plane, in (-π, π]"},
               {"trace/K/n_z", "vertical component of its axis"},
           },
+      .axes = {{"trace/K/", "trace/time_s"}},
   };
 }
 

@@ -44,20 +44,24 @@ MeasurementKind rotation_kind() {
       .make = measure_rotation,
       .arrays =
           {
-              {"lag_s", "lags"},
-              {"msad_rad2", "mean square angular displacement", kWithError},
-              {"c2", "C₂(t) = ⟨cos 2Δθ⟩", kWithError},
+              called("lag", "t", {"lag_s", "lags"}),
+              called("mean square angular displacement", "",
+                     {"msad_rad2", "mean square angular displacement", kWithError}),
+              called("orientational memory", "C_2(t)", {"c2", "C₂(t) = ⟨cos 2Δθ⟩", kWithError}),
           },
       .numbers =
           {
-              {"rotational_diffusion_rad2_s",
-               "D_r at long lags, from `rotation_lag_from_s` to `rotation_lag_to_s`: half the slope of the MSAD"},
+              called(
+                  "rotational diffusion", R"(D_\mathrm{r})",
+                  {"rotational_diffusion_rad2_s",
+                   "D_r at long lags, from `rotation_lag_from_s` to `rotation_lag_to_s`: half the slope of the MSAD"}),
               {"alpha_rotation_short",
                "exponent of the MSAD at short lags, from `rotation_short_lag_from_s` to `rotation_short_lag_to_s`"},
               {"alpha_rotation_long", "exponent at long lags"},
-              {"c2_plateau", "mean of C₂ over the last octave of lags"},
-              {"c2_decay_s", "lag at which C₂ falls to 1/e; null if it does not", false,
-               "C2 does not fall to 1/e within the lags measured"},
+              called("plateau of the memory", "C_2", {"c2_plateau", "mean of C₂ over the last octave of lags"}),
+              called("memory $C_2$ to 1/e", "",
+                     {"c2_decay_s", "lag at which C₂ falls to 1/e; null if it does not", false,
+                      "C2 does not fall to 1/e within the lags measured"}),
               over("every", {"large_turns",
                              "turns by more than π/3 from one sample to the next: should be 0, or that is too long"}),
               {"rotation_lag_from_s", "shortest of the long lags"},

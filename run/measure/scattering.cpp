@@ -57,15 +57,18 @@ MeasurementKind scattering_kind() {
       .make = measure_scattering,
       .arrays =
           {
-              {"q_per_mm", "(4) wave numbers q"},
-              {"lag_s", "(lags) lags"},
-              {"f", "(4 · lags) F_s(q, t), row by row: the mean of both of the following", kWithError},
+              called("wave number", "q", {"q_per_mm", "(4) wave numbers q"}),
+              called("lag", "t", {"lag_s", "(lags) lags"}),
+              called("self-intermediate scattering", "F_s(q, t)",
+                     {"f", "(4 · lags) F_s(q, t), row by row: the mean of both of the following", kWithError}),
               {"f_along", "(4 · lags) of q along the director", kWithError},
               {"f_across", "(4 · lags) of q across it", kWithError},
-              {"alpha_2", "(lags) non-Gaussian parameter of displacements in the plane", kWithError},
+              called("non-Gaussian parameter", "α_2(t)",
+                     {"alpha_2", "(lags) non-Gaussian parameter of displacements in the plane", kWithError}),
               {"alpha_2_along", "(lags) of those along the director", kWithError},
               {"alpha_2_across", "(lags) of those across it", kWithError},
           },
+      .axes = {{"f", "q_per_mm lag_s"}, {"f_along", "q_per_mm lag_s"}, {"f_across", "q_per_mm lag_s"}, {"", "lag_s"}},
       .numbers =
           {
               {"relaxation_q1_s", "lag at which F_s falls to 1/e, of the first (smallest) wave number", false,
@@ -73,7 +76,8 @@ MeasurementKind scattering_kind() {
               {"relaxation_q2_s", "of the second", false, kNotRelaxed},
               {"relaxation_q3_s", "of the third", false, kNotRelaxed},
               {"relaxation_q4_s", "of the fourth", false, kNotRelaxed},
-              {"alpha_2_peak", "largest α₂ of displacements in the plane"},
+              called("largest non-Gaussian parameter", R"(\hat{α}_2)",
+                     {"alpha_2_peak", "largest α₂ of displacements in the plane"}),
               {"alpha_2_peak_lag_s", "lag at which it is largest"},
           },
       .of_axis = {"f_along", "f_across", "alpha_2_along", "alpha_2_across"},

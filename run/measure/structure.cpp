@@ -37,7 +37,7 @@ MeasurementKind structure_kind() {
       .name = "structure",
       .sources = "structure_factor, wave_sums",
       .make = measure_structure,
-      .arrays = {{"q_per_mm", "wave numbers 2πk/L, L being the longer side of the box"},
+      .arrays = {called("wave number", "q", {"q_per_mm", "wave numbers 2πk/L, L being the longer side of the box"}),
                  {"factor", "S(q) of the centres, mean over all directions of q", kWithError},
                  {"factor_along", "of wave vectors within 30° of the director", kWithError},
                  {"factor_across", "of wave vectors within 30° of its normal", kWithError}},

@@ -56,9 +56,12 @@ MeasurementKind tilt_kind() {
       .make = measure_tilt,
       .arrays =
           {
-              {"n_z", "bin centres of the vertical component of the axis"},
-              {"v_along_mm_s", "mean of velocities of instants along the rod's own direction in the plane", kWithError},
-              {"v_across_mm_s", "across that direction, to the left", kWithError},
+              called("tilt of a rod", "n_z", {"n_z", "bin centres of the vertical component of the axis"}),
+              called("velocity along the rod", R"(\langle v_∥\rangle)",
+                     {"v_along_mm_s", "mean of velocities of instants along the rod's own direction in the plane",
+                      kWithError}),
+              called("velocity across the rod", R"(\langle v_⊥\rangle)",
+                     {"v_across_mm_s", "across that direction, to the left", kWithError}),
               {"density", "P(n_z)"},
               {"folded/n_z", "bins with n_z > 0"},
               {"folded/v_along_mm_s", "both signs of n_z combined, with v(-n_z) = -v(n_z)", kWithError},

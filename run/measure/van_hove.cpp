@@ -59,11 +59,14 @@ MeasurementKind van_hove_kind() {
       .arrays =
           {
               {"lag_s", "(lags) lags, at most four"},
-              {"displacement_mm", "(lags · bins) bin centres of x, whose sign does not count, row by row"},
-              {"along_per_mm", "(lags · bins) G_s(x, t) of displacements x along the director", kWithError},
+              called("displacement along the director", "x",
+                     {"displacement_mm", "(lags · bins) bin centres of x, whose sign does not count, row by row"}),
+              called("van Hove function", "G_s(x, t)",
+                     {"along_per_mm", "(lags · bins) G_s(x, t) of displacements x along the director", kWithError}),
               {"across_per_mm", "(lags · bins) of those across it", kWithError},
               {"distance_per_mm", "(lags · bins) density 2πr G_s(r, t) of the distance r in the plane", kWithError},
           },
+      .axes = {{"", "lag_s displacement_mm"}},
       .numbers =
           {
               over("lag", {"van_hove_beyond", "share of the displacements that lie beyond the range"}),

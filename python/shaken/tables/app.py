@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import argparse
 import io
-import json
 import os
 import sys
 from typing import Sequence
@@ -23,7 +22,6 @@ def _options(words: Sequence[str]) -> argparse.Namespace:
     parser = Options()
     parser.add_argument("id", nargs="?", default="")
     parser.add_argument("--root")
-    parser.add_argument("--keys", type=json.loads, default={})  # of the scene, and what each measures
     for name in ("where", "job"):
         parser.add_argument(f"--{name}", action="append", default=[])
     for flag in ("aggregate", "csv", "json", "map"):

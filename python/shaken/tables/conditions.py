@@ -7,9 +7,10 @@ import re
 from dataclasses import dataclass
 from typing import Any, Callable, Iterator, NamedTuple, Sequence
 
+from ..catalogue import KEYS, UNITS
 from ..errors import ShakenError, nearest
-from ..quantities import NUMBER, UNITS, quantity
-from .rows import Keys, Row, field_named, field_names
+from ..quantities import NUMBER, quantity
+from .rows import Row, field_named, field_names
 from .text import printable, value_text
 
 _COMPARE: dict[str, Callable[[Any, Any], bool]] = {
@@ -211,25 +212,25 @@ class Condition:
         self.comparisons.append(made)
         return made.holds
 
-    def bind(self, rows: Sequence[Row], keys: Keys, all_known: bool = True) -> list[Problem]:
+    def bind(self, rows: Sequence[Row], all_known: bool = True) -> list[Problem]:
         """Looks the names up in rows (field_named), and values in the units of their fields. Returns everything that is
         wrong: a name that no row has, a value that cannot be compared with it. Keys of a scene are never wrong; neither
         is any other name unless `all_known`, that is if the rows have all names that there can be.
         """
         names = field_names(rows)
-        return [problem for of in self.comparisons for problem in _bound(of, names, rows, keys, all_known)]
+        return [problem for of in self.comparisons for problem in _bound(of, names, rows, all_known)]
 
 
-def _bound(of: _Comparison, names: Sequence[str], rows: Sequence[Row], keys: Keys, all_known: bool
+def _bound(of: _Comparison, names: Sequence[str], rows: Sequence[Row], all_known: bool
            ) -> Iterator[Problem]:
     found, called, is_quoted = field_named(names, of.name.text), printable(of.name.text), of.value.kind == "quoted"
     of.field = found or of.name.text
-    if found is None and of.name.text not in keys and all_known and rows:
-        yield Problem(of.name.at, f"no row has a field '{called}'{nearest(of.name.text, [*names, *keys])}")
+    if found is None and of.name.text not in KEYS and all_known and rows:
+        yield Problem(of.name.at, f"no row has a field '{called}'{nearest(of.name.text, [*names, *KEYS])}")
         return
     wrong = f"{called} is a number: without quotes"
     try:
-        number = quantity(of.value.text, keys[of.name.text][0] if of.name.text in keys else "plain number")
+        number = quantity(of.value.text, KEYS.get(of.name.text, {}).get("of", "plain number"))
         of.number = None if is_quoted else number
     except ShakenError as problem:
         wrong = wrong if is_quoted else printable(str(problem))
@@ -269,11 +270,11 @@ def names_in(conditions: Sequence[Condition]) -> list[str]:
     return list(dict.fromkeys(of.name.text for condition in conditions for of in condition.comparisons))
 
 
-def matching(rows: Sequence[Row], conditions: Sequence[Condition], keys: Keys, all_known: bool
+def matching(rows: Sequence[Row], conditions: Sequence[Condition], all_known: bool
              ) -> tuple[list[Row], dict[str, int]]:
     """(the rows for which all conditions hold, the fields that some rows lack and how many do). Raises ShakenError for
     names and values that are wrong."""
-    _refuse([(condition, condition.bind(rows, keys, all_known)) for condition in conditions],
+    _refuse([(condition, condition.bind(rows, all_known)) for condition in conditions],
             "\n`shaken results --csv` shows all names")
     compared = sorted({of.field for condition in conditions for of in condition.comparisons})
     lacking = {name: sum(name not in row.fields for row in rows) for name in compared}

@@ -117,7 +117,7 @@ def _asked(options: argparse.Namespace) -> tuple[Target, list[Row]]:
     everything = aggregated(target.rows)
     options.x = resolved(everything, options.x) if options.x else ""
     options.y = resolved(everything, options.y) if options.y else "order.mean"
-    points = selected(target, conditions, options.keys, True)
+    points = selected(target, conditions, True)
     if conditions and not points:
         raise Nothing("there is nothing to plot: no point matches --where")
     return target, points

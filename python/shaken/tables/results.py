@@ -100,7 +100,7 @@ def results(options: argparse.Namespace) -> None:
     if options.aggregate and has_several_versions(target.rows):
         print("several versions computed these runs; each has means of its own (versions.shaken, versions.physics)",
               file=sys.stderr)
-    rows = selected(target, conditions, options.keys, options.aggregate)
+    rows = selected(target, conditions, options.aggregate)
     if options.json:
         print(json_text({"rows": [row.fields if options.aggregate else row.source for row in rows]}))
     elif options.csv:

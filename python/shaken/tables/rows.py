@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Iterable, Iterator, Mapping, Sequence
 
+from ..catalogue import KEYS
 from ..daemon import Daemon, quoted
 from ..errors import NotFound, ShakenError, nearest
 from ..estimate import NAN, Estimate, replica_mean
@@ -16,8 +17,6 @@ from ..quantities import NUMBER
 from ..summary import has_results
 
 Fields = dict[str, Any]
-#: The keys of a scene: what each measures, and its value in a scene that does not say it.
-Keys = Mapping[str, Sequence[Any]]
 _VERSIONS = ("versions.shaken", "versions.physics")
 #: Fields that name a row rather than measure something; never averaged.
 _NAMES = {"job", "sweep", "state", "label", "replica", "directory", *_VERSIONS}
@@ -123,10 +122,10 @@ def target_of(daemon: Daemon, word: str) -> Target:
     raise ShakenError(f"no sweep or job is called '{word}'{hint}: `shaken status` lists them")
 
 
-def add_from_scenes(target: Target, names: Iterable[str], keys: Keys) -> None:
+def add_from_scenes(target: Target, names: Iterable[str]) -> None:
     """What the scenes of the rows' runs say of keys that these lack: a row has the swept ones only. A run that has not
     begun has no scene."""
-    wanted = [name for name in names if name in keys]
+    wanted = [name for name in names if name in KEYS]
     directories = {job["id"]: job.get("directory") for job in target.jobs}
     for row in target.rows:
         lacking = [name for name in wanted if name not in row.fields]
@@ -134,7 +133,7 @@ def add_from_scenes(target: Target, names: Iterable[str], keys: Keys) -> None:
         if not lacking or not directory or not Path(directory, "scene.json").is_file():
             continue
         known = dict(_flattened(json.loads(Path(directory, "scene.json").read_text())))
-        said = {name: known.get(name, keys[name][1]) for name in lacking}
+        said = {name: known.get(name, KEYS[name]["default"]) for name in lacking}
         row.scene |= {name: value for name, value in said.items() if isinstance(value, (int, float, str))}
         row.fields |= row.scene
 

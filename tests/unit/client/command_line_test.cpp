@@ -285,7 +285,7 @@ TEST(Schema, IsPrintedOfScenesAndOfSweeps) {
   const Json sweep = Json::parse(run_client({"schema", "sweep"}).out);
   EXPECT_TRUE(sweep.at("then").at("properties").contains("sweep"));
   EXPECT_EQ(Json::parse(run_client({"schema", "style"}).out)["properties"]["theme"]["default"], "light");
-  EXPECT_THAT(run_client({"schema", "film"}).err, HasSubstr("\"film\" is neither scene nor sweep nor style"));
+  EXPECT_THAT(run_client({"schema", "film"}).err, HasSubstr("\"film\" is neither scene, sweep, style nor catalogue"));
 }
 
 TEST(CommandLine, HelpIsAVerbToo) {

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+namespace shaken::client {
+
+/// All that has a name, as JSON with a line for each thing: units, keys of scenes and of styles, observables with their
+/// arrays and numbers, effects. Other programs read it (python/shaken/catalogue.json), so that they have no list of
+/// their own.
+std::string catalogue();
+
+}  // namespace shaken::client

@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: MIT
+"""All that has a name in Shaken, as the programs know it (`shaken schema catalogue`): no list of it stands in Python.
+
+UNITS:   unit -> {"of": what it measures, "scale": how many of the default unit it is}; that of scale 1 comes first
+KEYS:    key of a scene -> {"of", "unit", "range", "default", "title", "symbol", "doc"}
+ARRAYS:  array of observables.h5 -> {"unit", "title", "symbol", "doc", "error": whether there is one of its standard
+         errors, "axes": the arrays that it is measured at, the slowest first}
+NUMBERS: number of summary.json -> {"unit", "title", "symbol", "doc", "observable"}
+"""
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+_ALL: dict[str, dict[str, dict[str, Any]]] = json.loads(
+    Path(__file__).with_suffix(".json").read_text(encoding="utf-8"))
+UNITS, KEYS, ARRAYS, NUMBERS = (_ALL[section] for section in ("units", "keys", "arrays", "numbers"))
