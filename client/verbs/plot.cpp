@@ -37,9 +37,7 @@ class Plot : public InPython {
                      "A column, one and a half, or a page; as the panels need it if left out", Names::kAnything);
   }
 
-  ExitCode run(const Context& context) override {
-    return go_on(context, "tables", {"plot", root_option(context)});
-  }
+  ExitCode run(const Context& context) override { return go_on(context, "tables", {"plot", root_option(context)}); }
 };
 
 }  // namespace

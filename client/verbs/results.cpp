@@ -39,9 +39,7 @@ class Results : public InPython {
     arguments.flag("--json", "The daemon's rows, or the aggregated ones, as JSON");
   }
 
-  ExitCode run(const Context& context) override {
-    return go_on(context, "tables", {"results", root_option(context)});
-  }
+  ExitCode run(const Context& context) override { return go_on(context, "tables", {"results", root_option(context)}); }
 };
 
 }  // namespace
