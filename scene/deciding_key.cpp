@@ -6,7 +6,6 @@
 
 #include <sstream>
 #include <variant>
-#include <vector>
 
 #include "scene/fields.h"
 
@@ -28,12 +27,11 @@ std::string deciding_key(const RunPlan& plan, std::string_view keys) {
     for (const Field& key : fields()) {
       if (fnmatch(pattern.c_str(), key.path.c_str(), 0) != 0) continue;
       const Value value = fields().value(plan, key);
-      const bool is_there = !std::holds_alternative<std::monostate>(value);
       const Field* block = fields().block_of(key);
-      if (absent.empty() && block != nullptr) absent = block->path + " is absent";
-      if (!is_there) continue;
-      const std::string unit = key.unit.empty() ? "" : " " + key.unit;
-      const std::string text = fmt::format("{} = {}{}", key.path, show(key, value), unit);
+      if (absent.empty()) absent = (block == nullptr ? key : *block).path + " is absent";
+      if (std::holds_alternative<std::monostate>(value)) continue;
+      const char* space = key.unit.empty() ? "" : " ";
+      const std::string text = fmt::format("{} = {}{}{}", key.path, show(key, value), space, key.unit);
       if (!is_neutral(key, value)) return text;
       if (neutral.empty()) neutral = text;
     }

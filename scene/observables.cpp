@@ -53,7 +53,6 @@ MeasureMemory of_defects(const Sizes& sizes) {
   return {found * kTrack + list, field_bytes(nodes), list, kSpare * list};
 }
 
-/// Seven a bin and charge.
 double map_sums(double bins) { return 2 * 7 * bins * bins; }
 
 MeasureMemory of_defect_maps(const Sizes& sizes) {
@@ -112,7 +111,7 @@ Observable order() {
     .doc = "Nematic order parameter S(t) in the plane.",
     .is_usual = true,
     .axis = AxisUse::kNeeded,
-    .series = 4, .angles = 1,
+    .series = 4, .angles = 1, .sums = [](const RunPlan&) { return 105.0; },
     .remedy = "a longer `every`"};
 }
 
@@ -186,7 +185,8 @@ Observable msd() {
 Observable fluctuations() {
   return {
     .doc = "Giant number fluctuations, from the numbers of rods in boxes of 1/4 to 1/400 of the area.",
-    .open = "numbers in boxes of equal area"};
+    .open = "numbers in boxes of equal area",
+    .sums = [](const RunPlan&) { return 2635.0; }};  // 1054 boxes of ten sizes
 }
 
 Observable frank() {
@@ -195,7 +195,8 @@ Observable frank() {
            "splay.",
     .periodic = "the waves",
     .is_of_squares = true,
-    .axis = AxisUse::kNeeded};
+    .axis = AxisUse::kNeeded,
+    .sums = [](const RunPlan&) { return 270.0; }};
 }
 
 Observable rotation() {
@@ -270,6 +271,7 @@ Observable structure() {
     .keys = {
       whole("waves", at<&Plan::structure, &MeasureStructure::waves>, 2, 128,
             "Number of wave numbers 2 pi k / L, L being the longer side of the box. The time that a sample takes grows with its square.")},
+    .sums = [](const RunPlan& p) -> double { return 6 * p.structure->waves; },
     .remedy = "fewer `waves`"};
 }
 

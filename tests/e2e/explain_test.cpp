@@ -191,7 +191,7 @@ TEST_F(Explain, WithoutProbeTellsWhatIsOn) {
   const Finished finished = shaken({"explain", write("scene.json", kScene), "--no-probe", "-s", "gravity=0", "-s",
                                     "plates.amplitude=0", "-s", "accuracy=draft"});
   ASSERT_EQ(finished.code, 0) << finished.output;
-  EXPECT_THAT(finished.output, AllOf(HasSubstr("gravity = 0 mm/s^2"), HasSubstr("measure.msd is absent"),
+  EXPECT_THAT(finished.output, AllOf(HasSubstr("gravity = 0 m/s^2"), HasSubstr("measure.msd is absent"),
                                      HasSubstr("32 us (\"draft\")"), Not(HasSubstr("CPU"))));
 }
 
