@@ -20,36 +20,22 @@ ScheduledStepper::ScheduledStepper(const World& world, int n_threads, int grain)
       neighbors_(world.species, world.shape_of_rod, world.system.box(), NeighborList::kSkin),
       loops_(n_threads),
       grain_(static_cast<std::size_t>(grain)),
-      rods_(world.rods.size()),
+      rods_(rules_, static_cast<std::size_t>(n_threads)),
       jumps_(world.rods.size()),
-      skin_budgets_(world.rods.size()),
-      marks_(world.rods.size()),
       flight_bounds_(world.rods.size()),
-      owners_(world.rods.size()),
       wheel_(world.rods.size(), n_threads),
       pairs_(world.rods.size(), world.system.dt, n_threads) {
-  if (rules_.impacts_at_instant) flight_pose_.resize(world.rods.size());
-  // rods are numbered along the rows that they start in, so these are bands of the plane
-  const std::size_t n = world.rods.size();
-  const auto n_shares = static_cast<std::size_t>(n_threads);
-  for (std::size_t i = 0; i < n; ++i) owners_[i] = static_cast<std::uint8_t>(i * n_shares / n);
+  const std::size_t n_shares = loops_.shares().size();
   for (std::size_t w = 0; w < n_shares; ++w) {
     loops_.shares()[w].number = w;
-    loops_.shares()[w].stored.overspent.resize(n_shares);
+    loops_.shares()[w].overspent.resize(n_shares);
   }
 }
 
 std::size_t ScheduledStepper::bytes() const {
-  std::size_t bytes = neighbors_.bytes() + wheel_.bytes() + pairs_.bytes();
-  bytes += heap_bytes(rods_, flight_pose_, jumps_, skin_budgets_, marks_, flight_bounds_, owners_);
-  bytes += heap_bytes(contacts_, may_change_, gained_, lost_, loops_.shares());
-  for (const Share& w : loops_.shares()) {
-    bytes += heap_bytes(w.met.rods, w.met.to_place, w.detected.near, w.detected.near_end, w.met.failed,
-                        w.detected.pairs, w.to_pose, w.detected.contacts, w.detected.toggled, w.met.hit,
-                        w.stored.to_schedule, w.stored.resting, w.stored.overspent, w.stored.polled, w.stored.to_bound,
-                        w.stored.to_bound_motion, w.bead_contacts);
-    for (const auto& of_another : w.stored.overspent) bytes += heap_bytes(of_another);
-  }
+  std::size_t bytes = neighbors_.bytes() + wheel_.bytes() + pairs_.bytes() + rods_.bytes();
+  bytes += heap_bytes(jumps_, flight_bounds_, contacts_, may_change_, gained_, lost_, loops_.shares());
+  for (const Share& share : loops_.shares()) bytes += share.bytes();
   return bytes;
 }
 
@@ -67,7 +53,7 @@ std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
   phase_times.start();
   std::size_t n_visits = 0;  // and bounds, in the tick before
   for (const Share& share : loops_.shares()) {
-    n_visits += share.met.rods.size() + share.detected.pairs.size() + share.stored.to_bound.size();
+    n_visits += share.visited.size() + share.searched.size() + share.to_bound.size();
   }
   const bool is_faster = trial_.next_tick();
   loops_.set_shared(is_faster && n_visits >= grain_ * loops_.shares().size());
@@ -87,11 +73,11 @@ std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
   if (have_placed_) replace_pairs(world, now);
   phase_times.lap(Phase::kNeighbors);
   detect_touching(world, now);
-  sort_contacts(contacts_, rods_, rules_);
+  sort_contacts(contacts_, rods_.at_tick, rules_);
   phase_times.lap(Phase::kDetection);
 
   // 3. response
-  if (auto trouble = collide_rods(contacts_, rods_, world, now, rules_)) return trouble;
+  if (auto trouble = collide_rods(contacts_, rods_.at_tick, world, now, rules_)) return trouble;
   phase_times.lap(Phase::kResponse);
 
   // 4. storing
@@ -104,8 +90,7 @@ std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
     lap(share, Phase::kTightening);
     schedule_rods(world, now, share);
   });
-  const auto has_pairs = [](const Share& share) { return !share.detected.pairs.empty() || share.stored.has_overspent; };
-  if (std::none_of(loops_.shares().begin(), loops_.shares().end(), has_pairs)) return {};
+  if (std::ranges::none_of(loops_.shares(), &Share::has_pairs)) return {};
   in_loop([&](Share& share) {
     shorten_bounds(now, share);
     bound_motions(world, now, share);
@@ -114,94 +99,68 @@ std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
   return {};
 }
 
-// ---- poses at the tick
-
-[[gnu::always_inline]] inline void ScheduledStepper::pose_rod(int i, const World& world, Tick now) {
-  rods_[i] = rod_at_tick(world.rods[i], now, rules_);
-  if (!flight_pose_.empty()) flight_pose_[i] = rods_[i].pose;
-}
-
-void ScheduledStepper::pose_if_needed(int i, const World& world, Tick now) {
-  if (marks_[i].posed_at == now) return;
-  marks_[i].posed_at = now;
-  pose_rod(i, world, now);
-}
-
-void ScheduledStepper::pose_listed(const World& world, Tick now, Share& share) {
-  const auto ask = [&](int i) {
-    prefetch(world.rods[i]);
-    prefetch(rods_[i]);
-  };
-  for_each_prefetched(share.to_pose, ask, [&](int i) { pose_rod(i, world, now); });
-}
-
-auto ScheduledStepper::groups_of_rods() const {
-  return Groups(rules_.species.size() > 1, [this](int i) { return shape_of(i); });
-}
-
 // ---- 1. surfaces
 
 void ScheduledStepper::meet_surfaces_due(World& world, const PlateState& plates, Tick now, Share& share) {
-  share.met.rods.clear();
-  share.met.hit.clear();
+  share.visited.clear();
+  share.hit.clear();
   if (is_new_) {
     for (int i = 0; i < static_cast<int>(world.rods.size()); ++i) {
-      if (owners_[i] == share.number) share.met.rods.push_back(i);
+      if (rods_.owners[i] == share.number) share.visited.push_back(i);
     }
   } else {
-    share.met.rods.swap(share.stored.resting);
-    wheel_.pop(now, share.met.rods, static_cast<int>(share.number));
+    share.visited.swap(share.resting);
+    wheel_.pop(now, share.visited, static_cast<int>(share.number));
   }
-  share.stored.resting.clear();
+  share.resting.clear();
   const auto ask = [&](int i) {
     prefetch(world.rods[i]);
-    prefetch(rods_[i]);
-    prefetch(marks_[i]);
-    prefetch(skin_budgets_[i]);
+    prefetch(rods_.at_tick[i]);
+    prefetch(rods_.marks[i]);
+    prefetch(rods_.skin_budgets[i]);
   };
   const auto note_trouble = [&](std::optional<NumericalTrouble> trouble) {
-    if (trouble && (!share.met.trouble || trouble->rods < share.met.trouble->rods))
-      share.met.trouble = std::move(trouble);
+    if (trouble && (!share.trouble || trouble->rods < share.trouble->rods)) share.trouble = std::move(trouble);
   };
   const auto begin_visit = [&](int i) {
-    marks_[i].posed_at = marks_[i].listed_at = now;
-    if (skin_budgets_[i].left(now, rules_.dt) >= SkinBudget::kLeast) return;
-    skin_budgets_[i].measure(neighbors_, i, flight_pose(i), now);
-    if (skin_budgets_[i].left(now, rules_.dt) < SkinBudget::kLeast) share.met.to_place.push_back(i);
+    rods_.marks[i].posed_at = rods_.marks[i].listed_at = now;
+    if (rods_.skin_budgets[i].left(now, rules_.dt) >= SkinBudget::kLeast) return;
+    rods_.skin_budgets[i].measure(neighbors_, i, rods_.flight_pose(i), now);
+    if (rods_.skin_budgets[i].left(now, rules_.dt) < SkinBudget::kLeast) share.to_place.push_back(i);
   };
   const auto meet_all = [&](int i) {
-    note_trouble(meet_surfaces(i, rods_[i], world.rods[i], plates, now, rules_, share.met.counters));
+    note_trouble(meet_surfaces(i, rods_.at_tick[i], world.rods[i], plates, now, rules_, share.counters));
   };
   const auto end_visit = [&](int i) {
-    if (!rods_[i].changed) return;
-    RodMarks& marks = marks_[i];
-    if (marks.changed_at == now - 1) marks.rests_at = now;
-    marks.changed_at = now;
-    share.met.hit.push_back(i);
-    if (!has_sound_motion(rods_[i], rules_)) share.met.failed.push_back(i);
+    if (!rods_.at_tick[i].changed) return;
+    RodStates::Marks& marks = rods_.marks[i];
+    if (marks.hit_at == now - 1) marks.hit_again_at = now;
+    marks.hit_at = now;
+    share.hit.push_back(i);
+    if (!has_sound_motion(rods_.at_tick[i], rules_)) share.failed.push_back(i);
   };
   const auto meet_in_lanes = [&](std::span<const int> rods) {
     const std::uint32_t left =
-        meet_plates_in_lanes(rods, world.rods, rods_, flight_pose_, plates, now, rules_, share.met.counters);
+        meet_plates_in_lanes(rods, world.rods, rods_.at_tick, rods_.flight_poses, plates, now, rules_, share.counters);
     for (std::size_t lane = 0; lane < rods.size(); ++lane) {
       const int i = rods[lane];
       const bool is_left = (left >> lane & 1U) != 0;
       if (is_left) {
-        pose_rod(i, world, now);
+        rods_.pose(i, world, now);
       }
       begin_visit(i);
       if (is_left) {
         meet_all(i);
       } else if (rules_.has_uprights()) {
-        note_trouble(meet_uprights(i, rods_[i], world.rods[i], plates, now, rules_, share.met.counters));
+        note_trouble(meet_uprights(i, rods_.at_tick[i], world.rods[i], plates, now, rules_, share.counters));
       }
       end_visit(i);
     }
   };
-  if (meets_in_lanes_ && share.met.rods.size() > 1) {
-    const auto groups = groups_of_rods();
-    groups.sort(share.met.rods);
-    const std::span<const int> due = share.met.rods;
+  if (meets_in_lanes_ && share.visited.size() > 1) {
+    const auto groups = rods_.by_shape();
+    groups.sort(share.visited);
+    const std::span<const int> due = share.visited;
     const auto ask_for_eight = [&](std::size_t first) {
       for (std::size_t k = first; k < std::min(due.size(), first + lanes::kDoubleLanes); ++k) ask(due[k]);
     };
@@ -212,25 +171,25 @@ void ScheduledStepper::meet_surfaces_due(World& world, const PlateState& plates,
     };
     groups.in_lanes(due, meet_and_ask, lanes::kDoubleLanes);
   } else {
-    for_each_prefetched(share.met.rods, ask, [&](int i) {
-      pose_rod(i, world, now);
+    for_each_prefetched(share.visited, ask, [&](int i) {
+      rods_.pose(i, world, now);
       begin_visit(i);
       meet_all(i);
       end_visit(i);
     });
   }
-  share.counts.count(WorkKind::kRodsVisited, std::ssize(share.met.rods));
-  share.counts.count(WorkKind::kRodsHit, std::ssize(share.met.hit));
-  share.counts.count(WorkKind::kRodsPlaced, std::ssize(share.met.to_place));
+  share.counts.count(WorkKind::kRodsVisited, std::ssize(share.visited));
+  share.counts.count(WorkKind::kRodsHit, std::ssize(share.hit));
+  share.counts.count(WorkKind::kRodsPlaced, std::ssize(share.to_place));
 }
 
 std::optional<NumericalTrouble> ScheduledStepper::gather_surfaces(World& world) {
   std::optional<NumericalTrouble> first;
   for (Share& share : loops_.shares()) {
-    if (share.met.rods.empty()) continue;
-    world.counters.add(share.met.counters);
-    share.met.counters = {};
-    if (share.met.trouble && (!first || share.met.trouble->rods < first->rods)) first = share.met.trouble;
+    if (share.visited.empty()) continue;
+    world.counters.add(share.counters);
+    share.counters = {};
+    if (share.trouble && (!first || share.trouble->rods < first->rods)) first = share.trouble;
   }
   return first;
 }
@@ -238,11 +197,12 @@ std::optional<NumericalTrouble> ScheduledStepper::gather_surfaces(World& world) 
 // ---- 2. detection
 
 void ScheduledStepper::build_neighbors(Tick now) {
-  const std::size_t n = rods_.size();
+  const std::size_t n = rods_.at_tick.size();
   std::vector<Pose> poses(n);
-  for (std::size_t i = 0; i < n; ++i) poses[i] = flight_pose(static_cast<int>(i));
+  for (std::size_t i = 0; i < n; ++i) poses[i] = rods_.flight_pose(static_cast<int>(i));
   neighbors_.build(poses);
-  for (int i = 0; i < static_cast<int>(n); ++i) skin_budgets_[i].measure(neighbors_, i, rods_[i].pose, now);
+  for (int i = 0; i < static_cast<int>(n); ++i)
+    rods_.skin_budgets[i].measure(neighbors_, i, rods_.at_tick[i].pose, now);
   gained_.resize(neighbors_.pairs().size());
   std::iota(gained_.begin(), gained_.end(), 0);
   add_gained();
@@ -255,45 +215,45 @@ void ScheduledStepper::add_gained() {
   for (const int p : gained_) {
     const NeighborList::Pair& pair = neighbors_.pairs()[p];
     if (pair.i < 0 || pairs_.is_used(p)) continue;  // lost again, or met twice
-    pairs_.add(p, {pair.i, pair.j}, owners_[pair.i]);
-    share_of(pair.i).detected.pairs.push_back(p);
+    pairs_.add(p, {pair.i, pair.j}, rods_.owners[pair.i]);
+    share_of(pair.i).searched.push_back(p);
   }
 }
 
 void ScheduledStepper::place_rods(Tick now) {
   was_complete_ = true;
   have_placed_ = false;
-  for (Share& share : loops_.shares()) share.detected.pairs.clear();
+  for (Share& share : loops_.shares()) share.searched.clear();
   if (is_new_) build_neighbors(now);
   for (Share& share : loops_.shares()) {
-    if (!share.met.to_place.empty()) have_placed_ = true;
-    for (const int i : share.met.to_place) {
-      if (!(skin_budgets_[i].left(now, rules_.dt) >= 0)) was_complete_ = false;
-      neighbors_.place(i, flight_pose(i));
+    if (!share.to_place.empty()) have_placed_ = true;
+    for (const int i : share.to_place) {
+      if (!(rods_.skin_budgets[i].left(now, rules_.dt) >= 0)) was_complete_ = false;
+      neighbors_.place(i, rods_.flight_pose(i));
     }
   }
 }
 
 void ScheduledStepper::detect_due(const World& world, Tick now, Share& share) {
-  for (const int i : share.met.to_place) {
-    skin_budgets_[i].measure(neighbors_, i, rods_[i].pose, now);
-    neighbors_.find_near(i, share.detected.near);
-    share.detected.near_end.push_back(share.detected.near.size());
+  for (const int i : share.to_place) {
+    rods_.skin_budgets[i].measure(neighbors_, i, rods_.at_tick[i].pose, now);
+    neighbors_.find_near(i, share.near);
+    share.near_end.push_back(share.near.size());
   }
   lap(share, Phase::kNeighbors);
-  const std::size_t n_gained = share.detected.pairs.size();
-  pairs_.wheel().pop(now, share.detected.pairs, static_cast<int>(share.number));
-  const auto up = share.detected.pairs.begin() + static_cast<std::ptrdiff_t>(n_gained);
-  for (auto p = up; p != share.detected.pairs.end(); ++p) pairs_.prefetch(*p);
-  for (auto p = up; p != share.detected.pairs.end(); ++p) pairs_.prefetch_bound(*p);
-  const auto due = std::remove_if(up, share.detected.pairs.end(), [&](int p) { return pairs_.defer(p, now); });
-  share.counts.count(WorkKind::kPairsDeferred, share.detected.pairs.end() - due);
-  share.detected.pairs.erase(due, share.detected.pairs.end());
-  for (const int p : share.detected.pairs) {
+  const std::size_t n_gained = share.searched.size();
+  pairs_.wheel().pop(now, share.searched, static_cast<int>(share.number));
+  const auto up = share.searched.begin() + static_cast<std::ptrdiff_t>(n_gained);
+  for (auto p = up; p != share.searched.end(); ++p) pairs_.prefetch(*p);
+  for (auto p = up; p != share.searched.end(); ++p) pairs_.prefetch_bound(*p);
+  const auto due = std::remove_if(up, share.searched.end(), [&](int p) { return pairs_.defer(p, now); });
+  share.counts.count(WorkKind::kPairsDeferred, share.searched.end() - due);
+  share.searched.erase(due, share.searched.end());
+  for (const int p : share.searched) {
     pairs_.set_detected(p, now);
-    for (const int i : pairs_.rods(p)) prefetch(marks_[i]);
+    for (const int i : pairs_.rods(p)) prefetch(rods_.marks[i]);
   }
-  for (const int i : share.met.hit) {  // as in detect_touching, which finds the rest
+  for (const int i : share.hit) {  // as in detect_touching, which finds the rest
     int n_left = pairs_.n_touching(i);
     for (const int p : neighbors_.pairs_of(i)) {
       if (n_left == 0) break;
@@ -301,41 +261,40 @@ void ScheduledStepper::detect_due(const World& world, Tick now, Share& share) {
       --n_left;
       if (pairs_.detected_at(p) == now) continue;
       pairs_.set_detected(p, now);
-      share.detected.pairs.push_back(p);
+      share.searched.push_back(p);
     }
-    if (n_left == 0) marks_[i].searched_at = now;
+    if (n_left == 0) rods_.marks[i].searched_at = now;
   }
   share.to_pose.clear();
-  for (const int p : share.detected.pairs) {
+  for (const int p : share.searched) {
     for (const int i : pairs_.rods(p)) {
-      if (owners_[i] != share.number || marks_[i].posed_at == now) continue;
-      marks_[i].posed_at = now;
-      share.to_pose.push_back(i);
+      if (rods_.owners[i] == share.number && rods_.claim_pose(i, now)) share.to_pose.push_back(i);
     }
   }
-  pose_listed(world, now, share);
-  for (const int p : share.detected.pairs) {
+  rods_.pose_all(share.to_pose, world, now);
+  for (const int p : share.searched) {
     const auto& [i, j] = pairs_.rods(p);
     // its owner may be posing it right now
-    const bool is_other = owners_[j] != share.number;
+    const bool is_other = rods_.owners[j] != share.number;
     if (is_other) share.other_pose = rod_at_tick(world.rods[j], now, rules_).pose;
-    const bool touching = search_.find(pairs_.rods(p), flight_pose(i), is_other ? share.other_pose : flight_pose(j),
-                                       pairs_.direction(p), share.bead_contacts, share.detected.contacts);
-    if (touching != pairs_.is_touching(p)) share.detected.toggled.push_back(p);
+    const bool touching =
+        search_.find(pairs_.rods(p), rods_.flight_pose(i), is_other ? share.other_pose : rods_.flight_pose(j),
+                     pairs_.direction(p), share.bead_contacts, share.contacts);
+    if (touching != pairs_.is_touching(p)) share.toggled.push_back(p);
     share.counts.count(WorkKind::kPairsTouching, touching ? 1 : 0);
   }
-  share.counts.count(WorkKind::kPairsSearched, std::ssize(share.detected.pairs));
+  share.counts.count(WorkKind::kPairsSearched, std::ssize(share.searched));
 }
 
 void ScheduledStepper::gather_contacts(const World& world, Tick now) {
   contacts_.clear();
   for (Share& share : loops_.shares()) {
-    contacts_.insert(contacts_.end(), share.detected.contacts.begin(), share.detected.contacts.end());
-    share.detected.contacts.clear();
-    for (const int p : share.detected.toggled) pairs_.toggle_touching(p);
-    share.detected.toggled.clear();
+    contacts_.insert(contacts_.end(), share.contacts.begin(), share.contacts.end());
+    share.contacts.clear();
+    for (const int p : share.toggled) pairs_.toggle_touching(p);
+    share.toggled.clear();
   }
-  for (const PairContact& contact : contacts_) pose_if_needed(contact.j, world, now);
+  for (const PairContact& contact : contacts_) rods_.pose_if_needed(contact.j, world, now);
 }
 
 /// Of the rods that have been placed.
@@ -344,14 +303,14 @@ void ScheduledStepper::replace_pairs(const World& world, Tick now) {
   lost_.clear();
   for (Share& share : loops_.shares()) {
     std::size_t begin = 0;
-    for (std::size_t k = 0; k < share.met.to_place.size(); ++k) {
-      const auto near = std::span(share.detected.near).subspan(begin, share.detected.near_end[k] - begin);
-      neighbors_.replace_pairs(share.met.to_place[k], near, gained_, lost_);
-      begin = share.detected.near_end[k];
+    for (std::size_t k = 0; k < share.to_place.size(); ++k) {
+      const auto near = std::span(share.near).subspan(begin, share.near_end[k] - begin);
+      neighbors_.replace_pairs(share.to_place[k], near, gained_, lost_);
+      begin = share.near_end[k];
     }
-    share.met.to_place.clear();
-    share.detected.near.clear();
-    share.detected.near_end.clear();
+    share.to_place.clear();
+    share.near.clear();
+    share.near_end.clear();
   }
   pairs_.make_room(neighbors_.pairs().size());  // a pair may be gained and lost by the same tick
   for (const int p : lost_) pairs_.remove(p);
@@ -366,11 +325,11 @@ void ScheduledStepper::replace_pairs(const World& world, Tick now) {
 void ScheduledStepper::detect(int p, const World& world, Tick now) {
   pairs_.set_detected(p, now);
   const auto& [i, j] = pairs_.rods(p);
-  pose_if_needed(i, world, now);
-  pose_if_needed(j, world, now);
+  rods_.pose_if_needed(i, world, now);
+  rods_.pose_if_needed(j, world, now);
   std::vector<BeadContact>& bead_contacts = loops_.shares().front().bead_contacts;
-  if (search_.find(pairs_.rods(p), flight_pose(i), flight_pose(j), pairs_.direction(p), bead_contacts, contacts_) !=
-      pairs_.is_touching(p))
+  if (search_.find(pairs_.rods(p), rods_.flight_pose(i), rods_.flight_pose(j), pairs_.direction(p), bead_contacts,
+                   contacts_) != pairs_.is_touching(p))
     pairs_.toggle_touching(p);
   Share& first = loops_.shares().front();
   first.counts.count(WorkKind::kPairsSearched);
@@ -382,12 +341,12 @@ void ScheduledStepper::detect(int p, const World& world, Tick now) {
 void ScheduledStepper::detect_touching(const World& world, Tick now) {
   may_change_.clear();
   const auto note = [&](int i) {
-    if (marks_[i].searched_at == now) return;
-    marks_[i].searched_at = now;
+    if (rods_.marks[i].searched_at == now) return;
+    rods_.marks[i].searched_at = now;
     may_change_.push_back(i);
   };
   for (const Share& share : loops_.shares()) {
-    for (const int i : share.met.hit) note(i);
+    for (const int i : share.hit) note(i);
   }
   std::size_t n_seen = 0;
   const auto note_contacts = [&] {
@@ -401,7 +360,7 @@ void ScheduledStepper::detect_touching(const World& world, Tick now) {
   for (std::size_t m = 0; m < may_change_.size(); ++m) {
     for (const int p : neighbors_.pairs_of(may_change_[m])) {
       if (!pairs_.is_touching(p) || pairs_.detected_at(p) == now) continue;
-      loops_.shares()[pairs_.owner(p)].detected.pairs.push_back(p);
+      loops_.shares()[pairs_.owner(p)].searched.push_back(p);
       detect(p, world, now);
     }
     note_contacts();
@@ -414,22 +373,22 @@ void ScheduledStepper::detect_touching(const World& world, Tick now) {
 std::optional<NumericalTrouble> ScheduledStepper::check_changed(Tick now) {
   std::optional<NumericalTrouble> first;
   const auto check = [&](int i) {
-    if (has_sound_motion(rods_[i], rules_) || (first && first->rods.front() <= i)) return;
-    first = motion_trouble(i, rods_[i], now, rules_);
+    if (has_sound_motion(rods_.at_tick[i], rules_) || (first && first->rods.front() <= i)) return;
+    first = motion_trouble(i, rods_.at_tick[i], now, rules_);
   };
   for (Share& share : loops_.shares()) {
-    share.stored.to_schedule.clear();
-    for (const int i : share.met.failed) check(i);
-    share.met.failed.clear();
+    share.to_schedule.clear();
+    for (const int i : share.failed) check(i);
+    share.failed.clear();
   }
   for (const PairContact& contact : contacts_) {
     for (const int i : {contact.i, contact.j}) {
-      if (!rods_[i].changed) continue;
+      if (!rods_.at_tick[i].changed) continue;
       check(i);
-      if (marks_[i].changed_at != now) share_of(i).met.hit.push_back(i);
-      marks_[i].changed_at = now;
-      if (marks_[i].listed_at != now) share_of(i).stored.to_schedule.push_back(i);
-      marks_[i].listed_at = now;
+      if (rods_.marks[i].hit_at != now) share_of(i).hit.push_back(i);
+      rods_.marks[i].hit_at = now;
+      if (rods_.marks[i].listed_at != now) share_of(i).to_schedule.push_back(i);
+      rods_.marks[i].listed_at = now;
     }
   }
   return first;
@@ -438,26 +397,26 @@ std::optional<NumericalTrouble> ScheduledStepper::check_changed(Tick now) {
 void ScheduledStepper::store_changed(World& world, Tick now, Share& share) {
   const auto slow = static_cast<double>(search_.slow());
   const double pull = rules_.gravity.along_size();
-  for (const int i : share.met.hit) {
+  for (const int i : share.hit) {
     Flight& flight = world.rods[i];
     const Vec3 velocity = velocity_at(flight, now, rules_);
     const Vec3 precession = flight.precession;
     const double rate = flight.rate;
-    store(i, flight, rods_[i], now, rules_);
-    const bool displaced = rods_[i].displaced;
-    if (displaced) skin_budgets_[i].measure(neighbors_, i, rods_[i].pose, now);
+    store(i, flight, rods_.at_tick[i], now, rules_);
+    const bool displaced = rods_.at_tick[i].displaced;
+    if (displaced) rods_.skin_budgets[i].measure(neighbors_, i, rods_.at_tick[i].pose, now);
     const double half_length = rules_.species_of(i).half_length;
-    if (marks_[i].rests_at == now) skin_budgets_[i].cover_tick(flight, half_length, now, rules_.dt, pull);
+    if (rods_.marks[i].hit_again_at == now) rods_.skin_budgets[i].cover_tick(flight, half_length, now, rules_.dt, pull);
     // one that is fast may come near another image, which the bound on the gap leaves out
     const auto in_plane = [](const Vec3& v) { return std::max(std::abs(v.x()), std::abs(v.y())); };
     if (in_plane(flight.velocity) >= slow) {
       jumps_[i] = VelocityJump::unknown();
     } else if (displaced) {
-      const Pose& undisplaced = flight_pose_[i];
+      const Pose& undisplaced = rods_.flight_poses[i];
       const Vec3 turning = flight.precession.cross(flight.director) - precession.cross(undisplaced.director);
       jumps_[i] = VelocityJump(flight.velocity - velocity, turning, rate, flight.rate, half_length);
-      const Vec3 shift = rods_[i].pose.position - undisplaced.position;
-      jumps_[i].displace(shift, rods_[i].pose.director - undisplaced.director, half_length);
+      const Vec3 shift = rods_.at_tick[i].pose.position - undisplaced.position;
+      jumps_[i].displace(shift, rods_.at_tick[i].pose.director - undisplaced.director, half_length);
       // so may one that was fast between two hits of this tick, which moved it by more than a slow one flies meanwhile
       if (in_plane(shift) >= slow * rules_.dt) jumps_[i] = VelocityJump::unknown();
     } else {
@@ -472,28 +431,28 @@ void ScheduledStepper::store_changed(World& world, Tick now, Share& share) {
 void ScheduledStepper::schedule_rods(const World& world, Tick now, Share& share) {
   // A rod that a surface hits, and that was hit in the tick before, rests on it as a rule: it is as good as sure to be
   // hit in the next tick, too (four of five visits, 99 % of the time), and needs no bound to know it.
-  for (const int i : share.met.rods) {
-    if (marks_[i].rests_at == now) {
+  for (const int i : share.visited) {
+    if (rods_.marks[i].hit_again_at == now) {
       share.counts.count(WorkKind::kRodsResting);
-      share.stored.resting.push_back(i);
+      share.resting.push_back(i);
     } else {
-      share.stored.to_schedule.push_back(i);
+      share.to_schedule.push_back(i);
     }
   }
   constexpr Tick kHorizon = TimingWheel::horizon() - 1;
   const double pull = rules_.gravity.along_size();
-  const auto groups = groups_of_rods();
-  groups.sort(share.stored.to_schedule);
-  share.counts.count(WorkKind::kRodsBounded, std::ssize(share.stored.to_schedule));
-  groups.in_lanes(share.stored.to_schedule, [&](std::span<const int> rods) {
+  const auto groups = rods_.by_shape();
+  groups.sort(share.to_schedule);
+  share.counts.count(WorkKind::kRodsBounded, std::ssize(share.to_schedule));
+  groups.in_lanes(share.to_schedule, [&](std::span<const int> rods) {
     Tick ticks[kLanes];
     for (const int i : rods) neighbors_.prefetch_place(i);
-    off_surface_ticks(rods, world, rods_, now, kHorizon, rules_, share.plate_lanes, ticks);
+    off_surface_ticks(rods, world, rods_.at_tick, now, kHorizon, rules_, share.plate_lanes, ticks);
     for (std::size_t lane = 0; lane < rods.size(); ++lane) {
       const int i = rods[lane];
       const Tick covered =
-          skin_budgets_[i].covered_ticks(neighbors_, i, world.rods[i], rods_[i].pose, rules_.species_of(i).half_length,
-                                         now, rules_.dt, kHorizon, pull);
+          rods_.skin_budgets[i].covered_ticks(neighbors_, i, world.rods[i], rods_.at_tick[i].pose,
+                                              rules_.species_of(i).half_length, now, rules_.dt, kHorizon, pull);
       wheel_.set(i, now + 1 + std::min(ticks[lane], covered), static_cast<int>(share.number));
     }
   });
@@ -502,16 +461,14 @@ void ScheduledStepper::schedule_rods(const World& world, Tick now, Share& share)
 
 /// Has hits take what they take of the gaps to neighbours.
 [[gnu::flatten]] void ScheduledStepper::spend_budgets(Tick now, Share& share) {
-  share.counts.count(WorkKind::kVelocityJumps, std::ssize(share.met.hit));
-  share.stored.to_bound.clear();
-  share.stored.has_overspent = false;
+  share.counts.count(WorkKind::kVelocityJumps, std::ssize(share.hit));
+  share.to_bound.clear();
   const bool alone = loops_.shares().size() == 1;
   const auto ask = [&](int i) { pairs_.prefetch_rod(i); };
-  for_each_prefetched(share.met.hit, ask, [&](int i) {
+  for_each_prefetched(share.hit, ask, [&](int i) {
     pairs_.spend(i, jumps_[i], now, [&](int p) {
       pairs_.prefetch(p);
-      share.stored.overspent[alone ? 0 : static_cast<std::size_t>(pairs_.owner(p))].push_back(p);
-      share.stored.has_overspent = true;
+      share.overspent[alone ? 0 : static_cast<std::size_t>(pairs_.owner(p))].push_back(p);
     });
   });
 }
@@ -520,57 +477,56 @@ void ScheduledStepper::schedule_rods(const World& world, Tick now, Share& share)
 /// Not in the loop that spends budgets: that one writes rod by rod, this one pair by pair, whose other rod may be
 /// another share's.
 void ScheduledStepper::shorten_bounds(Tick now, Share& share) {
-  share.stored.polled.clear();
-  for (const int p : share.detected.pairs) {
+  share.polled.clear();
+  for (const int p : share.searched) {
     // one that has been lost, or is another's by now, is not listed
     if (!pairs_.is_used(p) || static_cast<std::size_t>(pairs_.owner(p)) != share.number) continue;
     if (rules_.rest.matters() && pairs_.keeps_touching(p)) {
       pairs_.poll(p, now);  // rods at rest touch in every tick: a bound would be of no use
-      pairs_.list(p, share.stored.polled);
+      pairs_.list(p, share.polled);
     } else {
-      pairs_.list(p, share.stored.to_bound);
+      pairs_.list(p, share.to_bound);
     }
   }
-  share.counts.count(WorkKind::kBoundsWhenDue, std::ssize(share.stored.to_bound));
+  share.counts.count(WorkKind::kBoundsWhenDue, std::ssize(share.to_bound));
   std::int64_t n_shortened = 0;
   for (Share& from : loops_.shares()) {
-    std::vector<int>& overspent = from.stored.overspent[share.number];
+    std::vector<int>& overspent = from.overspent[share.number];
     const auto ask = [&](int p) { pairs_.prefetch_bound(p); };
     for_each_prefetched(overspent, ask, [&](int p) {
       if (pairs_.is_listed(p)) return;
       if (pairs_.shorten_bound(p, now)) {
         ++n_shortened;
       } else {
-        pairs_.list(p, share.stored.to_bound);
-        for (const int i : pairs_.rods(p)) prefetch(marks_[i]);
+        pairs_.list(p, share.to_bound);
+        for (const int i : pairs_.rods(p)) prefetch(rods_.marks[i]);
       }
     });
     overspent.clear();
   }
-  for (const int p : share.stored.polled) pairs_.unlist(p);
+  for (const int p : share.polled) pairs_.unlist(p);
   share.counts.count(WorkKind::kBoundsShortened, n_shortened);
   lap(share, Phase::kTightening);
 }
 
 void ScheduledStepper::bound_motions(const World& world, Tick now, Share& share) {
   share.to_pose.clear();
-  share.stored.to_bound_motion.clear();
-  for (const int p : share.stored.to_bound) {
+  share.to_bound_motion.clear();
+  for (const int p : share.to_bound) {
     pairs_.prefetch_bound(p);
     for (const int i : pairs_.rods(p)) {
-      if (!loops_.claim(marks_[i].bounded_at, now)) continue;
-      share.stored.to_bound_motion.push_back(i);
-      if (marks_[i].posed_at == now) continue;
-      marks_[i].posed_at = now;
-      share.to_pose.push_back(i);
+      if (!loops_.claim(rods_.marks[i].bounded_at, now)) continue;
+      share.to_bound_motion.push_back(i);
+      if (rods_.claim_pose(i, now)) share.to_pose.push_back(i);
     }
   }
-  share.counts.count(WorkKind::kPairsBounded, std::ssize(share.stored.to_bound));
-  pose_listed(world, now, share);
+  share.counts.count(WorkKind::kPairsBounded, std::ssize(share.to_bound));
+  rods_.pose_all(share.to_pose, world, now);
   const auto ask = [&](int i) { prefetch(flight_bounds_[i]); };
-  for_each_prefetched(share.stored.to_bound_motion, ask, [&](int i) {
+  for_each_prefetched(share.to_bound_motion, ask, [&](int i) {
     const Flight& flight = world.rods[i];
-    flight_bounds_[i] = flight_bound(flight, velocity_at(flight, now, rules_), rods_[i].pose.director, search_.slow());
+    flight_bounds_[i] =
+        flight_bound(flight, velocity_at(flight, now, rules_), rods_.at_tick[i].pose.director, search_.slow());
   });
   lap(share, Phase::kPairBounds);
 }
@@ -581,8 +537,8 @@ void ScheduledStepper::schedule_pairs(Tick now, Share& share) {
     const auto& [i, j] = pairs_.rods(p);
     return shape_of(i) * n_shapes + shape_of(j);
   });
-  groups.sort(share.stored.to_bound);
-  groups.in_lanes(share.stored.to_bound, [&](std::span<const int> pairs) { bound_pairs(pairs, now, share); });
+  groups.sort(share.to_bound);
+  groups.in_lanes(share.to_bound, [&](std::span<const int> pairs) { bound_pairs(pairs, now, share); });
   lap(share, Phase::kPairBounds);
 }
 
@@ -591,12 +547,12 @@ void ScheduledStepper::bound_pairs(std::span<const int> pairs, Tick now, Share& 
   PairRods rods[kLanes];
   for (std::size_t lane = 0; lane < pairs.size(); ++lane) rods[lane] = pairs_.rods(pairs[lane]);
   PairBounds bounds;
-  search_.bound({rods, pairs.size()}, rods_, flight_bounds_, share.pair_lanes, bounds);
+  search_.bound({rods, pairs.size()}, rods_.at_tick, flight_bounds_, share.pair_lanes, bounds);
   for (std::size_t lane = 0; lane < pairs.size(); ++lane) {
     // Whether a pair is touching was found where free flight had brought its rods. Displaced since, they may overlap
     // and recede without being marked: to be visited again at once.
     const auto& [i, j] = rods[lane];
-    const bool unmarked = bounds.may_overlap[lane] && (rods_[i].displaced || rods_[j].displaced);
+    const bool unmarked = bounds.may_overlap[lane] && (rods_.at_tick[i].displaced || rods_.at_tick[j].displaced);
     share.counts.count(WorkKind::kBoundsByBeads, bounds.by_beads[lane] ? 1 : 0);
     share.counts.count(WorkKind::kBoundsOfNoTick, bounds.ticks[lane] == 0 ? 1 : 0);
     pairs_.unlist(pairs[lane]);

@@ -3,14 +3,14 @@
 
 #include <vector>
 
-#include "sim/bounds/plate_safe_time.h"
 #include "sim/bounds/velocity_jump.h"
 #include "sim/schedule/loops.h"
 #include "sim/schedule/pair_schedule.h"
 #include "sim/schedule/pair_search.h"
 #include "sim/schedule/sharing_trial.h"
-#include "sim/schedule/skin_budget.h"
 #include "sim/schedule/timing_wheel.h"
+#include "sim/stepping/rod_states.h"
+#include "sim/stepping/share.h"
 #include "sim/stepping/stepper.h"
 #include "sim/tick/tick.h"
 
@@ -55,56 +55,6 @@ class ScheduledStepper final : public Stepper {
   void share_where_faster(PhaseTimes::Clock clock) override;
 
  private:
-  struct RodMarks {
-    Tick posed_at = -1;     ///< tick for which rods_ holds the rod
-    Tick listed_at = -1;    ///< tick at which it was last to be scheduled
-    Tick changed_at = -1;   ///< tick at which it was last hit
-    Tick rests_at = -1;     ///< last tick at which a surface hit it when it had been hit in the tick before
-    Tick bounded_at = -1;   ///< tick for which flight_bounds_ holds the rod
-    Tick searched_at = -1;  ///< tick in which all of its pairs that touch are searched for contacts
-  };
-  /// What the surfaces phase leaves to the phases after it.
-  struct Met {
-    std::vector<int> rods;      ///< visited in this tick
-    std::vector<int> hit;       ///< of these, hit by a surface; the response adds those that other rods hit
-    std::vector<int> to_place;  ///< whose skin budget is used up: the neighbour list is to find their pairs anew
-    std::vector<int> failed;    ///< whose motion after the surfaces is numerical trouble
-    Counters counters;
-    std::optional<NumericalTrouble> trouble;  ///< that of the first rods
-  };
-  /// What detection leaves: pairs that came up, and their contacts.
-  struct Detected {
-    std::vector<int> pairs;    ///< searched in this tick
-    std::vector<int> toggled;  ///< of these, those that began or ceased to touch
-    std::vector<PairContact> contacts;
-    std::vector<int> near;              ///< rods near each of `to_place`, one after the other
-    std::vector<std::size_t> near_end;  ///< where those of each end
-  };
-  /// What storing and the loops that make bounds hand on to each other.
-  struct Stored {
-    std::vector<int> resting;                 ///< rods that are due at the next tick, without a bound
-    std::vector<int> to_schedule;             ///< rods that need a bound on the time to the next surface
-    std::vector<std::vector<int>> overspent;  ///< (n_shares) pairs of each share whose budgets hits overspent
-    bool has_overspent = false;
-    std::vector<int> polled;           ///< pairs of rods at rest: to be searched at the next tick without a bound
-    std::vector<int> to_bound;         ///< pairs that need a bound
-    std::vector<int> to_bound_motion;  ///< rods of such pairs, of whatever share
-  };
-  /// One thread's share: the rods and pairs that belong to it, and its lists of one tick.
-  struct alignas(64) Share {
-    std::size_t number = 0;
-    Met met;
-    Detected detected;
-    Stored stored;
-    WorkCounts counts;
-    // scratch
-    std::vector<int> to_pose;  ///< rods
-    std::vector<BeadContact> bead_contacts;
-    Pose other_pose{};
-    PlateLanes plate_lanes{};
-    PairLanes pair_lanes{};
-  };
-
   std::optional<NumericalTrouble> step(World& world, Tick now) override;
 
   // parts of a tick, in this order; of those without a share the first thread does all
@@ -129,20 +79,14 @@ class ScheduledStepper final : public Stepper {
     loops_.run(visit);
     phase_times.end_loop();
   }
-  Share& share_of(int i) { return loops_.shares()[owners_[i]]; }
+  Share& share_of(int i) { return loops_.shares()[rods_.owners[i]]; }
   void lap(const Share& share, Phase phase) {
     if (share.number == 0) phase_times.lap(phase);
   }
-  void pose_rod(int i, const World& world, Tick now);
-  void pose_if_needed(int i, const World& world, Tick now);
   void build_neighbors(Tick now);
   void add_gained();
   void detect(int p, const World& world, Tick now);
-  void pose_listed(const World& world, Tick now, Share& share);
   void bound_pairs(std::span<const int> pairs, Tick now, Share& share);
-  /// Where free flight brought the rod; impacts at their instant may have displaced it since.
-  const Pose& flight_pose(int i) const { return flight_pose_.empty() ? rods_[i].pose : flight_pose_[i]; }
-  auto groups_of_rods() const;
   int shape_of(int i) const { return rules_.shape_of_rod[i]; }
 
   TickRules rules_;
@@ -153,14 +97,10 @@ class ScheduledStepper final : public Stepper {
   std::size_t grain_;
   SharingTrial trial_;
 
+  RodStates rods_;
   // of each rod
-  std::vector<RodAtTick> rods_;
-  std::vector<Pose> flight_pose_;    ///< or empty, if nothing displaces rods
   std::vector<VelocityJump> jumps_;  ///< of a rod that was hit in this tick
-  std::vector<SkinBudget> skin_budgets_;
-  std::vector<RodMarks> marks_;
   std::vector<FlightBound> flight_bounds_;
-  std::vector<std::uint8_t> owners_;  ///< the share of each rod
   TimingWheel wheel_;
 
   PairSchedule pairs_;
