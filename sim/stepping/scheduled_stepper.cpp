@@ -2,7 +2,6 @@
 #include "sim/stepping/scheduled_stepper.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "base/core/heap_bytes.h"
@@ -24,17 +23,20 @@ ScheduledStepper::ScheduledStepper(const World& world, int n_threads, int grain)
       jumps_(world.rods.size()),
       flight_bounds_(world.rods.size()),
       wheel_(world.rods.size(), n_threads),
-      pairs_(world.rods.size(), world.system.dt, n_threads) {
+      pairs_(world.rods.size(), world.system.dt, n_threads),
+      upkeep_(neighbors_, pairs_, rods_, loops_.shares()) {
   const std::size_t n_shares = loops_.shares().size();
   for (std::size_t w = 0; w < n_shares; ++w) {
     loops_.shares()[w].number = w;
     loops_.shares()[w].overspent.resize(n_shares);
   }
+  for (std::size_t i = 0; i < world.rods.size(); ++i)
+    share_of(static_cast<int>(i)).resting.push_back(static_cast<int>(i));
 }
 
 std::size_t ScheduledStepper::bytes() const {
-  std::size_t bytes = neighbors_.bytes() + wheel_.bytes() + pairs_.bytes() + rods_.bytes();
-  bytes += heap_bytes(jumps_, flight_bounds_, contacts_, may_change_, gained_, lost_, loops_.shares());
+  std::size_t bytes = neighbors_.bytes() + wheel_.bytes() + pairs_.bytes() + rods_.bytes() + upkeep_.bytes();
+  bytes += heap_bytes(jumps_, flight_bounds_, contacts_, may_change_, loops_.shares());
   for (const Share& share : loops_.shares()) bytes += share.bytes();
   return bytes;
 }
@@ -65,13 +67,21 @@ std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
   phase_times.lap(Phase::kSurfaces);
 
   // 2. detection
-  place_rods(now);
+  upkeep_.place_rods(now);
+  if (std::exchange(is_new_, false)) upkeep_.first_tick(now);
   phase_times.lap(Phase::kNeighbors);
-  in_loop([&](Share& share) { detect_due(world, now, share); });
+  in_loop([&](Share& share) {
+    upkeep_.find_near(now, share);
+    lap(share, Phase::kNeighbors);
+    detect_due(world, now, share);
+  });
   gather_contacts(world, now);
   phase_times.lap(Phase::kDetection);
-  if (have_placed_) replace_pairs(world, now);
+  const std::span<const int> gained = upkeep_.replace_pairs();
   phase_times.lap(Phase::kNeighbors);
+  for (const int p : gained) {
+    if (pairs_.is_used(p) && pairs_.detected_at(p) != now) detect(p, world, now);
+  }
   detect_touching(world, now);
   sort_contacts(contacts_, rods_.at_tick, rules_);
   phase_times.lap(Phase::kDetection);
@@ -104,15 +114,8 @@ std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
 void ScheduledStepper::meet_surfaces_due(World& world, const PlateState& plates, Tick now, Share& share) {
   share.visited.clear();
   share.hit.clear();
-  if (is_new_) {
-    for (int i = 0; i < static_cast<int>(world.rods.size()); ++i) {
-      if (rods_.owners[i] == share.number) share.visited.push_back(i);
-    }
-  } else {
-    share.visited.swap(share.resting);
-    wheel_.pop(now, share.visited, static_cast<int>(share.number));
-  }
-  share.resting.clear();
+  share.visited.swap(share.resting);
+  wheel_.pop(now, share.visited, static_cast<int>(share.number));
   const auto ask = [&](int i) {
     prefetch(world.rods[i]);
     prefetch(rods_.at_tick[i]);
@@ -196,51 +199,7 @@ std::optional<NumericalTrouble> ScheduledStepper::gather_surfaces(World& world) 
 
 // ---- 2. detection
 
-void ScheduledStepper::build_neighbors(Tick now) {
-  const std::size_t n = rods_.at_tick.size();
-  std::vector<Pose> poses(n);
-  for (std::size_t i = 0; i < n; ++i) poses[i] = rods_.flight_pose(static_cast<int>(i));
-  neighbors_.build(poses);
-  for (int i = 0; i < static_cast<int>(n); ++i)
-    rods_.skin_budgets[i].measure(neighbors_, i, rods_.at_tick[i].pose, now);
-  gained_.resize(neighbors_.pairs().size());
-  std::iota(gained_.begin(), gained_.end(), 0);
-  add_gained();
-  is_new_ = false;
-}
-
-/// They are due.
-void ScheduledStepper::add_gained() {
-  pairs_.make_room(neighbors_.pairs().size());
-  for (const int p : gained_) {
-    const NeighborList::Pair& pair = neighbors_.pairs()[p];
-    if (pair.i < 0 || pairs_.is_used(p)) continue;  // lost again, or met twice
-    pairs_.add(p, {pair.i, pair.j}, rods_.owners[pair.i]);
-    share_of(pair.i).searched.push_back(p);
-  }
-}
-
-void ScheduledStepper::place_rods(Tick now) {
-  was_complete_ = true;
-  have_placed_ = false;
-  for (Share& share : loops_.shares()) share.searched.clear();
-  if (is_new_) build_neighbors(now);
-  for (Share& share : loops_.shares()) {
-    if (!share.to_place.empty()) have_placed_ = true;
-    for (const int i : share.to_place) {
-      if (!(rods_.skin_budgets[i].left(now, rules_.dt) >= 0)) was_complete_ = false;
-      neighbors_.place(i, rods_.flight_pose(i));
-    }
-  }
-}
-
 void ScheduledStepper::detect_due(const World& world, Tick now, Share& share) {
-  for (const int i : share.to_place) {
-    rods_.skin_budgets[i].measure(neighbors_, i, rods_.at_tick[i].pose, now);
-    neighbors_.find_near(i, share.near);
-    share.near_end.push_back(share.near.size());
-  }
-  lap(share, Phase::kNeighbors);
   const std::size_t n_gained = share.searched.size();
   pairs_.wheel().pop(now, share.searched, static_cast<int>(share.number));
   const auto up = share.searched.begin() + static_cast<std::ptrdiff_t>(n_gained);
@@ -295,30 +254,6 @@ void ScheduledStepper::gather_contacts(const World& world, Tick now) {
     share.toggled.clear();
   }
   for (const PairContact& contact : contacts_) rods_.pose_if_needed(contact.j, world, now);
-}
-
-/// Of the rods that have been placed.
-void ScheduledStepper::replace_pairs(const World& world, Tick now) {
-  gained_.clear();
-  lost_.clear();
-  for (Share& share : loops_.shares()) {
-    std::size_t begin = 0;
-    for (std::size_t k = 0; k < share.to_place.size(); ++k) {
-      const auto near = std::span(share.near).subspan(begin, share.near_end[k] - begin);
-      neighbors_.replace_pairs(share.to_place[k], near, gained_, lost_);
-      begin = share.near_end[k];
-    }
-    share.to_place.clear();
-    share.near.clear();
-    share.near_end.clear();
-  }
-  pairs_.make_room(neighbors_.pairs().size());  // a pair may be gained and lost by the same tick
-  for (const int p : lost_) pairs_.remove(p);
-  add_gained();
-  if (was_complete_) return;
-  for (const int p : gained_) {
-    if (pairs_.is_used(p) && pairs_.detected_at(p) != now) detect(p, world, now);
-  }
 }
 
 /// Finds the contacts of a pair, by the first thread.

@@ -9,6 +9,7 @@
 #include "sim/schedule/pair_search.h"
 #include "sim/schedule/sharing_trial.h"
 #include "sim/schedule/timing_wheel.h"
+#include "sim/stepping/neighbor_upkeep.h"
 #include "sim/stepping/rod_states.h"
 #include "sim/stepping/share.h"
 #include "sim/stepping/stepper.h"
@@ -60,10 +61,8 @@ class ScheduledStepper final : public Stepper {
   // parts of a tick, in this order; of those without a share the first thread does all
   void meet_surfaces_due(World& world, const PlateState& plates, Tick now, Share& share);
   std::optional<NumericalTrouble> gather_surfaces(World& world);
-  void place_rods(Tick now);
   void detect_due(const World& world, Tick now, Share& share);
   void gather_contacts(const World& world, Tick now);
-  void replace_pairs(const World& world, Tick now);
   void detect_touching(const World& world, Tick now);
   std::optional<NumericalTrouble> check_changed(Tick now);
   void store_changed(World& world, Tick now, Share& share);
@@ -83,8 +82,6 @@ class ScheduledStepper final : public Stepper {
   void lap(const Share& share, Phase phase) {
     if (share.number == 0) phase_times.lap(phase);
   }
-  void build_neighbors(Tick now);
-  void add_gained();
   void detect(int p, const World& world, Tick now);
   void bound_pairs(std::span<const int> pairs, Tick now, Share& share);
   int shape_of(int i) const { return rules_.shape_of_rod[i]; }
@@ -104,14 +101,12 @@ class ScheduledStepper final : public Stepper {
   TimingWheel wheel_;
 
   PairSchedule pairs_;
+  NeighborUpkeep upkeep_;
   bool is_new_ = true;
 
   // lists of one tick
   std::vector<PairContact> contacts_;
-  std::vector<int> may_change_;     ///< rods that touch another and may yet be hit in this tick, each once
-  std::vector<int> gained_, lost_;  ///< pairs, by the neighbour list
-  bool have_placed_ = false;        ///< there are rods with a new place
-  bool was_complete_ = true;        ///< pairs gained in this tick cannot touch yet
+  std::vector<int> may_change_;  ///< rods that touch another and may yet be hit in this tick, each once
 };
 
 }  // namespace shaken

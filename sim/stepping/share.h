@@ -26,8 +26,7 @@ struct alignas(64) Share {
   std::vector<std::vector<int>> overspent;  ///< (n_shares) pairs of each share whose budgets hits overspent
   std::vector<int> to_bound;                ///< pairs that need a bound
   // scratch
-  std::vector<int> resting, near, toggled, polled, to_bound_motion, to_pose;
-  std::vector<std::size_t> near_end;
+  std::vector<int> resting, toggled, polled, to_bound_motion, to_pose;
   std::vector<PairContact> contacts;
   std::vector<BeadContact> bead_contacts;
   Counters counters;
@@ -41,7 +40,7 @@ struct alignas(64) Share {
   }
   std::size_t bytes() const {
     std::size_t bytes = heap_bytes(visited, hit, to_place, failed, searched, to_schedule, overspent, to_bound, resting,
-                                   near, toggled, polled, to_bound_motion, to_pose, near_end, contacts, bead_contacts);
+                                   toggled, polled, to_bound_motion, to_pose, contacts, bead_contacts);
     for (const std::vector<int>& pairs : overspent) bytes += heap_bytes(pairs);
     return bytes;
   }
