@@ -5,37 +5,31 @@
 #include <utility>
 
 #include "base/core/heap_bytes.h"
-#include "sim/bounds/surface_safe_ticks.h"
 #include "sim/lanes/prefetch.h"
-#include "sim/tick/plate_impacts.h"
 #include "sim/tick/rod_impacts.h"
-#include "sim/tick/surface_impacts.h"
 
 namespace shaken {
 ScheduledStepper::ScheduledStepper(const World& world, int n_threads, int grain)
     : rules_(world),
       search_(rules_),
-      meets_in_lanes_(lanes_know(world.system)),
       neighbors_(world.species, world.shape_of_rod, world.system.box(), NeighborList::kSkin),
       loops_(n_threads),
       grain_(static_cast<std::size_t>(grain)),
       rods_(rules_, static_cast<std::size_t>(n_threads)),
       jumps_(world.rods.size()),
       flight_bounds_(world.rods.size()),
-      wheel_(world.rods.size(), n_threads),
       pairs_(world.rods.size(), world.system.dt, n_threads),
+      surfaces_(world, neighbors_, rods_, loops_.shares().size()),
       upkeep_(neighbors_, pairs_, rods_, loops_.shares()) {
   const std::size_t n_shares = loops_.shares().size();
   for (std::size_t w = 0; w < n_shares; ++w) {
     loops_.shares()[w].number = w;
     loops_.shares()[w].overspent.resize(n_shares);
   }
-  for (std::size_t i = 0; i < world.rods.size(); ++i)
-    share_of(static_cast<int>(i)).resting.push_back(static_cast<int>(i));
 }
 
 std::size_t ScheduledStepper::bytes() const {
-  std::size_t bytes = neighbors_.bytes() + wheel_.bytes() + pairs_.bytes() + rods_.bytes() + upkeep_.bytes();
+  std::size_t bytes = neighbors_.bytes() + pairs_.bytes() + rods_.bytes() + upkeep_.bytes() + surfaces_.bytes();
   bytes += heap_bytes(jumps_, flight_bounds_, contacts_, may_change_, loops_.shares());
   for (const Share& share : loops_.shares()) bytes += share.bytes();
   return bytes;
@@ -62,8 +56,8 @@ std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
 
   // 1. surfaces
   const PlateState plates = world.plates.at(now);
-  in_loop([&](Share& share) { meet_surfaces_due(world, plates, now, share); });
-  if (auto trouble = gather_surfaces(world)) return trouble;
+  in_loop([&](Share& share) { surfaces_.meet_due(world, plates, now, share); });
+  if (auto trouble = surfaces_.gather(world, loops_.shares())) return trouble;
   phase_times.lap(Phase::kSurfaces);
 
   // 2. detection
@@ -98,7 +92,8 @@ std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
     lap(share, Phase::kStoring);
     spend_budgets(now, share);
     lap(share, Phase::kTightening);
-    schedule_rods(world, now, share);
+    surfaces_.schedule(world, now, share);
+    lap(share, Phase::kRodBounds);
   });
   if (std::ranges::none_of(loops_.shares(), &Share::has_pairs)) return {};
   in_loop([&](Share& share) {
@@ -107,94 +102,6 @@ std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
   });
   in_loop([&](Share& share) { schedule_pairs(now, share); });
   return {};
-}
-
-// ---- 1. surfaces
-
-void ScheduledStepper::meet_surfaces_due(World& world, const PlateState& plates, Tick now, Share& share) {
-  share.visited.clear();
-  share.hit.clear();
-  share.visited.swap(share.resting);
-  wheel_.pop(now, share.visited, static_cast<int>(share.number));
-  const auto ask = [&](int i) {
-    prefetch(world.rods[i]);
-    prefetch(rods_.at_tick[i]);
-    prefetch(rods_.marks[i]);
-    prefetch(rods_.skin_budgets[i]);
-  };
-  const auto note_trouble = [&](std::optional<NumericalTrouble> trouble) {
-    if (trouble && (!share.trouble || trouble->rods < share.trouble->rods)) share.trouble = std::move(trouble);
-  };
-  const auto begin_visit = [&](int i) {
-    rods_.marks[i].posed_at = rods_.marks[i].listed_at = now;
-    if (rods_.skin_budgets[i].left(now, rules_.dt) >= SkinBudget::kLeast) return;
-    rods_.skin_budgets[i].measure(neighbors_, i, rods_.flight_pose(i), now);
-    if (rods_.skin_budgets[i].left(now, rules_.dt) < SkinBudget::kLeast) share.to_place.push_back(i);
-  };
-  const auto meet_all = [&](int i) {
-    note_trouble(meet_surfaces(i, rods_.at_tick[i], world.rods[i], plates, now, rules_, share.counters));
-  };
-  const auto end_visit = [&](int i) {
-    if (!rods_.at_tick[i].changed) return;
-    RodStates::Marks& marks = rods_.marks[i];
-    if (marks.hit_at == now - 1) marks.hit_again_at = now;
-    marks.hit_at = now;
-    share.hit.push_back(i);
-    if (!has_sound_motion(rods_.at_tick[i], rules_)) share.failed.push_back(i);
-  };
-  const auto meet_in_lanes = [&](std::span<const int> rods) {
-    const std::uint32_t left =
-        meet_plates_in_lanes(rods, world.rods, rods_.at_tick, rods_.flight_poses, plates, now, rules_, share.counters);
-    for (std::size_t lane = 0; lane < rods.size(); ++lane) {
-      const int i = rods[lane];
-      const bool is_left = (left >> lane & 1U) != 0;
-      if (is_left) {
-        rods_.pose(i, world, now);
-      }
-      begin_visit(i);
-      if (is_left) {
-        meet_all(i);
-      } else if (rules_.has_uprights()) {
-        note_trouble(meet_uprights(i, rods_.at_tick[i], world.rods[i], plates, now, rules_, share.counters));
-      }
-      end_visit(i);
-    }
-  };
-  if (meets_in_lanes_ && share.visited.size() > 1) {
-    const auto groups = rods_.by_shape();
-    groups.sort(share.visited);
-    const std::span<const int> due = share.visited;
-    const auto ask_for_eight = [&](std::size_t first) {
-      for (std::size_t k = first; k < std::min(due.size(), first + lanes::kDoubleLanes); ++k) ask(due[k]);
-    };
-    ask_for_eight(0);
-    const auto meet_and_ask = [&](std::span<const int> rods) {
-      ask_for_eight(static_cast<std::size_t>(rods.data() - due.data()) + rods.size());
-      meet_in_lanes(rods);
-    };
-    groups.in_lanes(due, meet_and_ask, lanes::kDoubleLanes);
-  } else {
-    for_each_prefetched(share.visited, ask, [&](int i) {
-      rods_.pose(i, world, now);
-      begin_visit(i);
-      meet_all(i);
-      end_visit(i);
-    });
-  }
-  share.counts.count(WorkKind::kRodsVisited, std::ssize(share.visited));
-  share.counts.count(WorkKind::kRodsHit, std::ssize(share.hit));
-  share.counts.count(WorkKind::kRodsPlaced, std::ssize(share.to_place));
-}
-
-std::optional<NumericalTrouble> ScheduledStepper::gather_surfaces(World& world) {
-  std::optional<NumericalTrouble> first;
-  for (Share& share : loops_.shares()) {
-    if (share.visited.empty()) continue;
-    world.counters.add(share.counters);
-    share.counters = {};
-    if (share.trouble && (!first || share.trouble->rods < first->rods)) first = share.trouble;
-  }
-  return first;
 }
 
 // ---- 2. detection
@@ -359,39 +266,6 @@ void ScheduledStepper::store_changed(World& world, Tick now, Share& share) {
       jumps_[i] = VelocityJump(flight.velocity - velocity, turning, rate, flight.rate, half_length);
     }
   }
-}
-
-// ---- schedules
-
-void ScheduledStepper::schedule_rods(const World& world, Tick now, Share& share) {
-  // A rod that a surface hits, and that was hit in the tick before, rests on it as a rule: it is as good as sure to be
-  // hit in the next tick, too (four of five visits, 99 % of the time), and needs no bound to know it.
-  for (const int i : share.visited) {
-    if (rods_.marks[i].hit_again_at == now) {
-      share.counts.count(WorkKind::kRodsResting);
-      share.resting.push_back(i);
-    } else {
-      share.to_schedule.push_back(i);
-    }
-  }
-  constexpr Tick kHorizon = TimingWheel::horizon() - 1;
-  const double pull = rules_.gravity.along_size();
-  const auto groups = rods_.by_shape();
-  groups.sort(share.to_schedule);
-  share.counts.count(WorkKind::kRodsBounded, std::ssize(share.to_schedule));
-  groups.in_lanes(share.to_schedule, [&](std::span<const int> rods) {
-    Tick ticks[kLanes];
-    for (const int i : rods) neighbors_.prefetch_place(i);
-    off_surface_ticks(rods, world, rods_.at_tick, now, kHorizon, rules_, share.plate_lanes, ticks);
-    for (std::size_t lane = 0; lane < rods.size(); ++lane) {
-      const int i = rods[lane];
-      const Tick covered =
-          rods_.skin_budgets[i].covered_ticks(neighbors_, i, world.rods[i], rods_.at_tick[i].pose,
-                                              rules_.species_of(i).half_length, now, rules_.dt, kHorizon, pull);
-      wheel_.set(i, now + 1 + std::min(ticks[lane], covered), static_cast<int>(share.number));
-    }
-  });
-  lap(share, Phase::kRodBounds);
 }
 
 /// Has hits take what they take of the gaps to neighbours.

@@ -8,11 +8,11 @@
 #include "sim/schedule/pair_schedule.h"
 #include "sim/schedule/pair_search.h"
 #include "sim/schedule/sharing_trial.h"
-#include "sim/schedule/timing_wheel.h"
 #include "sim/stepping/neighbor_upkeep.h"
 #include "sim/stepping/rod_states.h"
 #include "sim/stepping/share.h"
 #include "sim/stepping/stepper.h"
+#include "sim/stepping/surfaces_phase.h"
 #include "sim/tick/tick.h"
 
 namespace shaken {
@@ -59,14 +59,11 @@ class ScheduledStepper final : public Stepper {
   std::optional<NumericalTrouble> step(World& world, Tick now) override;
 
   // parts of a tick, in this order; of those without a share the first thread does all
-  void meet_surfaces_due(World& world, const PlateState& plates, Tick now, Share& share);
-  std::optional<NumericalTrouble> gather_surfaces(World& world);
   void detect_due(const World& world, Tick now, Share& share);
   void gather_contacts(const World& world, Tick now);
   void detect_touching(const World& world, Tick now);
   std::optional<NumericalTrouble> check_changed(Tick now);
   void store_changed(World& world, Tick now, Share& share);
-  void schedule_rods(const World& world, Tick now, Share& share);
   void spend_budgets(Tick now, Share& share);
   void shorten_bounds(Tick now, Share& share);
   void bound_motions(const World& world, Tick now, Share& share);
@@ -88,7 +85,6 @@ class ScheduledStepper final : public Stepper {
 
   TickRules rules_;
   PairSearch search_;
-  bool meets_in_lanes_;  ///< plates are met by several rods at a time
   NeighborList neighbors_;
   SharedLoops<Share> loops_;
   std::size_t grain_;
@@ -98,9 +94,9 @@ class ScheduledStepper final : public Stepper {
   // of each rod
   std::vector<VelocityJump> jumps_;  ///< of a rod that was hit in this tick
   std::vector<FlightBound> flight_bounds_;
-  TimingWheel wheel_;
 
   PairSchedule pairs_;
+  SurfacesPhase surfaces_;
   NeighborUpkeep upkeep_;
   bool is_new_ = true;
 

@@ -6,7 +6,6 @@
 
 #include "base/core/heap_bytes.h"
 #include "sim/bounds/hull_safe_time.h"
-#include "sim/bounds/plate_safe_time.h"
 #include "sim/stepping/work_counts.h"
 #include "sim/tick/tick.h"
 
@@ -26,21 +25,18 @@ struct alignas(64) Share {
   std::vector<std::vector<int>> overspent;  ///< (n_shares) pairs of each share whose budgets hits overspent
   std::vector<int> to_bound;                ///< pairs that need a bound
   // scratch
-  std::vector<int> resting, toggled, polled, to_bound_motion, to_pose;
+  std::vector<int> toggled, polled, to_bound_motion, to_pose;
   std::vector<PairContact> contacts;
   std::vector<BeadContact> bead_contacts;
-  Counters counters;
-  std::optional<NumericalTrouble> trouble;
   Pose other_pose{};
-  PlateLanes plate_lanes{};
   PairLanes pair_lanes{};
 
   bool has_pairs() const {
     return !searched.empty() || std::ranges::any_of(overspent, [](const auto& pairs) { return !pairs.empty(); });
   }
   std::size_t bytes() const {
-    std::size_t bytes = heap_bytes(visited, hit, to_place, failed, searched, to_schedule, overspent, to_bound, resting,
-                                   toggled, polled, to_bound_motion, to_pose, contacts, bead_contacts);
+    std::size_t bytes = heap_bytes(visited, hit, to_place, failed, searched, to_schedule, overspent, to_bound, toggled,
+                                   polled, to_bound_motion, to_pose, contacts, bead_contacts);
     for (const std::vector<int>& pairs : overspent) bytes += heap_bytes(pairs);
     return bytes;
   }
