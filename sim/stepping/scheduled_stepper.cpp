@@ -20,7 +20,8 @@ ScheduledStepper::ScheduledStepper(const World& world, int n_threads, int grain)
       flight_bounds_(world.rods.size()),
       pairs_(world.rods.size(), world.system.dt, n_threads),
       surfaces_(world, neighbors_, rods_, loops_.shares().size()),
-      upkeep_(neighbors_, pairs_, rods_, loops_.shares()) {
+      upkeep_(neighbors_, pairs_, rods_, loops_.shares()),
+      detection_(search_, neighbors_, pairs_, rods_, loops_.shares()) {
   const std::size_t n_shares = loops_.shares().size();
   for (std::size_t w = 0; w < n_shares; ++w) {
     loops_.shares()[w].number = w;
@@ -29,8 +30,9 @@ ScheduledStepper::ScheduledStepper(const World& world, int n_threads, int grain)
 }
 
 std::size_t ScheduledStepper::bytes() const {
-  std::size_t bytes = neighbors_.bytes() + pairs_.bytes() + rods_.bytes() + upkeep_.bytes() + surfaces_.bytes();
-  bytes += heap_bytes(jumps_, flight_bounds_, contacts_, may_change_, loops_.shares());
+  std::size_t bytes =
+      neighbors_.bytes() + pairs_.bytes() + rods_.bytes() + upkeep_.bytes() + surfaces_.bytes() + detection_.bytes();
+  bytes += heap_bytes(jumps_, flight_bounds_, loops_.shares());
   for (const Share& share : loops_.shares()) bytes += share.bytes();
   return bytes;
 }
@@ -67,21 +69,18 @@ std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
   in_loop([&](Share& share) {
     upkeep_.find_near(now, share);
     lap(share, Phase::kNeighbors);
-    detect_due(world, now, share);
+    detection_.search_due(world, now, share);
   });
-  gather_contacts(world, now);
+  detection_.gather(world, now);
   phase_times.lap(Phase::kDetection);
   const std::span<const int> gained = upkeep_.replace_pairs();
   phase_times.lap(Phase::kNeighbors);
-  for (const int p : gained) {
-    if (pairs_.is_used(p) && pairs_.detected_at(p) != now) detect(p, world, now);
-  }
-  detect_touching(world, now);
-  sort_contacts(contacts_, rods_.at_tick, rules_);
+  detection_.search_gained(gained, world, now);
+  detection_.search_touching(world, now);
   phase_times.lap(Phase::kDetection);
 
   // 3. response
-  if (auto trouble = collide_rods(contacts_, rods_.at_tick, world, now, rules_)) return trouble;
+  if (auto trouble = collide_rods(detection_.contacts(), rods_.at_tick, world, now, rules_)) return trouble;
   phase_times.lap(Phase::kResponse);
 
   // 4. storing
@@ -104,111 +103,6 @@ std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
   return {};
 }
 
-// ---- 2. detection
-
-void ScheduledStepper::detect_due(const World& world, Tick now, Share& share) {
-  const std::size_t n_gained = share.searched.size();
-  pairs_.wheel().pop(now, share.searched, static_cast<int>(share.number));
-  const auto up = share.searched.begin() + static_cast<std::ptrdiff_t>(n_gained);
-  for (auto p = up; p != share.searched.end(); ++p) pairs_.prefetch(*p);
-  for (auto p = up; p != share.searched.end(); ++p) pairs_.prefetch_bound(*p);
-  const auto due = std::remove_if(up, share.searched.end(), [&](int p) { return pairs_.defer(p, now); });
-  share.counts.count(WorkKind::kPairsDeferred, share.searched.end() - due);
-  share.searched.erase(due, share.searched.end());
-  for (const int p : share.searched) {
-    pairs_.set_detected(p, now);
-    for (const int i : pairs_.rods(p)) prefetch(rods_.marks[i]);
-  }
-  for (const int i : share.hit) {  // as in detect_touching, which finds the rest
-    int n_left = pairs_.n_touching(i);
-    for (const int p : neighbors_.pairs_of(i)) {
-      if (n_left == 0) break;
-      if (static_cast<std::size_t>(pairs_.owner(p)) != share.number || !pairs_.is_touching(p)) continue;
-      --n_left;
-      if (pairs_.detected_at(p) == now) continue;
-      pairs_.set_detected(p, now);
-      share.searched.push_back(p);
-    }
-    if (n_left == 0) rods_.marks[i].searched_at = now;
-  }
-  share.to_pose.clear();
-  for (const int p : share.searched) {
-    for (const int i : pairs_.rods(p)) {
-      if (rods_.owners[i] == share.number && rods_.claim_pose(i, now)) share.to_pose.push_back(i);
-    }
-  }
-  rods_.pose_all(share.to_pose, world, now);
-  for (const int p : share.searched) {
-    const auto& [i, j] = pairs_.rods(p);
-    // its owner may be posing it right now
-    const bool is_other = rods_.owners[j] != share.number;
-    if (is_other) share.other_pose = rod_at_tick(world.rods[j], now, rules_).pose;
-    const bool touching =
-        search_.find(pairs_.rods(p), rods_.flight_pose(i), is_other ? share.other_pose : rods_.flight_pose(j),
-                     pairs_.direction(p), share.bead_contacts, share.contacts);
-    if (touching != pairs_.is_touching(p)) share.toggled.push_back(p);
-    share.counts.count(WorkKind::kPairsTouching, touching ? 1 : 0);
-  }
-  share.counts.count(WorkKind::kPairsSearched, std::ssize(share.searched));
-}
-
-void ScheduledStepper::gather_contacts(const World& world, Tick now) {
-  contacts_.clear();
-  for (Share& share : loops_.shares()) {
-    contacts_.insert(contacts_.end(), share.contacts.begin(), share.contacts.end());
-    share.contacts.clear();
-    for (const int p : share.toggled) pairs_.toggle_touching(p);
-    share.toggled.clear();
-  }
-  for (const PairContact& contact : contacts_) rods_.pose_if_needed(contact.j, world, now);
-}
-
-/// Finds the contacts of a pair, by the first thread.
-void ScheduledStepper::detect(int p, const World& world, Tick now) {
-  pairs_.set_detected(p, now);
-  const auto& [i, j] = pairs_.rods(p);
-  rods_.pose_if_needed(i, world, now);
-  rods_.pose_if_needed(j, world, now);
-  std::vector<BeadContact>& bead_contacts = loops_.shares().front().bead_contacts;
-  if (search_.find(pairs_.rods(p), rods_.flight_pose(i), rods_.flight_pose(j), pairs_.direction(p), bead_contacts,
-                   contacts_) != pairs_.is_touching(p))
-    pairs_.toggle_touching(p);
-  Share& first = loops_.shares().front();
-  first.counts.count(WorkKind::kPairsSearched);
-  first.counts.count(WorkKind::kPairsTouching, pairs_.is_touching(p) ? 1 : 0);
-}
-
-// Beads that overlap but recede are left alone for a while. An impulse on one of the rods can make them approach within
-// the very tick, though, so wherever a rod may be hit, its touching pairs take part in that tick's response.
-void ScheduledStepper::detect_touching(const World& world, Tick now) {
-  may_change_.clear();
-  const auto note = [&](int i) {
-    if (rods_.marks[i].searched_at == now) return;
-    rods_.marks[i].searched_at = now;
-    may_change_.push_back(i);
-  };
-  for (const Share& share : loops_.shares()) {
-    for (const int i : share.hit) note(i);
-  }
-  std::size_t n_seen = 0;
-  const auto note_contacts = [&] {
-    for (; n_seen < contacts_.size(); ++n_seen) {
-      for (const int i : {contacts_[n_seen].i, contacts_[n_seen].j}) {
-        if (pairs_.n_touching(i) > 1) note(i);  // in more than this pair
-      }
-    }
-  };
-  note_contacts();
-  for (std::size_t m = 0; m < may_change_.size(); ++m) {
-    for (const int p : neighbors_.pairs_of(may_change_[m])) {
-      if (!pairs_.is_touching(p) || pairs_.detected_at(p) == now) continue;
-      loops_.shares()[pairs_.owner(p)].searched.push_back(p);
-      detect(p, world, now);
-    }
-    note_contacts();
-  }
-}
-
 // ---- 4. storing
 
 /// Lists the rods that other rods hit. Trouble with any rod that was hit; the world is then as it was before the tick.
@@ -223,7 +117,7 @@ std::optional<NumericalTrouble> ScheduledStepper::check_changed(Tick now) {
     for (const int i : share.failed) check(i);
     share.failed.clear();
   }
-  for (const PairContact& contact : contacts_) {
+  for (const PairContact& contact : detection_.contacts()) {
     for (const int i : {contact.i, contact.j}) {
       if (!rods_.at_tick[i].changed) continue;
       check(i);

@@ -8,6 +8,7 @@
 #include "sim/schedule/pair_schedule.h"
 #include "sim/schedule/pair_search.h"
 #include "sim/schedule/sharing_trial.h"
+#include "sim/stepping/detection_phase.h"
 #include "sim/stepping/neighbor_upkeep.h"
 #include "sim/stepping/rod_states.h"
 #include "sim/stepping/share.h"
@@ -59,9 +60,6 @@ class ScheduledStepper final : public Stepper {
   std::optional<NumericalTrouble> step(World& world, Tick now) override;
 
   // parts of a tick, in this order; of those without a share the first thread does all
-  void detect_due(const World& world, Tick now, Share& share);
-  void gather_contacts(const World& world, Tick now);
-  void detect_touching(const World& world, Tick now);
   std::optional<NumericalTrouble> check_changed(Tick now);
   void store_changed(World& world, Tick now, Share& share);
   void spend_budgets(Tick now, Share& share);
@@ -79,7 +77,6 @@ class ScheduledStepper final : public Stepper {
   void lap(const Share& share, Phase phase) {
     if (share.number == 0) phase_times.lap(phase);
   }
-  void detect(int p, const World& world, Tick now);
   void bound_pairs(std::span<const int> pairs, Tick now, Share& share);
   int shape_of(int i) const { return rules_.shape_of_rod[i]; }
 
@@ -98,11 +95,8 @@ class ScheduledStepper final : public Stepper {
   PairSchedule pairs_;
   SurfacesPhase surfaces_;
   NeighborUpkeep upkeep_;
+  DetectionPhase detection_;
   bool is_new_ = true;
-
-  // lists of one tick
-  std::vector<PairContact> contacts_;
-  std::vector<int> may_change_;  ///< rods that touch another and may yet be hit in this tick, each once
 };
 
 }  // namespace shaken

@@ -25,18 +25,15 @@ struct alignas(64) Share {
   std::vector<std::vector<int>> overspent;  ///< (n_shares) pairs of each share whose budgets hits overspent
   std::vector<int> to_bound;                ///< pairs that need a bound
   // scratch
-  std::vector<int> toggled, polled, to_bound_motion, to_pose;
-  std::vector<PairContact> contacts;
-  std::vector<BeadContact> bead_contacts;
-  Pose other_pose{};
+  std::vector<int> polled, to_bound_motion, to_pose;
   PairLanes pair_lanes{};
 
   bool has_pairs() const {
     return !searched.empty() || std::ranges::any_of(overspent, [](const auto& pairs) { return !pairs.empty(); });
   }
   std::size_t bytes() const {
-    std::size_t bytes = heap_bytes(visited, hit, to_place, failed, searched, to_schedule, overspent, to_bound, toggled,
-                                   polled, to_bound_motion, to_pose, contacts, bead_contacts);
+    std::size_t bytes = heap_bytes(visited, hit, to_place, failed, searched, to_schedule, overspent, to_bound, polled,
+                                   to_bound_motion, to_pose);
     for (const std::vector<int>& pairs : overspent) bytes += heap_bytes(pairs);
     return bytes;
   }
