@@ -16,12 +16,12 @@ ScheduledStepper::ScheduledStepper(const World& world, int n_threads, int grain)
       loops_(n_threads),
       grain_(static_cast<std::size_t>(grain)),
       rods_(rules_, static_cast<std::size_t>(n_threads)),
-      jumps_(world.rods.size()),
       flight_bounds_(world.rods.size()),
       pairs_(world.rods.size(), world.system.dt, n_threads),
       surfaces_(world, neighbors_, rods_, loops_.shares().size()),
       upkeep_(neighbors_, pairs_, rods_, loops_.shares()),
-      detection_(search_, neighbors_, pairs_, rods_, loops_.shares()) {
+      detection_(search_, neighbors_, pairs_, rods_, loops_.shares()),
+      storing_(search_, neighbors_, pairs_, rods_, loops_.shares()) {
   const std::size_t n_shares = loops_.shares().size();
   for (std::size_t w = 0; w < n_shares; ++w) {
     loops_.shares()[w].number = w;
@@ -30,9 +30,9 @@ ScheduledStepper::ScheduledStepper(const World& world, int n_threads, int grain)
 }
 
 std::size_t ScheduledStepper::bytes() const {
-  std::size_t bytes =
-      neighbors_.bytes() + pairs_.bytes() + rods_.bytes() + upkeep_.bytes() + surfaces_.bytes() + detection_.bytes();
-  bytes += heap_bytes(jumps_, flight_bounds_, loops_.shares());
+  std::size_t bytes = neighbors_.bytes() + pairs_.bytes() + rods_.bytes() + upkeep_.bytes() + surfaces_.bytes() +
+                      detection_.bytes() + storing_.bytes();
+  bytes += heap_bytes(flight_bounds_, loops_.shares());
   for (const Share& share : loops_.shares()) bytes += share.bytes();
   return bytes;
 }
@@ -84,12 +84,12 @@ std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
   phase_times.lap(Phase::kResponse);
 
   // 4. storing
-  if (auto trouble = check_changed(now)) return trouble;
+  if (auto trouble = storing_.check_hit(detection_.contacts(), now)) return trouble;
   // ... and what was visited, and what flies differently now, gets new bounds
   in_loop([&](Share& share) {
-    store_changed(world, now, share);
+    storing_.begin_flights(world, now, share);
     lap(share, Phase::kStoring);
-    spend_budgets(now, share);
+    storing_.spend_budgets(now, share);
     lap(share, Phase::kTightening);
     surfaces_.schedule(world, now, share);
     lap(share, Phase::kRodBounds);
@@ -101,79 +101,6 @@ std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
   });
   in_loop([&](Share& share) { schedule_pairs(now, share); });
   return {};
-}
-
-// ---- 4. storing
-
-/// Lists the rods that other rods hit. Trouble with any rod that was hit; the world is then as it was before the tick.
-std::optional<NumericalTrouble> ScheduledStepper::check_changed(Tick now) {
-  std::optional<NumericalTrouble> first;
-  const auto check = [&](int i) {
-    if (has_sound_motion(rods_.at_tick[i], rules_) || (first && first->rods.front() <= i)) return;
-    first = motion_trouble(i, rods_.at_tick[i], now, rules_);
-  };
-  for (Share& share : loops_.shares()) {
-    share.to_schedule.clear();
-    for (const int i : share.failed) check(i);
-    share.failed.clear();
-  }
-  for (const PairContact& contact : detection_.contacts()) {
-    for (const int i : {contact.i, contact.j}) {
-      if (!rods_.at_tick[i].changed) continue;
-      check(i);
-      if (rods_.marks[i].hit_at != now) share_of(i).hit.push_back(i);
-      rods_.marks[i].hit_at = now;
-      if (rods_.marks[i].listed_at != now) share_of(i).to_schedule.push_back(i);
-      rods_.marks[i].listed_at = now;
-    }
-  }
-  return first;
-}
-
-void ScheduledStepper::store_changed(World& world, Tick now, Share& share) {
-  const auto slow = static_cast<double>(search_.slow());
-  const double pull = rules_.gravity.along_size();
-  for (const int i : share.hit) {
-    Flight& flight = world.rods[i];
-    const Vec3 velocity = velocity_at(flight, now, rules_);
-    const Vec3 precession = flight.precession;
-    const double rate = flight.rate;
-    store(i, flight, rods_.at_tick[i], now, rules_);
-    const bool displaced = rods_.at_tick[i].displaced;
-    if (displaced) rods_.skin_budgets[i].measure(neighbors_, i, rods_.at_tick[i].pose, now);
-    const double half_length = rules_.species_of(i).half_length;
-    if (rods_.marks[i].hit_again_at == now) rods_.skin_budgets[i].cover_tick(flight, half_length, now, rules_.dt, pull);
-    // one that is fast may come near another image, which the bound on the gap leaves out
-    const auto in_plane = [](const Vec3& v) { return std::max(std::abs(v.x()), std::abs(v.y())); };
-    if (in_plane(flight.velocity) >= slow) {
-      jumps_[i] = VelocityJump::unknown();
-    } else if (displaced) {
-      const Pose& undisplaced = rods_.flight_poses[i];
-      const Vec3 turning = flight.precession.cross(flight.director) - precession.cross(undisplaced.director);
-      jumps_[i] = VelocityJump(flight.velocity - velocity, turning, rate, flight.rate, half_length);
-      const Vec3 shift = rods_.at_tick[i].pose.position - undisplaced.position;
-      jumps_[i].displace(shift, rods_.at_tick[i].pose.director - undisplaced.director, half_length);
-      // so may one that was fast between two hits of this tick, which moved it by more than a slow one flies meanwhile
-      if (in_plane(shift) >= slow * rules_.dt) jumps_[i] = VelocityJump::unknown();
-    } else {
-      const Vec3 turning = (flight.precession - precession).cross(flight.director);
-      jumps_[i] = VelocityJump(flight.velocity - velocity, turning, rate, flight.rate, half_length);
-    }
-  }
-}
-
-/// Has hits take what they take of the gaps to neighbours.
-[[gnu::flatten]] void ScheduledStepper::spend_budgets(Tick now, Share& share) {
-  share.counts.count(WorkKind::kVelocityJumps, std::ssize(share.hit));
-  share.to_bound.clear();
-  const bool alone = loops_.shares().size() == 1;
-  const auto ask = [&](int i) { pairs_.prefetch_rod(i); };
-  for_each_prefetched(share.hit, ask, [&](int i) {
-    pairs_.spend(i, jumps_[i], now, [&](int p) {
-      pairs_.prefetch(p);
-      share.overspent[alone ? 0 : static_cast<std::size_t>(pairs_.owner(p))].push_back(p);
-    });
-  });
 }
 
 /// Lists the pairs that were due, and brings up sooner, or lists, those of whose gaps hits took more than they may.

@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "sim/bounds/velocity_jump.h"
 #include "sim/schedule/loops.h"
 #include "sim/schedule/pair_schedule.h"
 #include "sim/schedule/pair_search.h"
@@ -13,6 +12,7 @@
 #include "sim/stepping/rod_states.h"
 #include "sim/stepping/share.h"
 #include "sim/stepping/stepper.h"
+#include "sim/stepping/storing_phase.h"
 #include "sim/stepping/surfaces_phase.h"
 #include "sim/tick/tick.h"
 
@@ -60,9 +60,6 @@ class ScheduledStepper final : public Stepper {
   std::optional<NumericalTrouble> step(World& world, Tick now) override;
 
   // parts of a tick, in this order; of those without a share the first thread does all
-  std::optional<NumericalTrouble> check_changed(Tick now);
-  void store_changed(World& world, Tick now, Share& share);
-  void spend_budgets(Tick now, Share& share);
   void shorten_bounds(Tick now, Share& share);
   void bound_motions(const World& world, Tick now, Share& share);
   void schedule_pairs(Tick now, Share& share);
@@ -73,7 +70,6 @@ class ScheduledStepper final : public Stepper {
     loops_.run(visit);
     phase_times.end_loop();
   }
-  Share& share_of(int i) { return loops_.shares()[rods_.owners[i]]; }
   void lap(const Share& share, Phase phase) {
     if (share.number == 0) phase_times.lap(phase);
   }
@@ -89,13 +85,13 @@ class ScheduledStepper final : public Stepper {
 
   RodStates rods_;
   // of each rod
-  std::vector<VelocityJump> jumps_;  ///< of a rod that was hit in this tick
   std::vector<FlightBound> flight_bounds_;
 
   PairSchedule pairs_;
   SurfacesPhase surfaces_;
   NeighborUpkeep upkeep_;
   DetectionPhase detection_;
+  StoringPhase storing_;
   bool is_new_ = true;
 };
 
