@@ -20,21 +20,20 @@ class DetectionPhase {
  public:
   DetectionPhase(const PairSearch& search, const NeighborList& neighbors, PairSchedule& pairs, RodStates& rods,
                  std::vector<Share>& shares)
-      : search_(search), neighbors_(neighbors), pairs_(pairs), rods_(rods), shares_(shares), parts_(shares.size()) {}
+      : search_(search), neighbors_(neighbors), pairs_(pairs), rods_(rods), shares_(shares) {}
 
   /// Searches the share's pairs that are due, and those touching ones of its rods that surfaces hit.
   void search_due(const World& world, Tick now, Share& share) {
     list_due(now, share);
     list_touching(now, share);
     pose_rods(world, now, share);
-    Part& part = parts_[share.number];
     for (const int p : share.searched) {
       const auto& [i, j] = pairs_.rods(p);
       // its owner may be posing it right now
       const bool is_other = rods_.owners[j] != share.number;
-      if (is_other) part.other_pose = rod_at_tick(world.rods[j], now, rods_.rules).pose;
-      const bool touching = find(p, is_other ? part.other_pose : rods_.flight_pose(j), part, part.contacts);
-      if (touching != pairs_.is_touching(p)) part.toggled.push_back(p);
+      if (is_other) share.other_pose = rod_at_tick(world.rods[j], now, rods_.rules).pose;
+      const bool touching = find(p, is_other ? share.other_pose : rods_.flight_pose(j), share, share.contacts);
+      if (touching != pairs_.is_touching(p)) share.toggled.push_back(p);
       share.counts.count(WorkKind::kPairsTouching, touching ? 1 : 0);
     }
     share.counts.count(WorkKind::kPairsSearched, std::ssize(share.searched));
@@ -43,11 +42,11 @@ class DetectionPhase {
   /// Brings together what the shares have found.
   void gather(const World& world, Tick now) {
     contacts_.clear();
-    for (Part& part : parts_) {
-      contacts_.insert(contacts_.end(), part.contacts.begin(), part.contacts.end());
-      part.contacts.clear();
-      for (const int p : part.toggled) pairs_.toggle_touching(p);
-      part.toggled.clear();
+    for (Share& share : shares_) {
+      contacts_.insert(contacts_.end(), share.contacts.begin(), share.contacts.end());
+      share.contacts.clear();
+      for (const int p : share.toggled) pairs_.toggle_touching(p);
+      share.toggled.clear();
     }
     for (const PairContact& contact : contacts_) rods_.pose_if_needed(contact.j, world, now);
   }
@@ -90,22 +89,9 @@ class DetectionPhase {
 
   const std::vector<PairContact>& contacts() const { return contacts_; }
 
-  std::size_t bytes() const {
-    std::size_t bytes = heap_bytes(parts_, contacts_, may_change_);
-    for (const Part& part : parts_) bytes += heap_bytes(part.contacts, part.toggled, part.to_pose, part.beads);
-    return bytes;
-  }
+  std::size_t bytes() const { return heap_bytes(contacts_, may_change_); }
 
  private:
-  /// What one share keeps to itself.
-  struct alignas(64) Part {
-    std::vector<PairContact> contacts;
-    std::vector<int> toggled;  ///< pairs that began or ceased to touch
-    std::vector<int> to_pose;  ///< rods
-    std::vector<BeadContact> beads;
-    Pose other_pose{};
-  };
-
   /// Lists the pairs that come up and are not deferred. Those gained in this tick stand on the list already.
   void list_due(Tick now, Share& share) {
     std::vector<int>& pairs = share.searched;
@@ -141,29 +127,28 @@ class DetectionPhase {
   }
 
   void pose_rods(const World& world, Tick now, Share& share) {
-    std::vector<int>& to_pose = parts_[share.number].to_pose;
-    to_pose.clear();
+    share.to_pose.clear();
     for (const int p : share.searched) {
       for (const int i : pairs_.rods(p)) {
-        if (rods_.owners[i] == share.number && rods_.claim_pose(i, now)) to_pose.push_back(i);
+        if (rods_.owners[i] == share.number && rods_.claim_pose(i, now)) share.to_pose.push_back(i);
       }
     }
-    rods_.pose_all(to_pose, world, now);
+    rods_.pose_all(share.to_pose, world, now);
   }
 
   /// Searches one pair, on the first thread.
   void search(int p, const World& world, Tick now) {
     pairs_.set_detected(p, now);
     for (const int i : pairs_.rods(p)) rods_.pose_if_needed(i, world, now);
-    const bool touching = find(p, rods_.flight_pose(pairs_.rods(p)[1]), parts_.front(), contacts_);
+    const bool touching = find(p, rods_.flight_pose(pairs_.rods(p)[1]), shares_.front(), contacts_);
     if (touching != pairs_.is_touching(p)) pairs_.toggle_touching(p);
     shares_.front().counts.count(WorkKind::kPairsSearched);
     shares_.front().counts.count(WorkKind::kPairsTouching, touching ? 1 : 0);
   }
 
-  bool find(int p, const Pose& pose_j, Part& part, std::vector<PairContact>& contacts) const {
+  bool find(int p, const Pose& pose_j, Share& share, std::vector<PairContact>& contacts) const {
     const PairRods& rods = pairs_.rods(p);
-    return search_.find(rods, rods_.flight_pose(rods[0]), pose_j, pairs_.direction(p), part.beads, contacts);
+    return search_.find(rods, rods_.flight_pose(rods[0]), pose_j, pairs_.direction(p), share.beads, contacts);
   }
 
   const PairSearch& search_;
@@ -171,7 +156,6 @@ class DetectionPhase {
   PairSchedule& pairs_;
   RodStates& rods_;
   std::vector<Share>& shares_;
-  std::vector<Part> parts_;  ///< (n_shares)
   std::vector<PairContact> contacts_;
   std::vector<int> may_change_;  ///< rods that touch another and may yet be hit in this tick, each once
 };

@@ -16,14 +16,15 @@ namespace shaken {
 class NeighborUpkeep {
  public:
   NeighborUpkeep(NeighborList& list, PairSchedule& pairs, RodStates& rods, std::vector<Share>& shares)
-      : list_(list), pairs_(pairs), rods_(rods), shares_(shares), near_(shares.size()) {}
+      : list_(list), pairs_(pairs), rods_(rods), shares_(shares) {}
 
   /// Builds the list from where the rods are at the first tick, and has all its pairs searched.
   void first_tick(Tick now) {
+    const int n_rods = static_cast<int>(rods_.marks.size());
     std::vector<Pose> poses;
-    for (std::size_t i = 0; i < rods_.at_tick.size(); ++i) poses.push_back(rods_.flight_pose(static_cast<int>(i)));
+    for (int i = 0; i < n_rods; ++i) poses.push_back(rods_.flight_pose(i));
     list_.build(poses);
-    for (std::size_t i = 0; i < poses.size(); ++i) measure(static_cast<int>(i), now);
+    for (int i = 0; i < n_rods; ++i) measure(i, now);
     gained_.resize(list_.pairs().size());
     std::iota(gained_.begin(), gained_.end(), 0);
     add_gained();
@@ -42,14 +43,13 @@ class NeighborUpkeep {
   }
 
   /// Finds the rods near those of `to_place`. In each share by itself, once all rods have their new places.
-  void find_near(Tick now, const Share& share) {
-    auto& [rods, ends] = near_[share.number];
-    rods.clear();
-    ends.clear();
+  void find_near(Tick now, Share& share) {
+    share.near.clear();
+    share.near_end.clear();
     for (const int i : share.to_place) {
       measure(i, now);
-      list_.find_near(i, rods);
-      ends.push_back(rods.size());
+      list_.find_near(i, share.near);
+      share.near_end.push_back(share.near.size());
     }
   }
 
@@ -60,11 +60,11 @@ class NeighborUpkeep {
     gained_.clear();
     lost_.clear();
     for (Share& share : shares_) {
-      const auto& [rods, ends] = near_[share.number];
       std::size_t begin = 0;
       for (std::size_t k = 0; k < share.to_place.size(); ++k) {
-        list_.replace_pairs(share.to_place[k], std::span(rods).subspan(begin, ends[k] - begin), gained_, lost_);
-        begin = ends[k];
+        const auto near = std::span(share.near).subspan(begin, share.near_end[k] - begin);
+        list_.replace_pairs(share.to_place[k], near, gained_, lost_);
+        begin = share.near_end[k];
       }
       share.to_place.clear();
     }
@@ -74,19 +74,9 @@ class NeighborUpkeep {
     return gained_may_touch_ ? gained_ : std::span<const int>();
   }
 
-  std::size_t bytes() const {
-    std::size_t bytes = heap_bytes(near_, gained_, lost_);
-    for (const Near& near : near_) bytes += heap_bytes(near.rods, near.ends);
-    return bytes;
-  }
+  std::size_t bytes() const { return heap_bytes(gained_, lost_); }
 
  private:
-  /// The rods near each rod of a share's `to_place`, one after the other, and where those of each end.
-  struct alignas(64) Near {
-    std::vector<int> rods;
-    std::vector<std::size_t> ends;
-  };
-
   void measure(int i, Tick now) { rods_.skin_budgets[i].measure(list_, i, rods_.at_tick[i].pose, now); }
 
   void add_gained() {
@@ -103,7 +93,6 @@ class NeighborUpkeep {
   PairSchedule& pairs_;
   RodStates& rods_;
   std::vector<Share>& shares_;
-  std::vector<Near> near_;  ///< (n_shares)
   std::vector<int> gained_, lost_;
   bool gained_may_touch_ = false;
 };

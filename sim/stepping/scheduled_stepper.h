@@ -9,6 +9,7 @@
 #include "sim/schedule/sharing_trial.h"
 #include "sim/stepping/detection_phase.h"
 #include "sim/stepping/neighbor_upkeep.h"
+#include "sim/stepping/pair_bounding.h"
 #include "sim/stepping/rod_states.h"
 #include "sim/stepping/share.h"
 #include "sim/stepping/stepper.h"
@@ -58,11 +59,7 @@ class ScheduledStepper final : public Stepper {
 
  private:
   std::optional<NumericalTrouble> step(World& world, Tick now) override;
-
-  // parts of a tick, in this order; of those without a share the first thread does all
-  void shorten_bounds(Tick now, Share& share);
-  void bound_motions(const World& world, Tick now, Share& share);
-  void schedule_pairs(Tick now, Share& share);
+  void choose_sharing();
 
   template <class Visit>
   void in_loop(const Visit& visit) {
@@ -73,25 +70,21 @@ class ScheduledStepper final : public Stepper {
   void lap(const Share& share, Phase phase) {
     if (share.number == 0) phase_times.lap(phase);
   }
-  void bound_pairs(std::span<const int> pairs, Tick now, Share& share);
-  int shape_of(int i) const { return rules_.shape_of_rod[i]; }
 
   TickRules rules_;
   PairSearch search_;
   NeighborList neighbors_;
+  PairSchedule pairs_;
   SharedLoops<Share> loops_;
+  std::vector<Share>& shares_ = loops_.shares();
   std::size_t grain_;
   SharingTrial trial_;
-
   RodStates rods_;
-  // of each rod
-  std::vector<FlightBound> flight_bounds_;
-
-  PairSchedule pairs_;
   SurfacesPhase surfaces_;
   NeighborUpkeep upkeep_;
   DetectionPhase detection_;
   StoringPhase storing_;
+  PairBounding bounding_;
   bool is_new_ = true;
 };
 

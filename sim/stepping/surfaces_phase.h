@@ -20,27 +20,26 @@ namespace shaken {
 class SurfacesPhase {
  public:
   /// Every rod is visited at the first tick.
-  SurfacesPhase(const World& world, const NeighborList& neighbors, RodStates& rods, std::size_t n_shares)
+  SurfacesPhase(const World& world, const NeighborList& neighbors, RodStates& rods, std::vector<Share>& shares)
       : meets_in_lanes_(lanes_know(world.system)),
         neighbors_(neighbors),
         rods_(rods),
-        wheel_(world.rods.size(), static_cast<int>(n_shares)),
-        parts_(n_shares) {
-    for (std::size_t i = 0; i < world.rods.size(); ++i) parts_[rods.owners[i]].polled.push_back(static_cast<int>(i));
+        wheel_(world.rods.size(), static_cast<int>(shares.size())) {
+    for (std::size_t i = 0; i < world.rods.size(); ++i) shares[rods.owners[i]].polled.push_back(static_cast<int>(i));
   }
 
   /// Visits the share's rods that are due.
   void meet_due(const World& world, const PlateState& plates, Tick now, Share& share) {
-    Part& part = parts_[share.number];
     share.visited.clear();
     share.hit.clear();
-    share.visited.swap(part.polled);
+    share.visited.swap(share.polled);
     wheel_.pop(now, share.visited, static_cast<int>(share.number));
-    const Visits visits{neighbors_, rods_, world, plates, now, share, part};
+    const Visits visits{neighbors_, rods_, world, plates, now, share};
     if (meets_in_lanes_ && share.visited.size() > 1) {
       visits.in_lanes();
     } else {
-      visits.one_by_one();
+      for_each_prefetched(
+          share.visited, [&](int i) { visits.ask(i); }, [&](int i) { visits.visit(i); });
     }
     share.counts.count(WorkKind::kRodsVisited, std::ssize(share.visited));
     share.counts.count(WorkKind::kRodsHit, std::ssize(share.hit));
@@ -48,26 +47,24 @@ class SurfacesPhase {
   }
 
   /// Adds what the visits counted to the world's counters. Returns the trouble of the first rod that has any.
-  std::optional<NumericalTrouble> gather(World& world, const std::vector<Share>& shares) {
+  std::optional<NumericalTrouble> gather(World& world, std::vector<Share>& shares) {
     std::optional<NumericalTrouble> first;
-    for (const Share& share : shares) {
+    for (Share& share : shares) {
       if (share.visited.empty()) continue;
-      Part& part = parts_[share.number];
-      world.counters.add(std::exchange(part.counters, {}));
-      keep_first(first, part.trouble);
+      world.counters.add(std::exchange(share.counters, {}));
+      keep_first(first, share.trouble);
     }
     return first;
   }
 
   /// Schedules the next visits to the share's rods that were visited or hit.
   void schedule(const World& world, Tick now, Share& share) {
-    Part& part = parts_[share.number];
     // A rod that a surface hits, and that was hit in the tick before, is as good as sure to be hit in the next tick,
     // too (four of five visits, 99 % of the time), and needs no bound to know it.
     for (const int i : share.visited) {
-      (rods_.marks[i].hit_again_at == now ? part.polled : share.to_schedule).push_back(i);
+      (rods_.marks[i].hit_again_at == now ? share.polled : share.to_schedule).push_back(i);
     }
-    share.counts.count(WorkKind::kRodsResting, std::ssize(part.polled));
+    share.counts.count(WorkKind::kRodsResting, std::ssize(share.polled));
     share.counts.count(WorkKind::kRodsBounded, std::ssize(share.to_schedule));
     constexpr Tick kHorizon = TimingWheel::horizon() - 1;
     const TickRules& rules = rods_.rules;
@@ -77,7 +74,7 @@ class SurfacesPhase {
     groups.in_lanes(share.to_schedule, [&](std::span<const int> rods) {
       Tick ticks[kLanes];
       for (const int i : rods) neighbors_.prefetch_place(i);
-      off_surface_ticks(rods, world, rods_.at_tick, now, kHorizon, rules, part.plate_lanes, ticks);
+      off_surface_ticks(rods, world, rods_.at_tick, now, kHorizon, rules, share.plate_lanes, ticks);
       for (std::size_t lane = 0; lane < rods.size(); ++lane) {
         const int i = rods[lane];
         const Tick covered =
@@ -88,21 +85,9 @@ class SurfacesPhase {
     });
   }
 
-  std::size_t bytes() const {
-    std::size_t bytes = wheel_.bytes() + heap_bytes(parts_);
-    for (const Part& part : parts_) bytes += heap_bytes(part.polled);
-    return bytes;
-  }
+  std::size_t bytes() const { return wheel_.bytes(); }
 
  private:
-  /// What one share keeps to itself.
-  struct alignas(64) Part {
-    std::vector<int> polled;  ///< rods that are due at the next tick, without a bound
-    Counters counters;
-    std::optional<NumericalTrouble> trouble;  ///< that of the first rod
-    PlateLanes plate_lanes{};
-  };
-
   static void keep_first(std::optional<NumericalTrouble>& first, const std::optional<NumericalTrouble>& other) {
     if (other && (!first || other->rods < first->rods)) first = other;
   }
@@ -115,13 +100,7 @@ class SurfacesPhase {
     const PlateState& plates;
     Tick now;
     Share& share;
-    Part& part;
     const TickRules& rules = rods.rules;
-
-    void one_by_one() const {
-      for_each_prefetched(
-          share.visited, [&](int i) { ask(i); }, [&](int i) { visit(i); });
-    }
 
     /// The plates for several rods of one shape at a time.
     void in_lanes() const {
@@ -139,7 +118,6 @@ class SurfacesPhase {
       groups.in_lanes(due, meet_and_ask, lanes::kDoubleLanes);
     }
 
-   private:
     void ask(int i) const {
       prefetch(world.rods[i]);
       prefetch(rods.at_tick[i]);
@@ -150,13 +128,13 @@ class SurfacesPhase {
     void visit(int i) const {
       rods.pose(i, world, now);
       begin(i);
-      keep_first(part.trouble, meet_surfaces(i, rods.at_tick[i], world.rods[i], plates, now, rules, part.counters));
+      keep_first(share.trouble, meet_surfaces(i, rods.at_tick[i], world.rods[i], plates, now, rules, share.counters));
       end(i);
     }
 
     void visit_together(std::span<const int> some) const {
       const std::uint32_t unresolved =
-          meet_plates_in_lanes(some, world.rods, rods.at_tick, rods.flight_poses, plates, now, rules, part.counters);
+          meet_plates_in_lanes(some, world.rods, rods.at_tick, rods.flight_poses, plates, now, rules, share.counters);
       for (std::size_t lane = 0; lane < some.size(); ++lane) {
         const int i = some[lane];
         if ((unresolved >> lane & 1U) != 0) {
@@ -165,7 +143,8 @@ class SurfacesPhase {
         }
         begin(i);
         if (rules.has_uprights())
-          keep_first(part.trouble, meet_uprights(i, rods.at_tick[i], world.rods[i], plates, now, rules, part.counters));
+          keep_first(share.trouble,
+                     meet_uprights(i, rods.at_tick[i], world.rods[i], plates, now, rules, share.counters));
         end(i);
       }
     }
@@ -192,8 +171,7 @@ class SurfacesPhase {
   bool meets_in_lanes_;  ///< plates are met by several rods at a time
   const NeighborList& neighbors_;
   RodStates& rods_;
-  TimingWheel wheel_;        ///< of rods
-  std::vector<Part> parts_;  ///< (n_shares)
+  TimingWheel wheel_;  ///< of rods
 };
 
 }  // namespace shaken
