@@ -66,7 +66,7 @@ class StoringPhase {
       const double half_length = rules.species_of(i).half_length;
       if (rods_.marks[i].hit_again_at == now)
         rods_.skin_budgets[i].cover_tick(flight, half_length, now, rules.dt, pull);
-      jumps_[i] = jump(i, before, flight, half_length);
+      note_jump(i, before, flight, half_length);
     }
   }
 
@@ -93,27 +93,27 @@ class StoringPhase {
     double rate;
   };
 
-  /// What the hits on a rod did to its motion.
-  [[gnu::always_inline]] VelocityJump jump(int i, const Before& before, const Flight& flight,
-                                           double half_length) const {
+  /// Notes what the hits on a rod did to its motion.
+  [[gnu::always_inline]] void note_jump(int i, const Before& before, const Flight& flight, double half_length) {
     const auto slow = static_cast<double>(search_.slow());
     const auto in_plane = [](const Vec3& v) { return std::max(std::abs(v.x()), std::abs(v.y())); };
-    // one that is fast may come near another image, which the bound on the gap leaves out
-    if (in_plane(flight.velocity) >= slow) return VelocityJump::unknown();
-    const Vec3 faster = flight.velocity - before.velocity;
     const RodAtTick& rod = rods_.at_tick[i];
-    if (!rod.displaced) {
+    VelocityJump& jump = jumps_[i];
+    // one that is fast may come near another image, which the bound on the gap leaves out
+    if (in_plane(flight.velocity) >= slow) {
+      jump = VelocityJump::unknown();
+    } else if (rod.displaced) {
+      const Pose& undisplaced = rods_.flight_poses[i];
+      const Vec3 turning = flight.precession.cross(flight.director) - before.precession.cross(undisplaced.director);
+      jump = VelocityJump(flight.velocity - before.velocity, turning, before.rate, flight.rate, half_length);
+      const Vec3 shift = rod.pose.position - undisplaced.position;
+      jump.displace(shift, rod.pose.director - undisplaced.director, half_length);
+      // so may one that was fast between two hits of this tick, which moved it by more than a slow one flies meanwhile
+      if (in_plane(shift) >= slow * rods_.rules.dt) jump = VelocityJump::unknown();
+    } else {
       const Vec3 turning = (flight.precession - before.precession).cross(flight.director);
-      return {faster, turning, before.rate, flight.rate, half_length};
+      jump = VelocityJump(flight.velocity - before.velocity, turning, before.rate, flight.rate, half_length);
     }
-    const Pose& undisplaced = rods_.flight_poses[i];
-    const Vec3 shift = rod.pose.position - undisplaced.position;
-    // so may one that was fast between two hits of this tick, which moved it by more than a slow one flies meanwhile
-    if (in_plane(shift) >= slow * rods_.rules.dt) return VelocityJump::unknown();
-    const Vec3 turning = flight.precession.cross(flight.director) - before.precession.cross(undisplaced.director);
-    VelocityJump jump(faster, turning, before.rate, flight.rate, half_length);
-    jump.displace(shift, rod.pose.director - undisplaced.director, half_length);
-    return jump;
   }
 
   const PairSearch& search_;

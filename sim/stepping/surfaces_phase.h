@@ -3,7 +3,6 @@
 
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "sim/bounds/surface_safe_ticks.h"
@@ -51,7 +50,8 @@ class SurfacesPhase {
     std::optional<NumericalTrouble> first;
     for (Share& share : shares) {
       if (share.visited.empty()) continue;
-      world.counters.add(std::exchange(share.counters, {}));
+      world.counters.add(share.counters);
+      share.counters = {};
       keep_first(first, share.trouble);
     }
     return first;
