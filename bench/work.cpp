@@ -59,7 +59,7 @@ Json json_of(const CountedWork& work) {
                {"rods_bounded", cost(Phase::kRodBounds, WorkKind::kRodsBounded)},
                {"rods_placed", cost(Phase::kNeighbors, WorkKind::kRodsPlaced)},
                {"pairs_searched", cost(Phase::kDetection, WorkKind::kPairsSearched)},
-               {"velocity_jumps", cost(Phase::kTightening, WorkKind::kVelocityJumps)},
+               {"velocity_jumps", cost(Phase::kShortening, WorkKind::kVelocityJumps)},
                {"pairs_bounded", cost(Phase::kPairBounds, WorkKind::kPairsBounded)}};
   double other = 1;
   for (std::size_t p = 0; p < kPhases; ++p) {
@@ -82,10 +82,10 @@ std::string work_text(const Json& rows, const std::vector<Column>& scene) {
              phase_columns()) +
          with(
              "\nRods, per rod and simulated second, and the CPU time that each costs: visits for surfaces (of these: "
-             "hit,\nand resting: to be visited at the next tick without a bound), bounds on the time to the next, and "
+             "hit,\nand polled: to be visited at the next tick without a bound), bounds on the time to the next, and "
              "places in\nthe neighbour list.\n",
              {per_rod_second("visits", "rods_visited"), per_rod_second("hit", "rods_hit"),
-              per_rod_second("resting", "rods_resting"), ns("rods_visited"), per_rod_second("bounds", "rods_bounded"),
+              per_rod_second("polled", "rods_polled"), ns("rods_visited"), per_rod_second("bounds", "rods_bounded"),
               ns("rods_bounded"), per_rod_second("places", "rods_placed"), ns("rods_placed")}) +
          with(
              "\nPairs, per rod and simulated second: searches for contacts (of these: touching), pairs that came up "

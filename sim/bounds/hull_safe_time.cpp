@@ -131,7 +131,7 @@ struct HullKernel {
     const typename Gap<F>::Safe bound = along.safe_time(horizon);
     lanes::store(safe.time + l, bound.time);
     lanes::store(safe.gap + l, bound.start);
-    lanes::store(safe.left + l, bound.end);
+    lanes::store(safe.gap_at_end + l, bound.end);
   }
 };
 

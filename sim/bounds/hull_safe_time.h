@@ -48,7 +48,7 @@ struct HullSafeTimes {
   alignas(64) float direction[3][kLanes];  ///< unit vectors from hull i towards hull j
   alignas(64) float time[kLanes];          ///< [s]
   alignas(64) float gap[kLanes];           ///< along that direction, now [mm]
-  alignas(64) float left[kLanes];          ///< the same when the time is over, at least [mm]
+  alignas(64) float gap_at_end[kLanes];    ///< the same when the time is over, at least [mm]
 };
 
 /// Times for which the hulls of the first `n` pairs stay apart, at most `horizon` [s]; 0 if they overlap.

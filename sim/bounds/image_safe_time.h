@@ -30,12 +30,12 @@ inline float image_safe_time(const Vec3& D, const FlightBound& i, const FlightBo
   return safe;
 }
 
-/// Whether no other image of rod j can come to touch rod i within `horizon` [s] if neither moves faster than `slow`
+/// Whether no other image of rod j can come to touch rod i within `horizon` [s] if neither moves faster than `speed`
 /// along x or y [mm/s].
-inline bool images_stay_away(const Vec3& D, const Box& box, double reach, double slow, double horizon) {
+inline bool images_stay_away(const Vec3& D, const Box& box, double reach, double speed, double horizon) {
   const Vec2 open = box.sides() * (1 - margins::kImageRoom) - D.head<2>().cwiseAbs();
   const double room = open.minCoeff() - reach;
-  return room > 2 * slow * horizon;
+  return room > 2 * speed * horizon;
 }
 
 }  // namespace shaken

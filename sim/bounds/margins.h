@@ -72,10 +72,10 @@ inline constexpr double kWallTime = 1e-9;
 /// The speed that a hit adds to the closing of a gap, at any speed [mm/s]. It covers the rounding of the rate to which
 /// it is added (half of the bound's own and all hits since), for as long as that stays below 1,700 mm/s.
 inline constexpr float kJumpSpeed = 1e-4F;
-/// And of itself.
+/// Relative part of the same.
 inline constexpr float kJump = 1e-6F;
 
-// ---- what is left of gaps and of skins (schedule/)
+// ---- what remains of gaps and of skins (schedule/)
 
 /// A gap less a part of itself, of 1 mm and of the gap [mm].
 inline float rounding_of_gap(float gap) { return 1e-6F * (1.0F + std::abs(gap)); }

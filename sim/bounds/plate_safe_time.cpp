@@ -95,14 +95,14 @@ struct PlateKernel {
       const OuterBead& bead = k.beads[b];
       const F bend = bead.size * rate2;                  // bounds the bead's own acceleration
       const F room = bead.radius + 0.5F * bend * t * t;  // it may be that much further than its tangent says
-      const F slow = bend * t;
+      const F swing = bend * t;
       const F ahead = bead.offset * n_z;
       const F ahead_rate = bead.offset * n_z_rate;
       const F pull_lid = lanes::not_below_zero(k.pull_lid + bend);
       if (k.has_base)
         time = lanes::smaller(time,
-                              safe_time_off_base(k, above + ahead - room, up + ahead_rate - slow, k.pull_base + bend));
-      if (k.has_lid) time = lanes::smaller(time, safe_time(below - ahead - room, down - ahead_rate - slow, pull_lid));
+                              safe_time_off_base(k, above + ahead - room, up + ahead_rate - swing, k.pull_base + bend));
+      if (k.has_lid) time = lanes::smaller(time, safe_time(below - ahead - room, down - ahead_rate - swing, pull_lid));
     }
     const F more = lanes::truncated(lanes::smaller(time * k.per_dt, lanes::all<W>(k.horizon)));
     lanes::store(safe + l, lanes::smaller(ticks + more, lanes::all<W>(k.horizon)));

@@ -18,13 +18,13 @@ void VelocityJump::displace(const Vec3& position, const Vec3& director, double h
   shift_rounding_ = margins::kJump * (size(shift_) + size(tip_shift_));
 }
 
-FlightBound flight_bound(const Flight& flight, const Vec3& velocity, const Vec3& director, float slow) {
+FlightBound flight_bound(const Flight& flight, const Vec3& velocity, const Vec3& director, float slow_speed) {
   FlightBound bound;
   set_vector(bound.director, director);
   set_velocity(bound, velocity);
   set_vector(bound.turning, flight.precession.cross(director));
   bound.half_rate2 = static_cast<float>(0.5 * flight.rate * flight.rate);
-  bound.slow = std::max(std::abs(bound.velocity[0]), std::abs(bound.velocity[1])) < slow;
+  bound.slow = std::max(std::abs(bound.velocity[0]), std::abs(bound.velocity[1])) < slow_speed;
   return bound;
 }
 

@@ -80,7 +80,7 @@ SHAKEN_INLINE VelocityJump::VelocityJump(const Vec3& velocity, const Vec3& turni
   any_direction_ = rounding_ + (speed + faster) * (1.0F + margins::kJump);
 }
 
-/// How a rod flies at a tick; it is `slow` if it moves along x and y by less than that [mm/s].
-FlightBound flight_bound(const Flight& flight, const Vec3& velocity, const Vec3& director, float slow);
+/// How a rod flies at a tick; it is slow if it moves along x and y by less than `slow_speed` [mm/s].
+FlightBound flight_bound(const Flight& flight, const Vec3& velocity, const Vec3& director, float slow_speed);
 
 }  // namespace shaken

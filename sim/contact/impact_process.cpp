@@ -12,7 +12,7 @@ namespace shaken {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-/// After so many legs times `turn` what is left goes without friction. Never reached by any impact tried.
+/// After so many legs times `turn` what remains goes without friction. Never reached by any impact tried.
 constexpr double kMaxTurns = 100;
 
 /// The unit vector s for which `pull` - mu tt s points along s: where slip goes that starts from rest.
@@ -143,14 +143,14 @@ void ImpactProcess::run(const End& end) {
     } else {
       leg = slipping_leg(end);
     }
-    double left = end(rate_n(leg.q));
-    if (left == kNever && leg.length == kNever) {  // rounding of a K that is hardly positive definite
+    double remaining = end(rate_n(leg.q));
+    if (remaining == kNever && leg.length == kNever) {  // rounding of a K that is hardly positive definite
       leg.q.setZero();
-      left = end(nn_);
+      remaining = end(nn_);
     }
-    if (left <= (leg.stops ? 1.0 : 1.0 + kStretch) * leg.length) {
+    if (remaining <= (leg.stops ? 1.0 : 1.0 + kStretch) * leg.length) {
       const bool at_rest = u_t_.isZero(0) && leg.stops;
-      advance(leg.q, left);
+      advance(leg.q, remaining);
       if (at_rest) u_t_.setZero();
       return;
     }
@@ -168,21 +168,21 @@ void ImpactProcess::compress() {
 void ImpactProcess::restore_impulse(double impulse) {
   const double goal = p_ + impulse;
   run([this, goal](double rate) {
-    const double left = std::max(0.0, goal - p_);
-    return rate < 0 ? std::min(left, std::max(0.0, -u_n_ / rate)) : left;
+    const double remaining = std::max(0.0, goal - p_);
+    return rate < 0 ? std::min(remaining, std::max(0.0, -u_n_ / rate)) : remaining;
   });
 }
 
 void ImpactProcess::restore_work(double work) {
   const double goal = work_ + work;
   run([this, goal](double rate) {
-    // u_n x + rate x^2 / 2 = what is left
-    const double left = std::max(0.0, goal - work_);
+    // u_n x + rate x^2 / 2 = what remains
+    const double remaining = std::max(0.0, goal - work_);
     const double u_n = std::max(0.0, u_n_);
-    const double square = u_n * u_n + 2.0 * rate * left;
+    const double square = u_n * u_n + 2.0 * rate * remaining;
     if (square < 0) return -u_n / rate;
     const double denominator = u_n + std::sqrt(square);
-    return denominator > 0 ? 2.0 * left / denominator : 0.0;
+    return denominator > 0 ? 2.0 * remaining / denominator : 0.0;
   });
 }
 

@@ -36,7 +36,7 @@ class ImpactProcess {
   /// Slip counts as straight if its direction is wrong by no more than this times the square of `turn`; for a stop it
   /// is weighed with the part of the impact that it takes.
   static constexpr double kStraight = 1.0 / 64;
-  /// What is left of a phase may be done by the leg before, if it is no more than this part of it.
+  /// What remains of a phase may be done by the leg before, if it is no more than this part of it.
   static constexpr double kStretch = 0.05;
 
   ImpactProcess(const Mat3& K, const Vec3& normal, const Vec3& u, double friction, double turn = kTurn);
@@ -65,7 +65,7 @@ class ImpactProcess {
   };
   using Mat2 = Eigen::Matrix2d;
 
-  /// Runs until `end`, a function of the rate of u_n, finds that what is left of the phase fits into the leg.
+  /// Runs until `end`, a function of the rate of u_n, finds that what remains of the phase fits into the leg.
   template <class End>
   void run(const End& end);
   template <class End>

@@ -40,18 +40,18 @@ class ImpactProcesses {
   SHAKEN_INLINE void restore_impulse(const D& impulse) {
     const D goal = p_ + impulse;
     run([&](const D& rate) __attribute__((always_inline)) {
-      const D left = larger(D(goal - p_), D{});
-      return where_positive(D(-rate), smaller(left, larger(D(-u_n_ / rate), D{})), left);
+      const D remaining = larger(D(goal - p_), D{});
+      return where_positive(D(-rate), smaller(remaining, larger(D(-u_n_ / rate), D{})), remaining);
     });
   }
   SHAKEN_INLINE void restore_work(const D& work) {
     const D goal = work_ + work;
     run([&](const D& rate) __attribute__((always_inline)) {
-      const D left = larger(D(goal - work_), D{});
+      const D remaining = larger(D(goal - work_), D{});
       const D u_n = larger(u_n_, D{});
-      const D square = u_n * u_n + 2.0 * rate * left;
+      const D square = u_n * u_n + 2.0 * rate * remaining;
       const D denominator = u_n + square_root(square);
-      const D length = where_positive(denominator, D(2.0 * left / denominator), D{});
+      const D length = where_positive(denominator, D(2.0 * remaining / denominator), D{});
       return where_positive(D(-square), D(-u_n / rate), length);
     });
   }
@@ -85,7 +85,7 @@ class ImpactProcesses {
   /// A stretch of constant friction, where it is what slipping_leg chooses.
   struct Leg {
     Pair q;
-    D limit;   ///< the longest that what is left of the phase may be
+    D limit;   ///< the longest that what remains of the phase may be
     D is_it;   ///< >= 0: it is known to be chosen
     D is_not;  ///< > 0: it is known not to be
   };
@@ -134,9 +134,9 @@ class ImpactProcesses {
     const D settling = mu_ * (direction.dot(tt_ * direction) - across.dot(tt_ * across)) - nt_.dot(direction);
     const D turns = larger(settling, D(absolute(aside) + kStraight * settling));  // > 0
     const D change = absolute(settling) + larger(D(-2.0 * along), D{});
-    const D slow =
+    const D steady =
         smaller(D(ImpactProcess::kTurn * speed / absolute(aside)), D(4.0 * ImpactProcess::kTurn * speed / change));
-    const D length = smaller(end(rate_n(q_here)), slow);
+    const D length = smaller(end(rate_n(q_here)), steady);
     const D half = 0.5 * length;
     const Pair middle = u_t_ + half * rate;
     const Pair q = minus_mu * (middle / square_root(middle.dot(middle)));
@@ -163,13 +163,13 @@ class ImpactProcesses {
     };
     const Pair q{choose(straight.q.x, midpoint.q.x, holding.x), choose(straight.q.y, midpoint.q.y, holding.y)};
     const D limit = choose(straight.limit, midpoint.limit, D(D{} + kNever));
-    const D left = end(rate_n(q));
+    const D remaining = end(rate_n(q));
     // what is no number, or lasts forever, does not
-    const D fits = smaller(D(limit < left ? D{} - 1.0 : limit), D(kLongest - left));  // >= 0
+    const D fits = smaller(D(limit < remaining ? D{} - 1.0 : limit), D(kLongest - remaining));  // >= 0
 
     // what stops slipping before the end sticks for the rest
     const D sticks = choose(D(-fits), D{} - 1.0, D(D{} - 1.0));  // > 0
-    advance(q, sticks > 0.0 ? limit : left);
+    advance(q, sticks > 0.0 ? limit : remaining);
     u_t_ = {choose(where_positive(sticks, D{}, u_t_.x), u_t_.x, D{}),
             choose(where_positive(sticks, D{}, u_t_.y), u_t_.y, D{})};
     bool any_sticks = false;

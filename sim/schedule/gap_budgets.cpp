@@ -32,26 +32,26 @@ struct GapBudgets::SpendKernel {
     using F = lanes::Floats<W>;
     lanes::Ints<W> until;
     __builtin_memcpy(&until, block.until + l, sizeof until);
-    const F rest = lanes::not_below_zero(__builtin_convertvector(lanes::difference<W>(until, now), F)) * dt;
+    const F wait = lanes::not_below_zero(__builtin_convertvector(lanes::difference<W>(until, now), F)) * dt;
     const lanes::Vectors<F> d{lanes::load<W>(block.direction[0] + l), lanes::load<W>(block.direction[1] + l),
                               lanes::load<W>(block.direction[2] + l)};
     const F along = jump.along(d);
     const F speed = lanes::dot(d, d) > 0.5F ? along : lanes::all<W>(jump.any_direction());
-    const F more = speed + jump.curvature() * (rest + kMostBeyond * dt);
-    const F before = lanes::load<W>(block.left + l);
+    const F more = speed + jump.curvature() * (wait + kMostBeyond * dt);
+    const F before = lanes::load<W>(block.remaining + l);
     const F rate = lanes::load<W>(block.rate + l) + more;
-    F left =
-        before - margins::kBudget * lanes::abs(before) - more * rest - (rest > 0.0F ? F{} : lanes::all<W>(kEndsNow));
+    F remaining =
+        before - margins::kBudget * lanes::abs(before) - more * wait - (wait > 0.0F ? F{} : lanes::all<W>(kEndsNow));
     lanes::store(block.rate + l, rate);
     if (!jump.has_displaced()) {
-      lanes::store(block.left + l, left);
-      return lanes::below_zero(left);
+      lanes::store(block.remaining + l, remaining);
+      return lanes::below_zero(remaining);
     }
-    left -= lanes::dot(d, d) > 0.5F ? jump.shift_along(d) : lanes::all<W>(jump.shift_in_any_direction());
-    lanes::store(block.left + l, left);
-    const F closes = rate * rest;
-    const F left_now = left + closes - margins::kCancelled * (lanes::abs(left) + lanes::abs(closes));
-    return lanes::below_zero(lanes::smaller(left, left_now));
+    remaining -= lanes::dot(d, d) > 0.5F ? jump.shift_along(d) : lanes::all<W>(jump.shift_in_any_direction());
+    lanes::store(block.remaining + l, remaining);
+    const F closes = rate * wait;
+    const F remaining_now = remaining + closes - margins::kCancelled * (lanes::abs(remaining) + lanes::abs(closes));
+    return lanes::below_zero(lanes::smaller(remaining, remaining_now));
   }
 };
 
@@ -60,7 +60,7 @@ GapBudgets::GapBudgets(std::size_t n_rods, double dt)
 
 GapBudgets::Block GapBudgets::empty_block() {
   Block block{};
-  std::fill_n(block.left, kInBlock, kUnlimited);
+  std::fill_n(block.remaining, kInBlock, kUnlimited);
   return block;
 }
 
@@ -90,11 +90,11 @@ int GapBudgets::remove(int rod, int lane) {
   const int l = last % kInBlock;
   const int m = lane % kInBlock;
   for (int c = 0; c < 3; ++c) to.direction[c][m] = from.direction[c][l];
-  to.left[m] = from.left[l];
+  to.remaining[m] = from.remaining[l];
   to.rate[m] = from.rate[l];
   to.until[m] = from.until[l];
   to.pair[m] = from.pair[l];
-  block(rod, last).left[l] = kUnlimited;
+  block(rod, last).remaining[l] = kUnlimited;
   return lane == last ? -1 : to.pair[m];
 }
 
@@ -105,7 +105,7 @@ void GapBudgets::set_direction(int rod, int lane, const Direction& direction, fl
 
 void GapBudgets::set(int rod, int lane, float budget, float rate, Tick until) {
   Block& in = block(rod, lane);
-  in.left[lane % kInBlock] = budget;
+  in.remaining[lane % kInBlock] = budget;
   in.rate[lane % kInBlock] = rate;
   in.until[lane % kInBlock] = static_cast<std::int32_t>(until);
 }

@@ -49,8 +49,8 @@ class GapBudgets {
   void set_empty(int rod, int lane);
   /// Sets a budget that no hit overspends.
   void set_unlimited(int rod, int lane);
-  /// What is left of the budget; < 0: it is overspent [mm].
-  float left(int rod, int lane) const { return block(rod, lane).left[lane % kInBlock]; }
+  /// What remains of the budget; < 0: it is overspent [mm].
+  float remaining(int rod, int lane) const { return block(rod, lane).remaining[lane % kInBlock]; }
   /// The rod's share of the rate at which the gap closes, with the hits since `set` [mm/s].
   float rate(int rod, int lane) const { return block(rod, lane).rate[lane % kInBlock]; }
 
@@ -70,9 +70,9 @@ class GapBudgets {
     shaken::prefetch(block(rod, 0));
     if (n_lanes_[rod] > kInBlock) shaken::prefetch(block(rod, kInBlock));
   }
-  /// Asks the memory for what `left`, `rate` and `set` need: at most two lines.
+  /// Asks the memory for what `remaining`, `rate` and `set` need: at most two lines.
   void prefetch(int rod, int lane) const {
-    prefetch_line(block(rod, lane).left);
+    prefetch_line(block(rod, lane).remaining);
     prefetch_line(block(rod, lane).until);
   }
   std::size_t bytes() const;
@@ -81,7 +81,7 @@ class GapBudgets {
   /// Most rods have about this many neighbours; wider blocks would mostly be empty lanes.
   static constexpr int kInBlock = 8;
   struct alignas(32) Block {
-    float left[kInBlock];
+    float remaining[kInBlock];
     float rate[kInBlock];
     std::int32_t until[kInBlock];  ///< the tick's last 32 bits
     std::int32_t pair[kInBlock];

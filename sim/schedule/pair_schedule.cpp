@@ -16,7 +16,7 @@ constexpr int kPartKept = 8;
 /// A part of fewer ticks than this is not kept: it buys too few hits for a visit that much sooner.
 constexpr int kLeastKept = 3;
 
-/// A pair with less time left than this is searched when it comes up [ticks].
+/// A pair whose bound lasts less than this is searched when it comes up [ticks].
 constexpr int kWorthDeferring = 3;
 
 void count(std::vector<std::int16_t>& counts, const PairRods& rods, bool up) {
@@ -62,7 +62,7 @@ void PairSchedule::remove(int p) {
   wheel_.remove(p);
 }
 
-/// What is left of a bound.
+/// What remains of a bound.
 struct PairSchedule::Remaining {
   int ticks;   ///< for which it holds
   float gap;   ///< now [mm]
@@ -97,11 +97,12 @@ void PairSchedule::set_budgets(int p, Tick now, const Remaining& bound) {
   const int kept = std::min(bound.ticks / kPartKept, GapBudgets::kMostBeyond);
   const int waits = bound.ticks - (kept < kLeastKept ? 0 : kept);
   const Tick until = now + waits;
-  const float left = bound.gap - bound.rate * (static_cast<float>(waits) * dt_) - margins::rounding_of_gap(bound.gap);
+  const float gap_at_until =
+      bound.gap - bound.rate * (static_cast<float>(waits) * dt_) - margins::rounding_of_gap(bound.gap);
   pair.end = static_cast<std::int32_t>(now + bound.ticks);
   pair.until = static_cast<std::int32_t>(until);
   for (std::size_t r = 0; r < 2; ++r)
-    budgets_.set(pair.rods[r], pair.lanes[r], 0.5F * std::max(0.0F, left), 0.5F * bound.rate, until);
+    budgets_.set(pair.rods[r], pair.lanes[r], 0.5F * std::max(0.0F, gap_at_until), 0.5F * bound.rate, until);
   set_due(p, until + 1);
 }
 
@@ -109,13 +110,13 @@ PairSchedule::Remaining PairSchedule::remaining(int p, Tick now) const {
   const Pair& pair = pairs_[p];
   if ((pair.marks & kSurvivesHits) == 0) return {0, 0, 0};
   float rate = 0;
-  float left = 0;
+  float budgets = 0;
   for (std::size_t r = 0; r < 2; ++r) {
     rate += budgets_.rate(pair.rods[r], pair.lanes[r]);
-    left += budgets_.left(pair.rods[r], pair.lanes[r]);
+    budgets += budgets_.remaining(pair.rods[r], pair.lanes[r]);
   }
   const float more_now = rate * (static_cast<float>(ticks_to(pair.until, now)) * dt_);
-  const float gap = left + more_now - margins::kCancelled * (std::abs(left) + std::abs(more_now));
+  const float gap = budgets + more_now - margins::kCancelled * (std::abs(budgets) + std::abs(more_now));
   const int most = std::max(0, ticks_to(pair.end, now));
   if (!(gap > 0.0F)) return {0, 0, 0};
   if (rate * (static_cast<float>(most) * dt_) <= gap) return {most, gap, rate};

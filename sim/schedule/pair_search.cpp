@@ -15,7 +15,10 @@ constexpr float kShortBound = 150;
 
 }  // namespace
 
-PairSearch::PairSearch(const TickRules& rules) : rules_(rules) {
+PairSearch::PairSearch(const TickRules& rules)
+    : rules_(rules),
+      horizon_(static_cast<float>(static_cast<double>(TimingWheel::horizon() - 1) * rules.dt)),
+      per_dt_(static_cast<float>((1.0 - static_cast<double>(margins::kTime)) / rules.dt)) {
   for (const SpeciesMechanics& species : rules.species) {
     hulls_.emplace_back(species);
     lanes_.emplace_back(species);
@@ -26,8 +29,8 @@ PairSearch::PairSearch(const TickRules& rules) : rules_(rules) {
   const double near = 4.0 * longest + std::max(0.4 * longest, 2.0 * NeighborList::kSkin);
   const double horizon = static_cast<double>(TimingWheel::horizon()) * rules.dt;
   const double slow = std::max(0.0, rules.box.shorter() - near) / (2.0 * horizon);
-  slow_ = static_cast<float>(slow);
-  slow_now_ = static_cast<float>(std::max(0.0, slow - rules.gravity.along_size() * horizon));
+  slow_later_ = static_cast<float>(slow);
+  slow_speed_ = static_cast<float>(std::max(0.0, slow - rules.gravity.along_size() * horizon));
 }
 
 bool PairSearch::find(const PairRods& pair, const Pose& pose_i, const Pose& pose_j, const Direction& direction,
@@ -50,51 +53,58 @@ bool PairSearch::find(const PairRods& pair, const Pose& pose_i, const Pose& pose
 }
 
 void PairSearch::bound(std::span<const PairRods> pairs, const std::vector<RodAtTick>& rods,
-                       const std::vector<FlightBound>& motion, PairLanes& lanes, PairBounds& bounds) const {
-  const std::uint8_t shape_i = rules_.shape_of_rod[pairs.front()[0]];
-  const std::uint8_t shape_j = rules_.shape_of_rod[pairs.front()[1]];
-  HullSafeTimes hull;
+                       const std::vector<FlightBound>& motion, PairLanes& lanes, PairBound* bounds) const {
+  HullSafeTimes safe;
   Vec3 D[kLanes];
   for (std::size_t lane = 0; lane < pairs.size(); ++lane) {
     const auto& [i, j] = pairs[lane];
     D[lane] = nearest_image(rods[i].pose.position, rods[j].pose.position, rules_.box);
     lanes.set(static_cast<int>(lane), D[lane], motion[i], motion[j]);
   }
-  const auto horizon = static_cast<float>(static_cast<double>(TimingWheel::horizon() - 1) * rules_.dt);
-  hull_safe_times(hulls_[shape_i], hulls_[shape_j], lanes, static_cast<int>(pairs.size()), horizon, hull);
+  const auto& [i, j] = pairs.front();
+  hull_safe_times(hulls_[rules_.shape_of_rod[i]], hulls_[rules_.shape_of_rod[j]], lanes, static_cast<int>(pairs.size()),
+                  horizon_, safe);
+  for (std::size_t lane = 0; lane < pairs.size(); ++lane)
+    bounds[lane] = bound(pairs[lane], D[lane], motion, safe, lane);
+}
 
-  const auto per_dt = static_cast<float>((1.0 - static_cast<double>(margins::kTime)) / rules_.dt);
+/// The longest of the bounds by hulls and by beads, but no longer than other images stay away.
+PairBound PairSearch::bound(const PairRods& pair, const Vec3& D, const std::vector<FlightBound>& motion,
+                            const HullSafeTimes& hulls, std::size_t lane) const {
+  const FlightBound& i = motion[pair[0]];
+  const FlightBound& j = motion[pair[1]];
+  const std::uint8_t shape_i = rules_.shape_of_rod[pair[0]];
+  const std::uint8_t shape_j = rules_.shape_of_rod[pair[1]];
   const auto dt = static_cast<float>(rules_.dt);
-  const double reach = reach_[shape_i] + reach_[shape_j];
-  for (std::size_t lane = 0; lane < pairs.size(); ++lane) {
-    const FlightBound& i = motion[pairs[lane][0]];
-    const FlightBound& j = motion[pairs[lane][1]];
-    float time = hull.time[lane];
-    float gap = hull.gap[lane];
-    float left = hull.left[lane];
-    bool isotropic = false;
-    bounds.may_overlap[lane] = time <= 0.0F;
-    bounds.direction[lane] = {hull.direction[0][lane], hull.direction[1][lane], hull.direction[2][lane]};
-    bounds.by_beads[lane] = time < kShortBound * dt;
-    if (bounds.by_beads[lane]) {
-      const BeadSafeTime beads = bead_safe_time(lanes_[shape_i], i, lanes_[shape_j], j, D[lane], kBeadHorizon * dt);
-      if (beads.time > time) {
-        time = beads.time;
-        gap = beads.gap;
-        left = gap > 0.0F ? 0.0F : -1.0F;
-        isotropic = true;
-        if (gap > 0.0F) bounds.may_overlap[lane] = false;
-      }
+  float time = hulls.time[lane];
+  float gap = hulls.gap[lane];
+  float gap_at_end = hulls.gap_at_end[lane];
+  bool survives_hits = !(gap_at_end < 0.0F);
+  bool isotropic = false;
+  PairBound bound;
+  bound.may_overlap = time <= 0.0F;
+  bound.direction = {hulls.direction[0][lane], hulls.direction[1][lane], hulls.direction[2][lane]};
+  bound.by_beads = time < kShortBound * dt;
+  if (bound.by_beads) {
+    const BeadSafeTime beads = bead_safe_time(lanes_[shape_i], i, lanes_[shape_j], j, D, kBeadHorizon * dt);
+    if (beads.time > time) {
+      time = beads.time;
+      gap = beads.gap;
+      gap_at_end = 0.0F;
+      isotropic = true;
+      survives_hits = gap > 0.0F;
+      if (gap > 0.0F) bound.may_overlap = false;
     }
-    if (!(i.slow && j.slow && images_stay_away(D[lane], rules_.box, reach, slow_, horizon))) {
-      time = std::min(time, image_safe_time(D[lane], i, j, rules_.box, reach, horizon));
-      left = -1;
-    }
-    const auto ticks = static_cast<int>(time * per_dt);
-    bounds.ticks[lane] = ticks;
-    bounds.gap[lane] =
-        left < 0.0F ? GapBound{} : GapBound::between(gap, left, time, static_cast<float>(ticks) * dt, isotropic);
   }
+  const double reach = reach_[shape_i] + reach_[shape_j];
+  if (!(i.slow && j.slow && images_stay_away(D, rules_.box, reach, slow_later_, horizon_))) {
+    time = std::min(time, image_safe_time(D, i, j, rules_.box, reach, horizon_));
+    survives_hits = false;
+  }
+  bound.ticks = static_cast<int>(time * per_dt_);
+  if (survives_hits)
+    bound.gap = GapBound::between(gap, gap_at_end, time, static_cast<float>(bound.ticks) * dt, isotropic);
+  return bound;
 }
 
 }  // namespace shaken

@@ -14,13 +14,13 @@ namespace shaken {
 /// Bounds for which beads were looked at hold for so long at most: further ahead they are not worth the work [ticks].
 inline constexpr float kBeadHorizon = 250;
 
-/// For up to kLanes pairs: ticks for which nothing can happen, and what the bound rests on.
-struct PairBounds {
-  int ticks[kLanes];
-  GapBound gap[kLanes];      ///< for as long as the bound lasts
-  bool may_overlap[kLanes];  ///< beads may overlap already
-  bool by_beads[kLanes];     ///< beads were looked at
-  Direction direction[kLanes];
+/// Ticks for which nothing can happen to a pair, and what the bound is made from.
+struct PairBound {
+  int ticks;
+  GapBound gap;      ///< for as long as the bound lasts
+  bool may_overlap;  ///< beads may overlap already
+  bool by_beads;     ///< beads were looked at
+  Direction direction;
 };
 
 /// Finds the contacts of a pair, and the time before which it can have none.
@@ -34,22 +34,27 @@ class PairSearch {
   bool find(const PairRods& pair, const Pose& pose_i, const Pose& pose_j, const Direction& direction,
             std::vector<BeadContact>& beads, std::vector<PairContact>& contacts) const;
 
-  /// Rods that are slower than this along x and y meet no image but the nearest, if that is near, even if inclined
-  /// plates make them faster [mm/s].
-  float slow() const { return slow_now_; }
+  /// Rods below it along x and y are slow: if the nearest image is near, they meet no other, even where inclined plates
+  /// make them faster [mm/s].
+  float slow_speed() const { return slow_speed_; }
 
-  /// Bounds for pairs of one pair of species, from the rods as they are at this tick. They hold for free flight, or as
-  /// far as budgets allow for hits (PairSchedule::spend).
+  /// Bounds for up to kLanes pairs of one pair of species, from the rods as they are at this tick. They hold for free
+  /// flight, or as far as budgets allow for hits (PairSchedule::spend).
   void bound(std::span<const PairRods> pairs, const std::vector<RodAtTick>& rods,
-             const std::vector<FlightBound>& motion, PairLanes& lanes, PairBounds& bounds) const;
+             const std::vector<FlightBound>& motion, PairLanes& lanes, PairBound* bounds) const;
 
  private:
+  PairBound bound(const PairRods& pair, const Vec3& D, const std::vector<FlightBound>& motion,
+                  const HullSafeTimes& hulls, std::size_t lane) const;
+
   const TickRules& rules_;
   std::vector<Hull> hulls_;       ///< (n_shapes)
   std::vector<BeadLanes> lanes_;  ///< (n_shapes)
   std::vector<double> reach_;     ///< (n_shapes) [mm]
-  float slow_;                    ///< what they may become in the time that is looked ahead
-  float slow_now_;                ///< so that they do not become faster
+  float horizon_;                 ///< of all bounds [s]
+  float per_dt_;                  ///< ticks per second, rounded down
+  float slow_speed_;              ///< that rods must be below now
+  float slow_later_;              ///< what they may become in the time that is looked ahead
 };
 
 }  // namespace shaken

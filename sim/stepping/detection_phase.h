@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "sim/schedule/pair_schedule.h"
 #include "sim/schedule/pair_search.h"
 #include "sim/stepping/rod_states.h"
 #include "sim/stepping/share.h"

@@ -36,7 +36,7 @@ class NeighborUpkeep {
     for (Share& share : shares_) {
       share.searched.clear();
       for (const int i : share.to_place) {
-        if (!(rods_.skin_budgets[i].left(now, rods_.rules.dt) >= 0)) gained_may_touch_ = true;
+        if (!(rods_.skin_budgets[i].remaining(now, rods_.rules.dt) >= 0)) gained_may_touch_ = true;
         list_.place(i, rods_.flight_pose(i));
       }
     }

@@ -4,7 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "sim/schedule/pair_schedule.h"
 #include "sim/schedule/pair_search.h"
 #include "sim/stepping/rod_states.h"
 #include "sim/stepping/share.h"
@@ -70,8 +69,8 @@ class PairBounding {
     const auto ask = [&](int i) { prefetch(flight_bounds_[i]); };
     for_each_prefetched(share.to_bound_flight, ask, [&](int i) {
       const Flight& flight = world.rods[i];
-      flight_bounds_[i] =
-          flight_bound(flight, velocity_at(flight, now, rods_.rules), rods_.at_tick[i].pose.director, search_.slow());
+      flight_bounds_[i] = flight_bound(flight, velocity_at(flight, now, rods_.rules), rods_.at_tick[i].pose.director,
+                                       search_.slow_speed());
     });
   }
 
@@ -94,18 +93,19 @@ class PairBounding {
   void bound(std::span<const int> pairs, Tick now, Share& share) {
     PairRods rods[kLanes];
     for (std::size_t lane = 0; lane < pairs.size(); ++lane) rods[lane] = pairs_.rods(pairs[lane]);
-    PairBounds bounds;
+    PairBound bounds[kLanes];
     search_.bound({rods, pairs.size()}, rods_.at_tick, flight_bounds_, share.pair_lanes, bounds);
     for (std::size_t lane = 0; lane < pairs.size(); ++lane) {
       // Whether a pair is touching was found where free flight had brought its rods. Displaced since, they may overlap
       // and recede without being marked: to be visited again at once.
       const auto& [i, j] = rods[lane];
-      const bool unmarked = bounds.may_overlap[lane] && (rods_.at_tick[i].displaced || rods_.at_tick[j].displaced);
-      share.counts.count(WorkKind::kBoundsByBeads, bounds.by_beads[lane] ? 1 : 0);
-      share.counts.count(WorkKind::kBoundsOfNoTick, bounds.ticks[lane] == 0 ? 1 : 0);
+      const PairBound& bound = bounds[lane];
+      const bool unmarked = bound.may_overlap && (rods_.at_tick[i].displaced || rods_.at_tick[j].displaced);
+      share.counts.count(WorkKind::kBoundsByBeads, bound.by_beads ? 1 : 0);
+      share.counts.count(WorkKind::kBoundsOfNoTick, bound.ticks == 0 ? 1 : 0);
       pairs_.unlist(pairs[lane]);
-      pairs_.set_bound(pairs[lane], now, unmarked ? 0 : bounds.ticks[lane], bounds.direction[lane],
-                       unmarked ? GapBound{} : bounds.gap[lane]);
+      pairs_.set_bound(pairs[lane], now, unmarked ? 0 : bound.ticks, bound.direction,
+                       unmarked ? GapBound{} : bound.gap);
     }
   }
 

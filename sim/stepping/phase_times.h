@@ -8,10 +8,10 @@ namespace shaken {
 
 /// What a stepper spends its time on. The first four are the tick itself (tick/tick.h); the others are what it
 /// takes to know where to look.
-enum class Phase { kSurfaces, kDetection, kResponse, kStoring, kRodBounds, kTightening, kPairBounds, kNeighbors };
+enum class Phase { kSurfaces, kDetection, kResponse, kStoring, kRodBounds, kShortening, kPairBounds, kNeighbors };
 inline constexpr std::size_t kPhases = 8;
 inline constexpr std::array<const char*, kPhases> kPhaseNames{"surfaces",   "detection",  "response",    "storing",
-                                                              "rod_bounds", "tightening", "pair_bounds", "neighbors"};
+                                                              "rod_bounds", "shortening", "pair_bounds", "neighbors"};
 
 /// Seconds per phase, by a clock that the caller lends: the physics library has none. Without one, a tick reads no
 /// clock and a lap costs one branch.

@@ -90,14 +90,14 @@ std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
     storing_.begin_flights(world, now, share);
     lap(share, Phase::kStoring);
     storing_.spend_budgets(now, share);
-    lap(share, Phase::kTightening);
+    lap(share, Phase::kShortening);
     surfaces_.schedule(world, now, share);
     lap(share, Phase::kRodBounds);
   });
   if (std::ranges::none_of(shares_, &Share::has_pairs)) return {};
   in_loop([&](Share& share) {
     bounding_.shorten(now, share);
-    lap(share, Phase::kTightening);
+    lap(share, Phase::kShortening);
     bounding_.bound_flights(world, now, share);
   });
   in_loop([&](Share& share) { bounding_.schedule(now, share); });

@@ -3,52 +3,63 @@
 
 #include <vector>
 
-#include "sim/schedule/loops.h"
-#include "sim/schedule/pair_schedule.h"
-#include "sim/schedule/pair_search.h"
 #include "sim/schedule/sharing_trial.h"
 #include "sim/stepping/detection_phase.h"
 #include "sim/stepping/neighbor_upkeep.h"
 #include "sim/stepping/pair_bounding.h"
-#include "sim/stepping/rod_states.h"
-#include "sim/stepping/share.h"
 #include "sim/stepping/stepper.h"
 #include "sim/stepping/storing_phase.h"
 #include "sim/stepping/surfaces_phase.h"
-#include "sim/tick/tick.h"
 
 namespace shaken {
 
-/// Visits a rod or a pair only at the ticks at which contact is possible. After each visit a rigorous bound
-/// (bounds/safe_time.h, bounds/plate_safe_time.h) says until when nothing can happen, and a timing wheel brings the rod
-/// or pair back in time. What happens at a visit is defined in tick/tick.h, so the trajectory is the reference
-/// stepper's, bit for bit. docs/stepper.md explains it with figures.
+/// Visits a rod or a pair only at the ticks at which contact is possible. After each visit a rigorous bound (bounds/)
+/// says until when nothing can happen, and a timing wheel brings the rod or pair back in time. What happens at a visit
+/// is defined in tick/tick.h, so the trajectory is the reference stepper's, bit for bit. docs/stepper.md says why.
 ///
 /// The life of a pair:
 ///
-///     two rods come near      bound: nothing can happen         it comes up, a little before the bound ends
-///     (NeighborList)          for so many ticks                 (TimingWheel)
-///          |                        |                                |
-///          v                        v                                v
-///        search --------------->  bound ------- waits ----------->  enough time left? -- no --> search --> ...
-///          |                        ^           ^ |   |              |
-///          v                        |           | |   |              | yes (PairSchedule::defer)
-///      contacts?                    |           +-+---|--------------+
-///      response, storing            |             |   +---> the rods have parted: forgotten (NeighborList)
-///                                   +-------------+
-///                hits have overspent the pair's budget: it comes up sooner (PairSchedule::shorten_bound)
-///                or, if that were too soon, gets a new bound
+///     two rods come near                                                     the rods have parted
+///     (NeighborUpkeep)                                                       (NeighborUpkeep)
+///          |                                                                       ^
+///          v                                                                       |
+///       SEARCH -- beads overlap --> response: impulse, new flights                 |
+///          |  \_________________________________|                                  |
+///          v                                    v                                  |
+///        BOUND: the gap is at least `residual` at the bound's end, and closes at `rate`
+///          |      tick:  now                 until       end
+///          |              |--------------------|----------|
+///          |              sleeps               the last part is kept back: what the gap still is at `until`
+///          v                                   is shared by the two rods as their BUDGETS, half each (GapBudgets)
+///        ASLEEP -- a hit on one of its rods spends a part of that rod's budget
+///          |   '-- budget overspent --> SHORTEN: the time that remains follows from the gap, the rate and all hits
+///          v                            since; if it is too short to be worth it, a new BOUND is made
+///        COMES UP at `until` + 1
+///          |-- some ticks of the bound remain --> DEFER: back to sleep, with new budgets
+///          '-- none worth it                  --> SEARCH
 ///
-/// Four things keep the work small:
-///  1. A hit does not end a bound. Plates hit a rod thousands of times per second; each hit spends a little of the
-///     budgets that the bounds of all its pairs leave it (GapBudgets), in one vector operation.
-///  2. A rod that a plate hits tick after tick rests on it and is visited at the next tick without a bound.
-///  3. Beads that overlap but recede are left alone, unless a rod of theirs may be hit in this very tick.
-///  4. Rods meet plates several at a time (tick/plate_impacts.h).
+/// A tick. Every rod and every pair belongs to a share (Share), and each share may have a thread of its own. Loops
+/// marked || run on all shares at once, each on what belongs to it; the first thread alone does those marked 1, which
+/// concern several shares. Lists are members of Share.
 ///
-/// Every rod and every pair belongs to a share, and each share may have a thread of its own (SharedLoops). A tick is
-/// five loops in which each share handles what belongs to it; in between the first thread alone does what concerns
-/// several shares: places in the neighbour list, and the impulses between rods.
+///     phase         loop                               reads                        leaves
+///     ------------------------------------------------------------------------------------------------------------
+///     1 surfaces    || SurfacesPhase::meet_due         rods' wheel, polled          visited, hit, to_place, failed
+///                   1  gather                          visited                      counters of the world, trouble
+///     2 detection   1  NeighborUpkeep::place_rods      to_place                     places in the neighbour list
+///                   || find_near                       to_place                     near
+///                      DetectionPhase::search_due      pairs' wheel, hit            searched, contacts, toggled
+///                   1  gather                          contacts, toggled            contacts of all
+///                      NeighborUpkeep::replace_pairs   to_place, near               pairs gained and lost
+///                      search_gained, search_touching  hit                          contacts in the order of response
+///     3 response    1  collide_rods                    contacts                     rods with new motions
+///     4 storing     1  StoringPhase::check_hit         contacts, failed             hit: all rods hit; to_schedule
+///                   || begin_flights                   hit                          new flights, jumps
+///                      spend_budgets                   hit, jumps                   overspent, by the pairs' owners
+///       bounds         SurfacesPhase::schedule         visited, to_schedule         rods' wheel, polled
+///                   || PairBounding::shorten           searched, overspent          pairs' wheel, to_bound
+///                      bound_flights                   to_bound                     flight bounds (each once: claim)
+///                   || schedule                        to_bound                     pairs' wheel, new budgets
 class ScheduledStepper final : public Stepper {
  public:
   /// A tick is shared among the threads if the one before it had at least `grain` visits and bounds for each.

@@ -6,15 +6,14 @@
 #include <vector>
 
 #include "sim/bounds/velocity_jump.h"
-#include "sim/schedule/pair_schedule.h"
 #include "sim/schedule/pair_search.h"
 #include "sim/stepping/rod_states.h"
 #include "sim/stepping/share.h"
 
 namespace shaken {
 
-/// Phase 4 of a tick, and what it costs bounds: rods that were hit begin new flights, and each hit spends of the budgets
-/// of all pairs of its rod. Keeps references.
+/// Phase 4 of a tick, and its price: rods that were hit begin new flights, and each hit spends of the budgets of its
+/// rod's pairs. Keeps references.
 class StoringPhase {
  public:
   StoringPhase(const PairSearch& search, const NeighborList& neighbors, PairSchedule& pairs, RodStates& rods,
@@ -65,7 +64,7 @@ class StoringPhase {
       if (rod.displaced) rods_.skin_budgets[i].measure(neighbors_, i, rod.pose, now);
       const double half_length = rules.species_of(i).half_length;
       if (rods_.marks[i].hit_again_at == now)
-        rods_.skin_budgets[i].cover_tick(flight, half_length, now, rules.dt, pull);
+        rods_.skin_budgets[i].cover_tick(flight, {rules.dt, pull, half_length}, now);
       note_jump(i, before, flight, half_length);
     }
   }
@@ -95,7 +94,7 @@ class StoringPhase {
 
   /// Notes what the hits on a rod did to its motion.
   [[gnu::always_inline]] void note_jump(int i, const Before& before, const Flight& flight, double half_length) {
-    const auto slow = static_cast<double>(search_.slow());
+    const auto slow = static_cast<double>(search_.slow_speed());
     const auto in_plane = [](const Vec3& v) { return std::max(std::abs(v.x()), std::abs(v.y())); };
     const RodAtTick& rod = rods_.at_tick[i];
     VelocityJump& jump = jumps_[i];

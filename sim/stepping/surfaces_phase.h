@@ -64,7 +64,7 @@ class SurfacesPhase {
     for (const int i : share.visited) {
       (rods_.marks[i].hit_again_at == now ? share.polled : share.to_schedule).push_back(i);
     }
-    share.counts.count(WorkKind::kRodsResting, std::ssize(share.polled));
+    share.counts.count(WorkKind::kRodsPolled, std::ssize(share.polled));
     share.counts.count(WorkKind::kRodsBounded, std::ssize(share.to_schedule));
     constexpr Tick kHorizon = TimingWheel::horizon() - 1;
     const TickRules& rules = rods_.rules;
@@ -77,9 +77,9 @@ class SurfacesPhase {
       off_surface_ticks(rods, world, rods_.at_tick, now, kHorizon, rules, share.plate_lanes, ticks);
       for (std::size_t lane = 0; lane < rods.size(); ++lane) {
         const int i = rods[lane];
-        const Tick covered =
-            rods_.skin_budgets[i].covered_ticks(neighbors_, i, world.rods[i], rods_.at_tick[i].pose,
-                                                rules.species_of(i).half_length, now, rules.dt, kHorizon, pull);
+        const SkinBudget::Steps steps{rules.dt, pull, rules.species_of(i).half_length};
+        const Tick covered = rods_.skin_budgets[i].covered_ticks(neighbors_, i, world.rods[i], rods_.at_tick[i].pose,
+                                                                 steps, now, kHorizon);
         wheel_.set(i, now + 1 + std::min(ticks[lane], covered), static_cast<int>(share.number));
       }
     });
@@ -153,9 +153,9 @@ class SurfacesPhase {
     void begin(int i) const {
       rods.marks[i].posed_at = rods.marks[i].listed_at = now;
       SkinBudget& budget = rods.skin_budgets[i];
-      if (budget.left(now, rules.dt) >= SkinBudget::kLeast) return;
+      if (budget.remaining(now, rules.dt) >= SkinBudget::kLeast) return;
       budget.measure(neighbors, i, rods.flight_pose(i), now);
-      if (budget.left(now, rules.dt) < SkinBudget::kLeast) share.to_place.push_back(i);
+      if (budget.remaining(now, rules.dt) < SkinBudget::kLeast) share.to_place.push_back(i);
     }
 
     void end(int i) const {

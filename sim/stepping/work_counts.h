@@ -11,14 +11,14 @@ namespace shaken {
 enum class WorkKind {
   kRodsVisited,      ///< for surfaces
   kRodsHit,          ///< of these, hit by a surface
-  kRodsResting,      ///< of these, to be visited at the next tick without a bound
+  kRodsPolled,       ///< of these, to be visited at the next tick without a bound
   kRodsBounded,      ///< bounds on the time to the next surface
   kRodsPlaced,       ///< entered into the neighbour list anew
   kPairsSearched,    ///< for contacts
   kPairsTouching,    ///< of these, with overlapping beads
   kVelocityJumps,    ///< hits on rods, spent from the budgets of their pairs
   kBoundsShortened,  ///< bounds that were kept, shorter, although hits had used up what they were allowed
-  kPairsDeferred,    ///< came up with much of the bound's time left, and were not searched
+  kPairsDeferred,    ///< came up with much of the bound's time to come, and were not searched
   kPairsBounded,     ///< new bounds on the time to contact
   kBoundsWhenDue,    ///< of these, after a search; the others because a rod was hit
   kBoundsByBeads,    ///< of these, for which beads were looked at
@@ -26,7 +26,7 @@ enum class WorkKind {
 };
 inline constexpr std::size_t kWorkKinds = 14;
 inline constexpr std::array<const char*, kWorkKinds> kWorkNames{
-    "rods_visited",   "rods_hit",        "rods_resting",    "rods_bounded",     "rods_placed",
+    "rods_visited",   "rods_hit",        "rods_polled",     "rods_bounded",     "rods_placed",
     "pairs_searched", "pairs_touching",  "velocity_jumps",  "bounds_shortened", "pairs_deferred",
     "pairs_bounded",  "bounds_when_due", "bounds_by_beads", "bounds_of_no_tick"};
 

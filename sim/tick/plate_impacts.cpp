@@ -12,33 +12,14 @@ namespace shaken {
 namespace {
 
 /// The effects that the lanes know. Those between rods, at side walls and at posts take place elsewhere.
-constexpr std::string_view kKnownEffects[] = {"gravity",
-                                              "vibration",
-                                              "tilt",
-                                              "species",
-                                              "taper",
-                                              "spin",
-                                              "rod_rod_collisions",
-                                              "rod_rod_friction",
-                                              "rod_rod_restitution",
-                                              "rod_base_collisions",
-                                              "rod_base_friction",
-                                              "rod_base_restitution",
-                                              "rod_lid_collisions",
-                                              "rod_lid_friction",
-                                              "rod_lid_restitution",
-                                              "side_walls",
-                                              "side_wall_friction",
-                                              "posts",
-                                              "post_friction",
-                                              "rotational_noise",
-                                              "impacts_at_instant",
-                                              "horizontal_vibration",
-                                              "second_vibration",
-                                              "lid_motion",
-                                              "inclination",
-                                              "restitution_speed",
-                                              "species_contacts"};
+// clang-format off
+constexpr std::string_view kKnownEffects[] = {
+    "gravity", "vibration", "tilt", "species", "taper", "spin", "rod_rod_collisions", "rod_rod_friction",
+    "rod_rod_restitution", "rod_base_collisions", "rod_base_friction", "rod_base_restitution", "rod_lid_collisions",
+    "rod_lid_friction", "rod_lid_restitution", "side_walls", "side_wall_friction", "posts", "post_friction",
+    "rotational_noise", "impacts_at_instant", "horizontal_vibration", "second_vibration", "lid_motion", "inclination",
+    "restitution_speed", "species_contacts"};
+// clang-format on
 
 using lanes::ComplianceOf;
 using lanes::Doubles;
@@ -266,8 +247,8 @@ struct PlateHitKernel {
   /// As in tick/impact.h; 0: none within this tick [s].
   template <class D>
   SHAKEN_INLINE D time_since_touch(const BeadsOf<D>& beads, const D& speed) const {
-    const D left = beads.overlap > 0.0 ? speed * rules.dt - beads.overlap : -1.0 - beads.overlap;
-    return left >= 0.0 ? beads.overlap / speed : D{};
+    const D within = beads.overlap > 0.0 ? speed * rules.dt - beads.overlap : -1.0 - beads.overlap;
+    return within >= 0.0 ? beads.overlap / speed : D{};
   }
 
   /// impact::fly, of rods whose time is not 0. Not known here: a large turn, or none.
@@ -486,17 +467,17 @@ std::uint32_t meet_plates_in_lanes(std::span<const int> rods, const std::vector<
   } else {
     lanes::with_widest_doubles(PlateHitKernel<false>{species, rules, plates_met, now, in, since, sign, n, hits});
   }
-  std::uint32_t left = 0;
+  std::uint32_t unresolved = 0;
   for (int lane = 0; lane < n; ++lane) {
     if (!hits.is_known(lane)) {
-      left |= 1U << lane;
+      unresolved |= 1U << lane;
       continue;
     }
     hits.get(lane, at_tick[rods[lane]]);
     if (hits.are_at_instant) hits.get_flight_pose(lane, flight_pose[rods[lane]]);
     hits.count(lane, counters);
   }
-  return left;
+  return unresolved;
 }
 
 }  // namespace shaken

@@ -20,8 +20,8 @@ bool lanes_know(const System& system, std::span<const Effect> effects = all_effe
 
 /// Phase 1 of a tick for up to kDoubleLanes rods of one species, but for side walls and posts. `at_tick` gets the pose
 /// of each rod and, where a bead is in a plate, its motion; `flight_pose`, with impacts at their instant only, the pose
-/// before a plate displaced it. Returns a bit for each rod, the first one lowest: whether all is left to meet_surfaces,
-/// with a pose that is still to be worked out.
+/// before a plate displaced it. Returns a bit for each rod, the first one lowest: whether it is unresolved, so
+/// that meet_surfaces is to do all, from its pose on.
 std::uint32_t meet_plates_in_lanes(std::span<const int> rods, const std::vector<Flight>& flights,
                                    std::vector<RodAtTick>& at_tick, std::vector<Pose>& flight_pose,
                                    const PlateState& plates, Tick now, const TickRules& rules, Counters& counters);

@@ -136,7 +136,7 @@ TEST(PlateImpacts, AreInLanesWhateverTheSceneAsksFor) {
 TEST(PlateImpacts, InLanesAreBitForBitThoseOfOneRodAfterTheOther) {
   test::Draw draw(71);
   test::AnyWidth width;
-  int n_rods = 0, n_left = 0, n_hit = 0, n_met = 0, n_displaced = 0;
+  int n_rods = 0, n_unresolved = 0, n_hit = 0, n_met = 0, n_displaced = 0;
   std::array<int, RodsNearPlates::kKinds> n_hit_of{};
   for (int trial = 0; trial < test::draws(40000); ++trial) {
     const Tick now = draw.integer(1000, 4000);
@@ -149,13 +149,13 @@ TEST(PlateImpacts, InLanesAreBitForBitThoseOfOneRodAfterTheOther) {
     std::vector<RodAtTick> in_lanes(rods.size());
     Counters counters, expected_counters;
     std::vector<Pose> flight_pose(rods.size());
-    const std::uint32_t left =
+    const std::uint32_t unresolved =
         meet_plates_in_lanes(rods, near.world.rods, in_lanes, flight_pose, near.plates, now, rules, counters);
     for (std::size_t lane = 0; lane < rods.size(); ++lane) {
       const int i = rods[lane];
       ++n_rods;
-      if ((left >> lane) & 1U) {
-        ++n_left;
+      if ((unresolved >> lane) & 1U) {
+        ++n_unresolved;
         continue;
       }
       RodAtTick rod = rod_at_tick(near.world.rods[i], now, rules);
@@ -190,7 +190,7 @@ TEST(PlateImpacts, InLanesAreBitForBitThoseOfOneRodAfterTheOther) {
       EXPECT_TRUE(are_same(counters.ledger.momentum[c], expected_counters.ledger.momentum[c]));
   }
   // most are dealt with, in every way there is
-  EXPECT_LT(n_left, n_rods / 3);
+  EXPECT_LT(n_unresolved, n_rods / 3);
   EXPECT_GT(n_hit, n_rods / 12);
   for (const int n : n_hit_of) EXPECT_GT(n, n_hit / 100);
   EXPECT_GT(n_met, n_rods / 100);
@@ -222,10 +222,10 @@ void expect_no_hit_is_hidden(System system) {
       Counters counters;
       const std::vector<int> rods{0, 1};
       std::vector<Pose> flight_pose(2);
-      const std::uint32_t left =
+      const std::uint32_t unresolved =
           meet_plates_in_lanes(rods, world.rods, in_lanes, flight_pose, plates, now, rules, counters);
-      EXPECT_EQ(left & 1U, turns_at != 0 ? 1U : 0U);
-      ASSERT_EQ(left & 2U, 0U);
+      EXPECT_EQ(unresolved & 1U, turns_at != 0 ? 1U : 0U);
+      ASSERT_EQ(unresolved & 2U, 0U);
       EXPECT_TRUE(in_lanes[1].has_motion) << (at_lid ? "lid" : "base") << ", turns at " << turns_at;
     }
   }

@@ -80,7 +80,7 @@ struct FlyingPair {
   struct HullBound {
     double time;
     Vec3 direction;
-    float gap, left;
+    float gap, gap_at_end;
   };
   HullBound hull_bound(double horizon) const {
     const Hull hull(species);
@@ -92,7 +92,7 @@ struct FlyingPair {
     return {safe.time[kLane],
             {safe.direction[0][kLane], safe.direction[1][kLane], safe.direction[2][kLane]},
             safe.gap[kLane],
-            safe.left[kLane]};
+            safe.gap_at_end[kLane]};
   }
   BeadSafeTime bead_bound(double horizon) const {
     const BeadLanes lanes(species);
@@ -412,14 +412,15 @@ struct WaitingPair {
     const BeadSafeTime beads = pair.bead_bound(kHorizon);
     const float time = of_beads ? beads.time : static_cast<float>(hull.time);
     const float gap = of_beads ? beads.gap : hull.gap;
-    const float left = of_beads ? 0.0F : hull.left;
+    const float gap_at_end = of_beads ? 0.0F : hull.gap_at_end;
     const auto ticks = static_cast<int>(static_cast<double>(time) / dt * (1 - 1e-5));
     table.make_room(1);
     table.add(0, {0, 1}, 0);
     Direction direction;
     for (std::size_t c = 0; c < 3; ++c) direction[c] = static_cast<float>(hull.direction[static_cast<Eigen::Index>(c)]);
     const auto until = static_cast<float>(ticks) * static_cast<float>(dt);
-    table.set_bound(0, 0, ticks, direction, gap > 0 ? GapBound::between(gap, left, time, until, of_beads) : GapBound{});
+    table.set_bound(0, 0, ticks, direction,
+                    gap > 0 ? GapBound::between(gap, gap_at_end, time, until, of_beads) : GapBound{});
     end = ticks;
   }
   Tick due() const { return const_cast<PairSchedule&>(table).wheel().due(0, now); }

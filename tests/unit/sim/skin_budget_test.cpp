@@ -11,7 +11,7 @@ namespace shaken {
 namespace {
 
 /// A rod that creeps along and is visited at each of many ticks, by a path so short per tick that it is less than half
-/// of the last bit of what is left: at no time may more be left than the list says when it is asked.
+/// of the last bit of what remains: at no time may more remain than the list says when it is asked.
 void creep(double speed, bool rests) {
   constexpr double kDt = 4e-6;
   constexpr double kBox = 30;
@@ -31,12 +31,12 @@ void creep(double speed, bool rests) {
   for (Tick now = 1; now <= 3'000'000; ++now) {
     const Vec3 place = flight.position + static_cast<double>(now) * kDt * flight.velocity;
     if (rests) {
-      reserve.cover_tick(flight, half_length, now, kDt, 0);
+      reserve.cover_tick(flight, {kDt, 0, half_length}, now);
     } else {
-      reserve.covered_ticks(list, 0, flight, {place, flight.director}, half_length, now, kDt, 4000, 0);
+      reserve.covered_ticks(list, 0, flight, {place, flight.director}, {kDt, 0, half_length}, now, 4000);
     }
     if (now % 1000 != 0) continue;
-    ASSERT_LE(static_cast<double>(reserve.left(now, kDt)), list.slack(0, {place, flight.director}))
+    ASSERT_LE(static_cast<double>(reserve.remaining(now, kDt)), list.slack(0, {place, flight.director}))
         << speed << " mm/s, tick " << now;
   }
 }
@@ -69,12 +69,12 @@ TEST(SkinBudget, CountsDownWhatARodSlidesDownASlope) {
     SkinBudget reserve;
     reserve.measure(list, 0, poses[0], 0);
     int n_looked = 0;
-    for (Tick now = 1; reserve.left(now, kDt) > SkinBudget::kLeast && n_looked < 10000; ++n_looked) {
+    for (Tick now = 1; reserve.remaining(now, kDt) > SkinBudget::kLeast && n_looked < 10000; ++n_looked) {
       const auto pose_at = [&](Tick k) { return pose_after(flight, static_cast<double>(k) * kDt, gravity); };
-      const Tick covered = reserve.covered_ticks(list, 0, flight, pose_at(now), half_length, now, kDt, 4000, 600);
+      const Tick covered = reserve.covered_ticks(list, 0, flight, pose_at(now), {kDt, 600, half_length}, now, 4000);
       for (const Tick k : {now, now + covered / 2, now + covered, now + covered + 1}) {
         const double slack = list.slack(0, pose_at(k));
-        ASSERT_LE(static_cast<double>(reserve.left(k, kDt)), slack) << speed << " mm/s, tick " << k;
+        ASSERT_LE(static_cast<double>(reserve.remaining(k, kDt)), slack) << speed << " mm/s, tick " << k;
         if (k <= now + covered) {
           ASSERT_GE(slack, 0) << speed << " mm/s, tick " << k;
         }

@@ -25,11 +25,11 @@ WorkCounts counts_of(Tick ticks, int n_threads) {
 TEST(WorkCounts, AddUp) {
   const WorkCounts counts = counts_of(10000, 1);
   const auto of = [&](WorkKind kind) { return counts.of(kind); };
-  EXPECT_GT(of(WorkKind::kRodsResting), 0);
-  EXPECT_GE(of(WorkKind::kRodsHit), of(WorkKind::kRodsResting));
+  EXPECT_GT(of(WorkKind::kRodsPolled), 0);
+  EXPECT_GE(of(WorkKind::kRodsHit), of(WorkKind::kRodsPolled));
   EXPECT_GE(of(WorkKind::kRodsVisited), of(WorkKind::kRodsHit));
-  // every visited rod gets a bound or rests; those that others hit get one, too
-  EXPECT_GE(of(WorkKind::kRodsBounded), of(WorkKind::kRodsVisited) - of(WorkKind::kRodsResting));
+  // every visited rod gets a bound or is polled; those that others hit get one, too
+  EXPECT_GE(of(WorkKind::kRodsBounded), of(WorkKind::kRodsVisited) - of(WorkKind::kRodsPolled));
   EXPECT_GT(of(WorkKind::kPairsTouching), 0);
   EXPECT_GT(of(WorkKind::kPairsSearched), of(WorkKind::kPairsTouching));
   // what was searched gets a bound
@@ -48,9 +48,9 @@ TEST(WorkCounts, AddUp) {
 TEST(WorkCounts, OfThreadsAreAdded) {
   const WorkCounts one = counts_of(3000, 1);
   const WorkCounts three = counts_of(3000, 3);
-  // what is hit is physics; how bounds are tightened may depend on the order of hits
+  // what is hit is physics; how bounds are shortened may depend on the order of hits
   EXPECT_EQ(three.of(WorkKind::kRodsHit), one.of(WorkKind::kRodsHit));
-  EXPECT_EQ(three.of(WorkKind::kRodsResting), one.of(WorkKind::kRodsResting));
+  EXPECT_EQ(three.of(WorkKind::kRodsPolled), one.of(WorkKind::kRodsPolled));
   EXPECT_GT(three.of(WorkKind::kPairsBounded), one.of(WorkKind::kPairsBounded) / 2);
 }
 
