@@ -33,8 +33,8 @@ SHAKEN_INLINE lanes::Vectors<F> to_center(const Shared& in, const F& offset_i) {
 /// Index of the last bead of j before a coordinate on its axis.
 template <class F>
 SHAKEN_INLINE F bead_before(const BeadLanes& j, const F& foot) {
-  const F place = (foot - j.first) * (1.0F / j.pitch);
-  return lanes::truncated(lanes::smaller(lanes::larger(place, F{}), F{} + j.last));
+  const F place = (foot - j.first_offset) * (1.0F / j.pitch);
+  return lanes::truncated(lanes::smaller(lanes::larger(place, F{}), F{} + j.last_index));
 }
 
 /// Square of how far points at x are beside an axis on which their feet are, or less: the difference of two squares
@@ -47,7 +47,7 @@ SHAKEN_INLINE F across_squared(const lanes::Vectors<F>& x, const F& foot) {
 /// How far a coordinate on the axis of j is beyond its end; 0 within it.
 template <class F>
 SHAKEN_INLINE F beyond_end(const BeadLanes& j, const F& foot) {
-  return lanes::not_below_zero(lanes::larger(foot - j.end, j.first - foot));
+  return lanes::not_below_zero(lanes::larger(foot - j.last_offset, j.first_offset - foot));
 }
 
 /// How far apart beads of i and the hull of j are at least: the hull is the spheres of radius mid_radius - taper |s|,
@@ -56,7 +56,7 @@ template <class F>
 SHAKEN_INLINE F gap_to_hull(const BeadLanes& j, const F& radius, const F& foot, const F& across2) {
   const F outside = beyond_end(j, foot);
   const F along = lanes::abs(foot) - outside;
-  return j.cosine * lanes::sqrt(across2 + outside * outside) + j.thinning * along - j.max_radius - radius;
+  return j.sure_cosine * lanes::sqrt(across2 + outside * outside) + j.sure_taper * along - j.max_radius - radius;
 }
 
 /// Radius of the hull of j at a coordinate on its axis: that of a bead there, or more.
@@ -67,27 +67,27 @@ SHAKEN_INLINE F hull_radius(const BeadLanes& j, const F& s) {
 
 /// The beads of j that are not tried next to a foot on its axis, seen from there: how far along the axis the nearest
 /// can be, at least, and how thick, at most. Further ones are thicker at most by the steepest taper, which is less than
-/// what they are further away, unless the foot is very far beside the axis: `widest` is as far as counts.
+/// what they are further away, unless the foot is very far beside the axis: `untried_width` is as far as counts.
 template <class F>
 struct Untried {
   F along, radius;
   SHAKEN_INLINE Untried(const BeadLanes& j, const F& foot) {
-    const F inside = lanes::smaller(lanes::larger(foot, F{} + j.first), F{} + j.end);
-    along = lanes::abs(foot - inside) + j.beyond;
-    radius = lanes::larger(hull_radius(j, lanes::larger(inside - j.beyond, F{} + j.first)),
-                           hull_radius(j, lanes::smaller(inside + j.beyond, F{} + j.end)));
-    radius = lanes::larger(radius, F{} + j.least_untried);
+    const F inside = lanes::smaller(lanes::larger(foot, F{} + j.first_offset), F{} + j.last_offset);
+    along = lanes::abs(foot - inside) + j.untried_from;
+    radius = lanes::larger(hull_radius(j, lanes::larger(inside - j.untried_from, F{} + j.first_offset)),
+                           hull_radius(j, lanes::smaller(inside + j.untried_from, F{} + j.last_offset)));
+    radius = lanes::larger(radius, F{} + j.untried_radius);
   }
   SHAKEN_INLINE F distance2(const BeadLanes& j, const F& across2) const {
-    return lanes::smaller(across2, F{} + j.widest * j.widest) + along * along;
+    return lanes::smaller(across2, F{} + j.untried_width * j.untried_width) + along * along;
   }
 };
 
 /// Coordinate of the k-th bead of j after `before`, or of the last one that there is.
 template <class F>
 SHAKEN_INLINE F bead_offset(const BeadLanes& j, const F& before, int k) {
-  const F index = lanes::smaller(lanes::larger(before + static_cast<float>(k), F{}), F{} + j.last);
-  return index * j.pitch + j.first;
+  const F index = lanes::smaller(lanes::larger(before + static_cast<float>(k), F{}), F{} + j.last_index);
+  return index * j.pitch + j.first_offset;
 }
 
 /// A time as a fraction, so that the smallest of many is found without dividing.
@@ -132,7 +132,7 @@ struct OverlapKernel {
     const Untried<F> untried(j, foot);
     const F cut = lanes::not_below_zero(radius + untried.radius);
     F clear = untried.distance2(j, across2) - cut * cut;
-    for (int k = j.from; k <= j.reach; ++k) {
+    for (int k = j.first_tried; k <= j.last_tried; ++k) {
       const F s_j = bead_offset(j, before, k);
       const lanes::Vectors<F> r{x.x + s_j * in.n_j[0], x.y + s_j * in.n_j[1], x.z + s_j * in.n_j[2]};
       const F touch = lanes::not_below_zero(radius + hull_radius(j, s_j));
@@ -146,13 +146,39 @@ struct OverlapKernel {
   }
 };
 
+/// How beads of i and those of j at a distance m past the bead before their feet approach each other. Their centres are
+/// r = r_0 + m n_j apart, and their distance grows by rate |r| = (v_0 + m n_j') . (r_0 + m n_j): a polynomial in m.
+template <class F>
+struct Approach {
+  F r2, along;  ///< r_0 . r_0, r_0 . n_j
+  F rate_0, rate_1;
+  float rate_2;
+
+  SHAKEN_INLINE Approach(const Shared& in, const Relative& motion, const lanes::Vectors<F>& x, const F& s_i,
+                         const F& s_0) {
+    const lanes::Vectors<F> r{x.x + s_0 * in.n_j[0], x.y + s_0 * in.n_j[1], x.z + s_0 * in.n_j[2]};
+    r2 = lanes::dot(r, r);
+    along = r.x * in.n_j[0] + r.y * in.n_j[1] + r.z * in.n_j[2];
+    const lanes::Vectors<F> v{motion.v[0] + s_0 * motion.turn_j[0] - s_i * motion.turn_i[0],
+                              motion.v[1] + s_0 * motion.turn_j[1] - s_i * motion.turn_i[1],
+                              motion.v[2] + s_0 * motion.turn_j[2] - s_i * motion.turn_i[2]};
+    rate_0 = lanes::dot(v, r);
+    rate_1 = v.x * in.n_j[0] + v.y * in.n_j[1] + v.z * in.n_j[2] + r.x * motion.turn_j[0] + r.y * motion.turn_j[1] +
+             r.z * motion.turn_j[2];
+    rate_2 = motion.turn_j[0] * in.n_j[0] + motion.turn_j[1] * in.n_j[1] + motion.turn_j[2] * in.n_j[2];
+  }
+  SHAKEN_INLINE F distance(const F& m) const {
+    return lanes::sqrt(lanes::larger(r2 + m * (2.0F * along + m), F{} + 1e-30F));
+  }
+  SHAKEN_INLINE F rate_times_distance(const F& m) const { return rate_0 + m * (rate_1 + m * rate_2); }
+};
+
 /// Safe time of the beads of i against the beads of j around each one's foot on j's axis. Beads that are too far away
 /// to be first are left out, a vector of them at a time.
 ///
-/// Beads whose centres are r = r_0 + m n_j apart, with r_0 that of the bead before the foot, come together with
-/// rate |r| = (V + m w_j) . (r_0 + m n_j): a polynomial in m. Everything is multiplied by the distance |r|, which saves
-/// a division. With a gap, gap >= g + g' t - curvature t^2, where t^2 <= horizon t; overlapping, g' >= g'(0) - 2
-/// curvature t.
+/// Everything is multiplied by the distance of the beads, which saves a division. With a gap,
+///     gap(t) >= gap + rate t - curvature t^2, where t^2 <= horizon t;
+/// overlapping, rate(t) >= rate - 2 curvature t.
 struct SafeTimeKernel {
   const Shared& in;
   const Relative& motion;
@@ -208,23 +234,14 @@ struct SafeTimeKernel {
     Fraction<F> safe{far, lanes::all<W>(motion.fastest)};
 
     const F s_0 = bead_offset(j, before, 0);
-    const lanes::Vectors<F> r{x.x + s_0 * in.n_j[0], x.y + s_0 * in.n_j[1], x.z + s_0 * in.n_j[2]};
-    const F r2 = lanes::dot(r, r);
-    const F along = r.x * in.n_j[0] + r.y * in.n_j[1] + r.z * in.n_j[2];
-    const lanes::Vectors<F> v{motion.v[0] + s_0 * motion.turn_j[0] - s_i * motion.turn_i[0],
-                              motion.v[1] + s_0 * motion.turn_j[1] - s_i * motion.turn_i[1],
-                              motion.v[2] + s_0 * motion.turn_j[2] - s_i * motion.turn_i[2]};
-    const F rate_0 = lanes::dot(v, r);
-    const F rate_1 = v.x * in.n_j[0] + v.y * in.n_j[1] + v.z * in.n_j[2] + r.x * motion.turn_j[0] +
-                     r.y * motion.turn_j[1] + r.z * motion.turn_j[2];
-    const float rate_2 = motion.turn_j[0] * in.n_j[0] + motion.turn_j[1] * in.n_j[1] + motion.turn_j[2] * in.n_j[2];
+    const Approach<F> approach(in, motion, x, s_i, s_0);
     const F bend_i = lanes::abs(s_i) * motion.bend_i;
-    for (int k = j.from; k <= j.reach; ++k) {
+    for (int k = j.first_tried; k <= j.last_tried; ++k) {
       const F s_j = bead_offset(j, before, k);
       const F m = s_j - s_0;
-      const F distance = lanes::sqrt(lanes::larger(r2 + m * (2.0F * along + m), F{} + 1e-30F));
+      const F distance = approach.distance(m);
       const F gap = distance - (radius + hull_radius(j, s_j));
-      const F rate = rate_0 + m * (rate_1 + m * rate_2) - (motion.rounding * distance + motion.turned);
+      const F rate = approach.rate_times_distance(m) - (motion.rounding * distance + motion.turned);
       const F curvature = bend_i + lanes::abs(s_j) * motion.bend_j;
       const F gap_times_distance = gap * distance;
       const F closing = lanes::not_below_zero(curvature * horizon * distance - rate);
@@ -285,22 +302,22 @@ BeadLanes::BeadLanes(const Species& species)
       max_radius(static_cast<float>(species.max_radius)),
       taper(static_cast<float>(0.5 * (species.taper(species.head) + species.taper(species.tail)))),
       skew(static_cast<float>(0.5 * (species.taper(species.head) - species.taper(species.tail)))),
-      first(static_cast<float>(species.bead_offset.front())),
-      end(static_cast<float>(species.bead_offset.back())),
-      last(static_cast<float>(species.n_beads() - 1)),
+      first_offset(static_cast<float>(species.bead_offset.front())),
+      last_offset(static_cast<float>(species.bead_offset.back())),
+      last_index(static_cast<float>(species.n_beads() - 1)),
       pitch(static_cast<float>(species.pitch())),
-      reach(species.n_beads() > 1 ? static_cast<int>(std::ceil(1.1F * max_radius / pitch)) : 0),
-      from(std::min(0, 1 - reach)),
-      beyond(reach > 0 ? static_cast<float>(reach) * pitch : 1e3F) {
+      last_tried(species.n_beads() > 1 ? static_cast<int>(std::ceil(1.1F * max_radius / pitch)) : 0),
+      first_tried(std::min(0, 1 - last_tried)),
+      untried_from(last_tried > 0 ? static_cast<float>(last_tried) * pitch : 1e3F) {
   // gap_to_hull looks at both ends alike
-  if (taper > 0.0F && taper < 1.0F && species.tail.length == species.head.length && skew == 0.0F) thinning = taper;
-  cosine = std::sqrt(1.0F - thinning * thinning);
-  // a steeper taper than this would let `widest` fall to where rods touch
+  if (taper > 0.0F && taper < 1.0F && species.tail.length == species.head.length && skew == 0.0F) sure_taper = taper;
+  sure_cosine = std::sqrt(1.0F - sure_taper * sure_taper);
+  // a steeper taper than this would let `untried_width` fall to where rods touch
   const float steepest = std::abs(taper) + std::abs(skew);
   if (steepest < 0.3F) {
-    if (steepest > 0.0F) widest = beyond * std::sqrt(1.0F / (steepest * steepest) - 1.0F);
+    if (steepest > 0.0F) untried_width = untried_from * std::sqrt(1.0F / (steepest * steepest) - 1.0F);
   } else {
-    least_untried = max_radius;
+    untried_radius = max_radius;
   }
   const int n_lanes = (species.n_beads() + kLanes - 1) / kLanes * kLanes;
   for (int lane = 0; lane < n_lanes; ++lane) {
@@ -316,7 +333,7 @@ BeadRange beads_may_overlap(const BeadLanes& i, const Vec3& n_i, const BeadLanes
   set_vector(director_j, n_j);
   const Shared in = shared(i, director_i, j, director_j, D);
   BeadRange beads = lanes::with_widest_vectors(OverlapKernel{in, i, j});
-  beads.to = std::min(beads.to, static_cast<int>(i.last) + 1);  // lanes past the last bead hold none
+  beads.to = std::min(beads.to, static_cast<int>(i.last_index) + 1);  // lanes past the last bead hold none
   return beads;
 }
 

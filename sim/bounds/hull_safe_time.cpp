@@ -77,15 +77,28 @@ struct HullKernel {
   SHAKEN_INLINE void bound(int l) const {
     using F = lanes::Floats<W>;
     using V = lanes::Vectors<F>;
+    const V D = lanes::load<W>(pairs.D, l);
+    const V n_i = lanes::load<W>(pairs.director_i, l);
+    const V n_j = lanes::load<W>(pairs.director_j, l);
+    const V d = direction<W>(D, n_i, n_j);
+    const typename Gap<F>::Safe bound = gap_along<W>(d, l, D, n_i, n_j).safe_time(horizon);
+    lanes::store(safe.direction[0] + l, d.x);
+    lanes::store(safe.direction[1] + l, d.y);
+    lanes::store(safe.direction[2] + l, d.z);
+    lanes::store(safe.time + l, bound.time);
+    lanes::store(safe.gap + l, bound.start);
+    lanes::store(safe.gap_at_end + l, bound.end);
+  }
+
+  /// Between points s on the axis of i and t on that of j that are nearly closest to each other; up if those coincide.
+  template <int W, class V>
+  SHAKEN_INLINE V direction(const V& D, const V& n_i, const V& n_j) const {
+    using F = lanes::Floats<W>;
     const float lean_i = i.taper / std::sqrt(std::max(1e-12F, 1.0F - i.taper * i.taper));
     const float lean_j = j.taper / std::sqrt(std::max(1e-12F, 1.0F - j.taper * j.taper));
     const F h_i = lanes::all<W>(i.half_length);
     const F h_j = lanes::all<W>(j.half_length);
-    const V D = lanes::load<W>(pairs.D, l);
-    const V n_i = lanes::load<W>(pairs.director_i, l);
-    const V n_j = lanes::load<W>(pairs.director_j, l);
-
-    // closest points s on i and t on j; distances between them from products of the inputs
+    // distances between points of the axes follow from products of the inputs
     const F c = lanes::dot(n_i, n_j);
     const F d_i = lanes::dot(D, n_i);
     const F d_j = lanes::dot(D, n_j);
@@ -108,30 +121,29 @@ struct HullKernel {
     d.x = apart ? d.x * scale : F{};
     d.y = apart ? d.y * scale : F{};
     d.z = apart ? d.z * scale : lanes::all<W>(1.0F);
-    lanes::store(safe.direction[0] + l, d.x);
-    lanes::store(safe.direction[1] + l, d.y);
-    lanes::store(safe.direction[2] + l, d.z);
+    return d;
+  }
 
-    const F gap = lanes::dot(D, d) - (i.mid_radius + j.mid_radius + margins::kHullRadius) -
-                  margins::kHullLength * (lanes::sqrt(D2) + (i.half_length + j.half_length));
-    const F c_i = lanes::dot(n_i, d);
-    const F c_j = lanes::dot(n_j, d);
+  /// The gap along d as a function of time, less all that rounding may have added.
+  template <int W, class V>
+  SHAKEN_INLINE Gap<lanes::Floats<W>> gap_along(const V& d, int l, const V& D, const V& n_i, const V& n_j) const {
+    using F = lanes::Floats<W>;
     const V v = lanes::load<W>(pairs.velocity, l);
-    const V turn_i = lanes::load<W>(pairs.turning_i, l);
-    const V turn_j = lanes::load<W>(pairs.turning_j, l);
-    const Gap<F> along{
-        i,
-        j,
-        gap,
-        lanes::dot(v, d) -
-            (margins::kHullSpeed + lanes::load<W>(pairs.velocity_rounding + l) + margins::kHullRate * lanes::size1(v)),
-        {c_i, lanes::dot(turn_i, d), lanes::load<W>(pairs.half_rate2_i + l), margins::kHullRate * lanes::size1(turn_i)},
-        {c_j, lanes::dot(turn_j, d), lanes::load<W>(pairs.half_rate2_j + l),
-         margins::kHullRate * lanes::size1(turn_j)}};
-    const typename Gap<F>::Safe bound = along.safe_time(horizon);
-    lanes::store(safe.time + l, bound.time);
-    lanes::store(safe.gap + l, bound.start);
-    lanes::store(safe.gap_at_end + l, bound.end);
+    const F gap = lanes::dot(D, d) - (i.mid_radius + j.mid_radius + margins::kHullRadius) -
+                  margins::kHullLength * (lanes::sqrt(lanes::dot(D, D)) + (i.half_length + j.half_length));
+    const F rate_margin =
+        margins::kHullSpeed + lanes::load<W>(pairs.velocity_rounding + l) + margins::kHullRate * lanes::size1(v);
+    const auto cosine = [&](const V& director, const V& turning, const float* half_rate2)
+        __attribute__((always_inline)) {
+      return Cosine<F>{lanes::dot(director, d), lanes::dot(turning, d), lanes::load<W>(half_rate2 + l),
+                       margins::kHullRate * lanes::size1(turning)};
+    };
+    return {i,
+            j,
+            gap,
+            lanes::dot(v, d) - rate_margin,
+            cosine(n_i, lanes::load<W>(pairs.turning_i, l), pairs.half_rate2_i),
+            cosine(n_j, lanes::load<W>(pairs.turning_j, l), pairs.half_rate2_j)};
   }
 };
 

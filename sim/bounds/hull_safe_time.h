@@ -52,11 +52,18 @@ struct HullSafeTimes {
 };
 
 /// Times for which the hulls of the first `n` pairs stay apart, at most `horizon` [s]; 0 if they overlap.
-/// Model:  along a fixed direction d, gap(t) >= (D + v t) . d - width_i(t) - width_j(t); the centres' difference is
-///         linear in time because gravity acts on both alike, and the widths grow at most as FlightBound says. The
-///         right side is concave in t, so a chord from a time at which it is positive to one at which it is not meets
-///         zero before it does. Any d gives a valid bound; this one is near the direction of the largest gap: closest
-///         points of the axes, moved twice towards the thick middles.
+///
+/// Model:    along a fixed direction d,
+///               gap(t) >= (D + v t) . d - w_i(t) - w_j(t)
+///               w(t)    = r + h max(0, |n . d + (n' . d) t| + q t^2 - taper)
+///           The right side is concave in t, so a chord from a time at which it is positive to one at which it is not
+///           meets zero before it does. Any d gives a valid bound; this one is near the direction of the largest gap:
+///           closest points of the axes, moved twice towards the thick middles.
+/// Symbols:  D      from centre i to centre j [mm]
+///           v      velocity of j relative to i, constant because gravity acts on both alike [mm/s]
+///           r, h   mid_radius and half_length of a hull [mm]
+///           n, n'  its director, and that director's rate of change [1/s]
+///           q      half_rate2: bounds what else the director does [1/s^2]
 void hull_safe_times(const Hull& i, const Hull& j, const PairLanes& pairs, int n, float horizon, HullSafeTimes& safe);
 
 }  // namespace shaken

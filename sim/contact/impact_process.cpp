@@ -82,41 +82,47 @@ ImpactProcess::Leg ImpactProcess::leg_from_rest() const {
 template <class End>
 ImpactProcess::Leg ImpactProcess::slipping_leg(const End& end) const {
   const double speed = u_t_.norm();
+  if (const auto leg = straight_leg(speed, end)) return *leg;
 
-  // The shortest straight way to u_t = 0 within the cone: |g + hold x| = mu x.
+  const Vec2 direction = u_t_ / speed;
+  const Vec2 across(-direction.y(), direction.x());
+  const Vec2 rate = rate_t(-mu_ * direction);
+  const double along = rate.dot(direction);
+  const double aside = rate.dot(across);
+  // How `aside` changes with the direction of slip: where it falls, slip settles.
+  const double settling = mu_ * (direction.dot(tt_ * direction) - across.dot(tt_ * across)) - nt_.dot(direction);
+  if (settling < 0 && std::abs(aside) <= -straight_ * settling) {  // the direction keeps itself up
+    const Vec2 q = -mu_ * (direction - aside / settling * across).normalized();
+    const double faster = -q.dot(rate_t(q));
+    return {q, faster < 0 ? -0.5 * mu_ * speed / faster : kNever, false};
+  }
+  const double change = std::abs(settling) + std::max(0.0, -2.0 * along);
+  return midpoint_leg(
+      rate, std::min({end(rate_n(-mu_ * direction)), turn_ * speed / std::abs(aside), 4.0 * turn_ * speed / change}));
+}
+
+/// The shortest straight way to u_t = 0 within the cone, |g + hold x| = mu x, unless slip turns too much on it.
+template <class End>
+std::optional<ImpactProcess::Leg> ImpactProcess::straight_leg(double speed, const End& end) const {
   const Vec2 g = softness_ * u_t_;
   const double A = hold_.squaredNorm() - mu_ * mu_;
   const double B = hold_.dot(g);
   const double C = g.squaredNorm();
   const double discriminant = B * B - A * C;
-  if (discriminant >= 0) {
-    const double denominator = std::sqrt(discriminant) - B;
-    const double x = C / denominator;
-    if (denominator > 0 && x < kNever) {
-      const Vec2 q = -(g / x + hold_);
-      const double bend = (q / mu_ + u_t_ / speed).norm();
-      const double part = std::min(x, end(rate_n(q))) / scale_;
-      if (q.dot(u_t_) <= 0 && bend * part <= straight_) return {q, x, true};
-    }
-  }
+  if (!(discriminant >= 0)) return {};
+  const double denominator = std::sqrt(discriminant) - B;
+  const double x = C / denominator;
+  if (!(denominator > 0 && x < kNever)) return {};
+  const Vec2 q = -(g / x + hold_);
+  const double bend = (q / mu_ + u_t_ / speed).norm();
+  const double part = std::min(x, end(rate_n(q))) / scale_;
+  if (!(q.dot(u_t_) <= 0 && bend * part <= straight_)) return {};
+  return Leg{q, x, true};
+}
 
-  const Vec2 direction = u_t_ / speed;
-  const Vec2 across(-direction.y(), direction.x());
-  const Vec2 q_here = -mu_ * direction;
-  const Vec2 rate = rate_t(q_here);
-  const double along = rate.dot(direction);
-  const double aside = rate.dot(across);
-  // How `aside` changes with the direction of slip: where it falls, slip settles.
-  const double settling = mu_ * (direction.dot(tt_ * direction) - across.dot(tt_ * across)) - nt_.dot(direction);
-  if (settling < 0 && std::abs(aside) <= -straight_ * settling) {
-    const Vec2 q = -mu_ * (direction - aside / settling * across).normalized();
-    const double faster = -q.dot(rate_t(q));
-    return {q, faster < 0 ? -0.5 * mu_ * speed / faster : kNever, false};
-  }
-
-  // Explicit midpoint rule, over the rest of the phase or as far as u_t stays nearly what it is.
-  const double change = std::abs(settling) + std::max(0.0, -2.0 * along);
-  double length = std::min({end(rate_n(q_here)), turn_ * speed / std::abs(aside), 4.0 * turn_ * speed / change});
+/// By the explicit midpoint rule, over the rest of the phase or as far as u_t stays nearly what it is: `length` or
+/// less.
+ImpactProcess::Leg ImpactProcess::midpoint_leg(const Vec2& rate, double length) const {
   for (int halving = 0; halving < 60; ++halving, length *= 0.5) {
     const Vec2 q = -mu_ * (u_t_ + 0.5 * length * rate).normalized();
     // friction must not do work on the way, nor as far as the leg may be stretched

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
+
 #include "base/core/types.h"
 #include "sim/system.h"
 
@@ -70,6 +72,9 @@ class ImpactProcess {
   void run(const End& end);
   template <class End>
   Leg slipping_leg(const End& end) const;
+  template <class End>
+  std::optional<Leg> straight_leg(double speed, const End& end) const;
+  Leg midpoint_leg(const Vec2& rate, double length) const;
   Leg leg_from_rest() const;
   void advance(const Vec2& q, double length);
   double rate_n(const Vec2& q) const { return nn_ + nt_.dot(q); }

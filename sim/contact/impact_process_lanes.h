@@ -59,7 +59,7 @@ class ImpactProcesses {
   SHAKEN_INLINE Triple<D> impulse() const { return {D{} + p_t_.x, D{} + side_ * p_t_.y, side_ * p_}; }
   const D& normal_impulse() const { return p_; }
   const D& normal_work() const { return work_; }
-  const D& other() const { return other_; }  ///< >= 0: it is
+  const D& unknown() const { return unknown_; }  ///< >= 0: it is
 
  private:
   static constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -184,13 +184,13 @@ class ImpactProcesses {
     const D slipping_known = choose(straight_known, midpoint_known, holds);
     const D is_trace = trace_ * trace_ - speed2;  // >= 0, where it slips
     const D known = is_trace >= 0.0 ? where_positive(slips, D{} - 1.0, slipping_known) : slipping_known;
-    other_ = known >= 0.0 ? other_ : D{};
+    unknown_ = known >= 0.0 ? unknown_ : D{};
   }
 
   double side_, mu_;
   D nn_, trace_, scale_, u_n_;
   D p_{}, work_{};
-  D other_ = D{} - 1.0;
+  D unknown_ = D{} - 1.0;
   Pair nt_, hold_, u_t_;
   Pair p_t_{};
   Symmetric tt_, softness_;
@@ -207,7 +207,7 @@ SHAKEN_INLINE ImpulseOf<D> impulse_of_process(bool by_work, const ComplianceOf<D
   } else {
     impacts.restore_impulse(restitution * impacts.normal_impulse());
   }
-  return {impacts.impulse(), impacts.other()};
+  return {impacts.impulse(), impacts.unknown()};
 }
 
 }  // namespace shaken::lanes

@@ -48,7 +48,7 @@ SHAKEN_INLINE D restitution_at(const ContactParameters& contact, const D& speed)
 template <class D>
 struct ImpulseOf {
   Triple<D> P;
-  D other;  ///< >= 0: what is to be done in this lane is not known here
+  D unknown;  ///< >= 0: what is to be done in this lane is not known here
 };
 
 /// With friction, by a restitution that is one number or one of each contact. Not known: slip without a direction, or

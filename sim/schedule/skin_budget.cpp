@@ -19,8 +19,8 @@ struct ShadowSpeed {
 };
 
 /// Model: the centre flies at v. The segment turns at (p_z - n_z p.n) / |n_xy|^2, with p the precession and p.n a
-/// constant; |n_xy| changes by at most |p| per time, so it keeps nine tenths, and its square 0.81, for 0.1 |n_xy| / |p|:
-/// up to the visit, which may come a tick later than said.
+/// constant. |n_xy| changes by at most |p| per time, so it keeps nine tenths, and its square 0.81, for a time of
+/// 0.1 |n_xy| / |p|, less a tick: the visit may come one later than said.
 ShadowSpeed shadow_speed(const Flight& flight, const Vec3& n, const SkinBudget::Steps& steps, Tick now,
                          double longest) {
   const Vec3& v = flight.velocity;

@@ -17,9 +17,8 @@ class PairBounding {
   PairBounding(const PairSearch& search, PairSchedule& pairs, RodStates& rods, SharedLoops<Share>& loops)
       : search_(search), pairs_(pairs), rods_(rods), loops_(loops), flight_bounds_(rods.marks.size()) {}
 
-  /// Lists the share's pairs that were searched, and shortens the bounds of, or lists, those that are overspent.
-  /// Not in the loop that spends budgets: that one writes rod by rod, and this one pair by pair, whose other rod may be
-  /// another share's.
+  /// Lists the share's pairs that were searched, and shortens the bounds of, or lists, those that are overspent. Not in
+  /// the loop that spends budgets, which writes those of one rod, where this one writes those of both rods of a pair.
   void shorten(Tick now, Share& share) {
     share.polled_pairs.clear();
     for (const int p : share.searched) {

@@ -27,25 +27,23 @@ struct alignas(64) Share {
   std::vector<std::vector<int>> overspent;  ///< (n_shares) pairs of each share whose budgets hits overspent
   std::vector<int> to_bound;                ///< pairs that need a bound
 
-  // SurfacesPhase
+  // what phases keep to themselves: surfaces,
   std::vector<int> polled;  ///< rods that are due at the next tick, without a bound
   Counters counters;
   std::optional<NumericalTrouble> trouble;  ///< that of the first rod
   PlateLanes plate_lanes{};
-  // NeighborUpkeep
+  // the upkeep of neighbours, detection,
   std::vector<int> near;              ///< rods near each of `to_place`, one after the other
   std::vector<std::size_t> near_end;  ///< where those of each end
-  // DetectionPhase
   std::vector<PairContact> contacts;
   std::vector<int> toggled;  ///< pairs that began or ceased to touch
   std::vector<BeadContact> beads;
   Pose other_pose{};
-  // PairBounding
+  // the bounds of pairs
   std::vector<int> polled_pairs;     ///< of rods at rest: to be searched at the next tick without a bound
   std::vector<int> to_bound_flight;  ///< rods of `to_bound`, of whatever share
   PairLanes pair_lanes{};
-  // both of these
-  std::vector<int> to_pose;  ///< rods
+  std::vector<int> to_pose;  ///< rods, for detection too
 
   bool has_pairs() const {
     return !searched.empty() || std::ranges::any_of(overspent, [](const auto& pairs) { return !pairs.empty(); });

@@ -47,10 +47,10 @@ struct PlateHits {
   TripleLanes position, director, velocity, angular_velocity;  ///< of the rods after the hits
   TripleLanes flight_position, flight_director;                ///< before them, where hits displace rods
   OfPlate of_plate[2];                                         ///< base, lid
-  alignas(64) double is_other[kDoubleLanes];                   ///< >= 0: what happens is not known here
+  alignas(64) double is_unknown[kDoubleLanes];                 ///< >= 0: what happens is not known here
   bool has_noise, are_at_instant;
 
-  bool is_known(int lane) const { return is_other[lane] < 0; }
+  bool is_known(int lane) const { return is_unknown[lane] < 0; }
   bool meets(int lane, int plate) const { return of_plate[plate].overlap[lane] > 0; }
   bool is_hit(int lane, int plate) const { return meets(lane, plate) && of_plate[plate].is_hit[lane] > 0; }
 
@@ -69,13 +69,17 @@ struct PlateMet {
   const ContactParameters& contact;
 };
 
-/// Several rods during one tick.
+/// Several rods during one tick. As in double_lanes.h, the sign of a number tells whether a condition holds.
 template <class D>
 struct RodsOf {
   PoseOf<D> pose;
   MotionOf<D> motion;
-  D other;   ///< >= 0: what happens to them is not known here
-  D is_hit;  ///< > 0: a plate has hit them; for noise
+  D unknown;  ///< >= 0: what happens to them is not known here
+  D is_hit;   ///< > 0: a plate has hit them; for noise
+
+  /// From now on not known where the condition is >= 0. Where it is no number, `larger` passes it over: what comes
+  /// after a hit that is not known may be none.
+  SHAKEN_INLINE void note_unknown(const D& condition) { unknown = lanes::larger(condition, unknown); }
 };
 
 /// Of each rod the bead in a plate.
@@ -127,9 +131,7 @@ struct PlateHitKernel {
     RodsOf<D> rods;
     rods.pose = pose_after(flight, tau, rules.gravity);
     rods.motion = motion_after(flight, tau, rules.gravity, rods.pose.director, species.inertia_ratio);
-    // Not known here: a large turn, or several beads in one plate. Of a rod that the base hits in a way that is not
-    // known, what comes next is no number, which `larger` passes over where it stands first.
-    rods.other = lanes::absolute(flight.rate * tau) - kLargestSmallAngle;
+    rods.unknown = lanes::absolute(flight.rate * tau) - kLargestSmallAngle;  // a large turn
     rods.is_hit = D{} - 1.0;
     if (is_at_instant()) {
       hits.flight_position.store(l, rods.pose.position);
@@ -151,15 +153,15 @@ struct PlateHitKernel {
     hits.director.store(l, rods.pose.director);
     hits.velocity.store(l, rods.motion.velocity);
     hits.angular_velocity.store(l, rods.motion.angular_velocity);
-    lanes::store(hits.is_other + l, rods.other);
+    lanes::store(hits.is_unknown + l, rods.unknown);
   }
 
   template <int W>
   SHAKEN_INLINE void meet_plate(int l, const PlateMet& plate, RodsOf<Doubles<W>>& rods, PlateHits::OfPlate& hit) const {
     using D = Doubles<W>;
     const BeadsOf<D> beads = beads_in(plate, rods.pose);
-    rods.other = lanes::larger(D(beads.n - 1.5), rods.other);
-    rods.other = lanes::larger(D(beads.overlap - kMaxOverlapFraction * beads.radius), rods.other);
+    rods.note_unknown(D(beads.n - 1.5));  // several beads in one plate
+    rods.note_unknown(D(beads.overlap - kMaxOverlapFraction * beads.radius));
     lanes::store(hit.overlap + l, beads.overlap);
     bool is_met = false;
     for (int lane = 0; lane < W; ++lane) is_met |= beads.overlap[lane] > 0;
@@ -175,13 +177,14 @@ struct PlateHitKernel {
       ago = time_since_touch(beads, D(-contacts.u_n));
       fly(D(-ago), rods);
       contacts = contacts_of(plate, beads, velocities_before<W>(plate, ago), rods);
-      rods.other = lanes::larger(where_positive(ago, D(contacts.u_n - rest_speed), D(-1.0 - ago)), rods.other);
+      // a rod that recedes at that instant
+      rods.note_unknown(where_positive(ago, D(contacts.u_n - rest_speed), D(-1.0 - ago)));
     }
     give_impulse<W>(l, plate, beads, contacts, rest_speed, is_hit, rods, hit);
     if (is_at_instant()) {
       fly(ago, rods);
       lanes::store(hit.ago + l, ago);
-      rods.other = lanes::larger(others_overlap(plate, beads, rods.pose), rods.other);
+      rods.note_unknown(others_overlap(plate, beads, rods.pose));
     }
     lanes::store(hit.is_hit + l, is_hit);
     if (has_noise()) turn_at_random<W>(l, speed, is_hit, rods, hit);
@@ -259,9 +262,8 @@ struct PlateHitKernel {
     const MotionOf<D> motion = motion_after(flight, seconds, rules.gravity, pose.director, species.inertia_ratio);
     const D flies = lanes::absolute(seconds);
     const D turn = lanes::absolute(flight.rate * seconds);
-    rods.other = lanes::larger(
-        where_positive(flies, lanes::larger(D(turn - kLargestSmallAngle), D(-flight.rate)), D(-1.0 - flies)),
-        rods.other);
+    rods.note_unknown(
+        where_positive(flies, lanes::larger(D(turn - kLargestSmallAngle), D(-flight.rate)), D(-1.0 - flies)));
     rods.pose.position = where_positive(flies, pose.position, rods.pose.position);
     rods.pose.director = where_positive(flies, pose.director, rods.pose.director);
     rods.motion.velocity = where_positive(flies, motion.velocity, rods.motion.velocity);
@@ -281,49 +283,66 @@ struct PlateHitKernel {
     return plate.side > 0 ? rules.plates.velocity(then) : rules.plates.lid_velocity(then);
   }
 
+  /// What impulses do to rods.
+  template <class D>
+  struct EffectOf {
+    Triple<D> P;      ///< impulse [mg mm/s]
+    Triple<D> turns;  ///< change of the angular velocity [rad/s]
+    D lost;           ///< energy [pJ]
+  };
+
   /// `collide` of surface_impacts.cpp, of the rods that are hit.
   template <int W>
   SHAKEN_INLINE void give_impulse(int l, const PlateMet& plate, const BeadsOf<Doubles<W>>& beads,
                                   const ContactsOf<Doubles<W>>& contacts, const Doubles<W>& rest_speed,
                                   const Doubles<W>& is_hit, RodsOf<Doubles<W>>& rods, PlateHits::OfPlate& hit) const {
     using D = Doubles<W>;
-    Triple<D> P, turns;
-    D lost{};
+    EffectOf<D> effect;
     if (kIsUsual || plate.contact.has_friction()) {
       const ComplianceOf<D> K = lanes::point_compliance(species.inverse, rods.pose.director, contacts.arm);
       const ImpulseOf<D> impulse = impulse_with_friction(plate, contacts, K, rest_speed);
-      rods.other = lanes::larger(where_positive(is_hit, impulse.other, D(-1.0 - beads.overlap)), rods.other);
-      P = impulse.P;
-      // work_lost
-      const Triple<D>& u = contacts.u;
-      lost -= P.x * (u.x + 0.5 * (K.xx * P.x + K.xy * P.y + K.xz * P.z));
-      lost -= P.y * (u.y + 0.5 * (K.yx * P.x + K.yy * P.y + K.yz * P.z));
-      lost -= P.z * (u.z + 0.5 * (K.zx * P.x + K.zy * P.y + K.zz * P.z));
-      // apply_impulse
-      const Triple<D> torque = contacts.arm.cross(P);
-      const D about_axis = (species.inverse.par - species.inverse.perp) * torque.dot(rods.pose.director);
-      turns = lanes::all<W>(species.inverse.perp) * torque + about_axis * rods.pose.director;
+      rods.note_unknown(where_positive(is_hit, impulse.unknown, D(-1.0 - beads.overlap)));
+      effect = effect_of<W>(impulse.P, contacts, K, rods.pose.director);
     } else {
-      // normal_compliance and impulse_without_friction
-      const D along = rods.pose.director.dot(contacts.normal);
-      const D compliance =
-          species.inverse.mass + species.inverse.perp * (beads.offset * beads.offset * (1.0 - along * along));
-      const D e = lanes::restitution_at(plate.contact, D(-contacts.u_n));
-      const D bounced = -(1.0 + e) * contacts.u_n / compliance;
-      const D risen = (rest_speed - contacts.u_n) / compliance;
-      const D p = where_positive(D(rest_speed + e * contacts.u_n), risen, bounced);
-      P = p * contacts.normal;
-      lost = -p * (contacts.u_n + 0.5 * p * compliance);
-      // apply_normal_impulse
-      turns = D(species.inverse.perp * beads.offset) * rods.pose.director.cross(P);
+      effect = effect_without_friction(plate, beads, contacts, rest_speed, rods.pose.director);
     }
-    const Triple<D> more = lanes::all<W>(species.inverse.mass) * P;
+    const Triple<D> more = lanes::all<W>(species.inverse.mass) * effect.P;
     MotionOf<D>& motion = rods.motion;
     motion.velocity = where_positive(is_hit, motion.velocity + more, motion.velocity);
-    motion.angular_velocity = where_positive(is_hit, motion.angular_velocity + turns, motion.angular_velocity);
-    hit.impulse.store(l, P);
-    lanes::store(hit.lost + l, lost);
-    lanes::store(hit.given + l, P.dot(contacts.plate_velocity));
+    motion.angular_velocity = where_positive(is_hit, motion.angular_velocity + effect.turns, motion.angular_velocity);
+    hit.impulse.store(l, effect.P);
+    lanes::store(hit.lost + l, effect.lost);
+    lanes::store(hit.given + l, effect.P.dot(contacts.plate_velocity));
+  }
+
+  /// impact::work_lost and apply_impulse.
+  template <int W, class D>
+  SHAKEN_INLINE EffectOf<D> effect_of(const Triple<D>& P, const ContactsOf<D>& contacts, const ComplianceOf<D>& K,
+                                      const Triple<D>& director) const {
+    const Triple<D>& u = contacts.u;
+    D lost{};
+    lost -= P.x * (u.x + 0.5 * (K.xx * P.x + K.xy * P.y + K.xz * P.z));
+    lost -= P.y * (u.y + 0.5 * (K.yx * P.x + K.yy * P.y + K.yz * P.z));
+    lost -= P.z * (u.z + 0.5 * (K.zx * P.x + K.zy * P.y + K.zz * P.z));
+    const Triple<D> torque = contacts.arm.cross(P);
+    const D about_axis = (species.inverse.par - species.inverse.perp) * torque.dot(director);
+    return {P, lanes::all<W>(species.inverse.perp) * torque + about_axis * director, lost};
+  }
+
+  /// normal_compliance, impulse_without_friction and apply_normal_impulse.
+  template <class D>
+  SHAKEN_INLINE EffectOf<D> effect_without_friction(const PlateMet& plate, const BeadsOf<D>& beads,
+                                                    const ContactsOf<D>& contacts, const D& rest_speed,
+                                                    const Triple<D>& director) const {
+    const D along = director.dot(contacts.normal);
+    const D compliance =
+        species.inverse.mass + species.inverse.perp * (beads.offset * beads.offset * (1.0 - along * along));
+    const D e = lanes::restitution_at(plate.contact, D(-contacts.u_n));
+    const D bounced = -(1.0 + e) * contacts.u_n / compliance;
+    const D risen = (rest_speed - contacts.u_n) / compliance;
+    const D p = where_positive(D(rest_speed + e * contacts.u_n), risen, bounced);
+    const Triple<D> P = p * contacts.normal;
+    return {P, D(species.inverse.perp * beads.offset) * director.cross(P), -p * (contacts.u_n + 0.5 * p * compliance)};
   }
 
   template <class D>
@@ -359,7 +378,7 @@ struct PlateHitKernel {
   SHAKEN_INLINE void turn_at_random(int l, const Doubles<W>& speed, const Doubles<W>& is_hit, RodsOf<Doubles<W>>& rods,
                                     PlateHits::OfPlate& hit) const {
     using D = Doubles<W>;
-    rods.other = lanes::larger(where_positive(is_hit, rods.is_hit, D(D{} - 1.0)), rods.other);
+    rods.note_unknown(where_positive(is_hit, rods.is_hit, D(D{} - 1.0)));
     const Triple<D>& director = rods.pose.director;
     Triple<D>& w = rods.motion.angular_velocity;
     const D kick = lanes::load<W>(sign + l) * species.rotational_noise * speed;

@@ -23,7 +23,7 @@ struct PlateImpactsInLanes {
   InverseInertia inverse;
   alignas(64) double restitution[kDoubleLanes];
   mutable lanes::TripleLanes impulse;
-  alignas(64) mutable double other[kDoubleLanes];
+  alignas(64) mutable double unknown[kDoubleLanes];
 
   template <int W>
   SHAKEN_INLINE void run() const {
@@ -32,7 +32,7 @@ struct PlateImpactsInLanes {
       const auto found =
           lanes::impulse_of_process(by_work, K, side, u.load<W>(l), friction, lanes::load<W>(restitution + l));
       impulse.store(l, found.P);
-      lanes::store(other + l, found.other);
+      lanes::store(unknown + l, found.unknown);
     }
   }
 };
@@ -81,7 +81,7 @@ TEST(ImpactProcessLanes, HaveTheBitsOfOneImpactAfterTheOther) {
     lanes::with_widest_doubles(impacts);
     for (int lane = 0; lane < kDoubleLanes; ++lane) {
       ++n_of[way[lane]];
-      if (!(impacts.other[lane] < 0)) continue;
+      if (!(impacts.unknown[lane] < 0)) continue;
       ++n_known_of[way[lane]];
       const Vec3 normal = impacts.side * Vec3::UnitZ();
       const Vec3 expected = impacts.by_work ? energetic_impulse(K[lane], normal, u[lane], contact)
