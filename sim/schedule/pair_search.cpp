@@ -61,20 +61,17 @@ void PairSearch::bound(std::span<const PairRods> pairs, const std::vector<RodAtT
     D[lane] = nearest_image(rods[i].pose.position, rods[j].pose.position, rules_.box);
     lanes.set(static_cast<int>(lane), D[lane], motion[i], motion[j]);
   }
-  const auto& [i, j] = pairs.front();
-  hull_safe_times(hulls_[rules_.shape_of_rod[i]], hulls_[rules_.shape_of_rod[j]], lanes, static_cast<int>(pairs.size()),
-                  horizon_, safe);
-  for (std::size_t lane = 0; lane < pairs.size(); ++lane)
-    bounds[lane] = bound(pairs[lane], D[lane], motion, safe, lane);
+  const Shapes shapes{rules_.shape_of_rod[pairs.front()[0]], rules_.shape_of_rod[pairs.front()[1]]};
+  hull_safe_times(hulls_[shapes[0]], hulls_[shapes[1]], lanes, static_cast<int>(pairs.size()), horizon_, safe);
+  for (std::size_t lane = 0; lane < pairs.size(); ++lane) {
+    const auto& [i, j] = pairs[lane];
+    bounds[lane] = bound(shapes, D[lane], motion[i], motion[j], safe, lane);
+  }
 }
 
 /// The longest of the bounds by hulls and by beads, but no longer than other images stay away.
-PairBound PairSearch::bound(const PairRods& pair, const Vec3& D, const std::vector<FlightBound>& motion,
+PairBound PairSearch::bound(const Shapes& shapes, const Vec3& D, const FlightBound& i, const FlightBound& j,
                             const HullSafeTimes& hulls, std::size_t lane) const {
-  const FlightBound& i = motion[pair[0]];
-  const FlightBound& j = motion[pair[1]];
-  const std::uint8_t shape_i = rules_.shape_of_rod[pair[0]];
-  const std::uint8_t shape_j = rules_.shape_of_rod[pair[1]];
   const auto dt = static_cast<float>(rules_.dt);
   float time = hulls.time[lane];
   float gap = hulls.gap[lane];
@@ -86,7 +83,7 @@ PairBound PairSearch::bound(const PairRods& pair, const Vec3& D, const std::vect
   bound.direction = {hulls.direction[0][lane], hulls.direction[1][lane], hulls.direction[2][lane]};
   bound.by_beads = time < kShortBound * dt;
   if (bound.by_beads) {
-    const BeadSafeTime beads = bead_safe_time(lanes_[shape_i], i, lanes_[shape_j], j, D, kBeadHorizon * dt);
+    const BeadSafeTime beads = bead_safe_time(lanes_[shapes[0]], i, lanes_[shapes[1]], j, D, kBeadHorizon * dt);
     if (beads.time > time) {
       time = beads.time;
       gap = beads.gap;
@@ -96,7 +93,7 @@ PairBound PairSearch::bound(const PairRods& pair, const Vec3& D, const std::vect
       if (gap > 0.0F) bound.may_overlap = false;
     }
   }
-  const double reach = reach_[shape_i] + reach_[shape_j];
+  const double reach = reach_[shapes[0]] + reach_[shapes[1]];
   if (!(i.slow && j.slow && images_stay_away(D, rules_.box, reach, slow_later_, horizon_))) {
     time = std::min(time, image_safe_time(D, i, j, rules_.box, reach, horizon_));
     survives_hits = false;

@@ -44,7 +44,8 @@ class PairSearch {
              const std::vector<FlightBound>& motion, PairLanes& lanes, PairBound* bounds) const;
 
  private:
-  PairBound bound(const PairRods& pair, const Vec3& D, const std::vector<FlightBound>& motion,
+  using Shapes = std::array<std::uint8_t, 2>;
+  PairBound bound(const Shapes& shapes, const Vec3& D, const FlightBound& i, const FlightBound& j,
                   const HullSafeTimes& hulls, std::size_t lane) const;
 
   const TickRules& rules_;

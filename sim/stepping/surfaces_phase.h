@@ -62,7 +62,11 @@ class SurfacesPhase {
     // A rod that a surface hits, and that was hit in the tick before, is as good as sure to be hit in the next tick,
     // too (four of five visits, 99 % of the time), and needs no bound to know it.
     for (const int i : share.visited) {
-      (rods_.marks[i].hit_again_at == now ? share.polled : share.to_schedule).push_back(i);
+      if (rods_.marks[i].hit_again_at == now) {
+        share.polled.push_back(i);
+      } else {
+        share.to_schedule.push_back(i);
+      }
     }
     share.counts.count(WorkKind::kRodsPolled, std::ssize(share.polled));
     share.counts.count(WorkKind::kRodsBounded, std::ssize(share.to_schedule));
