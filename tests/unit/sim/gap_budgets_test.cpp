@@ -21,8 +21,8 @@ struct Allowance {
   int lane = -1;
   bool is_empty = true;
   Vec3 direction = Vec3::Zero();
-  double remaining = 0, rate = 0;
-  double remaining_margin = 0, rate_margin = 0;  ///< that may have been taken besides, for rounding
+  double gap = 0, rate = 0;
+  double gap_margin = 0, rate_margin = 0;  ///< that may have been taken besides, for rounding
   Tick until = 0;
 };
 
@@ -88,19 +88,18 @@ TEST(GapBudgets, AreTakenFromAsEachPairByItselfWouldBe) {
         for (auto& [of, budget] : expected) {
           if (draw.integer(0, 2)) continue;
           budget.direction = draw.integer(0, 3) ? draw.direction() : Vec3::Zero();
-          budget.remaining = std::pow(10.0, draw.uniform(-5, -1));
-          budget.remaining_margin = budget.rate_margin = 0;
+          budget.gap = std::pow(10.0, draw.uniform(-5, -1));
+          budget.gap_margin = budget.rate_margin = 0;
           const Tick wait = draw.integer(1, 1000);
           budget.until = now + wait;
-          const double most_rate = std::min(1000.0, budget.remaining / (static_cast<double>(wait) * kDt));
+          const double most_rate = std::min(1000.0, budget.gap / (static_cast<double>(wait) * kDt));
           budget.rate = static_cast<float>(draw.uniform(-1, 1) * most_rate);
           budget.is_empty = false;
           Direction direction;
           for (std::size_t c = 0; c < 3; ++c)
             direction[c] = -static_cast<float>(budget.direction[static_cast<Eigen::Index>(c)]);
           budgets.set_direction(1, budget.lane, direction, -1);
-          budgets.set(1, budget.lane, static_cast<float>(budget.remaining), static_cast<float>(budget.rate),
-                      budget.until);
+          budgets.set(1, budget.lane, static_cast<float>(budget.gap), static_cast<float>(budget.rate), budget.until);
         }
       } else {
         const Change change(draw);
@@ -113,28 +112,26 @@ TEST(GapBudgets, AreTakenFromAsEachPairByItselfWouldBe) {
           }
           const auto wait = static_cast<double>(budget.until - now) * kDt;
           const double faster = change.closing(budget.direction) + change.curvature() * (wait + kBeyond);
-          budget.remaining -= faster * wait + change.shift(budget.direction);
+          budget.gap -= faster * wait + change.shift(budget.direction);
           budget.rate += faster;
           const double margin = change.margin() + 1e-5 * std::abs(faster);
-          budget.remaining_margin +=
-              margin * std::max(0.0, wait) + change.shift_margin() + 1e-5 * std::abs(budget.remaining);
+          budget.gap_margin += margin * std::max(0.0, wait) + change.shift_margin() + 1e-5 * std::abs(budget.gap);
           budget.rate_margin += margin + 1e-5 * std::abs(budget.rate);
           const double closes = budget.rate * std::max(0.0, wait);
-          const double least =
-              change.displaces ? std::min(budget.remaining, budget.remaining + closes) : budget.remaining;
+          const double least = change.displaces ? std::min(budget.gap, budget.gap + closes) : budget.gap;
           const double least_margin =
-              budget.remaining_margin + (change.displaces ? budget.rate_margin * wait + 1e-5 * std::abs(closes) : 0.0);
+              budget.gap_margin + (change.displaces ? budget.rate_margin * wait + 1e-5 * std::abs(closes) : 0.0);
           const bool is_closed_now =
-              change.displaces && budget.remaining + closes < -2e-7 * (std::abs(budget.remaining) + std::abs(closes));
-          const bool must_be_called = wait <= 0 || budget.remaining < 0 || is_closed_now;
+              change.displaces && budget.gap + closes < -2e-7 * (std::abs(budget.gap) + std::abs(closes));
+          const bool must_be_called = wait <= 0 || budget.gap < 0 || is_closed_now;
           const bool is_called = used_up.count(of) != 0;
           EXPECT_TRUE(is_called || !must_be_called) << least;
           EXPECT_TRUE(!is_called || must_be_called || least < least_margin) << least;
-          n_shifted += is_called && change.displaces && wait > 0 && budget.remaining > budget.remaining_margin;
+          n_shifted += is_called && change.displaces && wait > 0 && budget.gap > budget.gap_margin;
           if (wait > 0) {
-            const double too_little = budget.remaining - static_cast<double>(budgets.remaining(1, budget.lane));
-            EXPECT_GE(too_little, -1e-7 * (1 + std::abs(budget.remaining)));
-            EXPECT_LE(too_little, budget.remaining_margin);
+            const double too_little = budget.gap - static_cast<double>(budgets.remaining(1, budget.lane));
+            EXPECT_GE(too_little, -1e-7 * (1 + std::abs(budget.gap)));
+            EXPECT_LE(too_little, budget.gap_margin);
             const double too_fast = static_cast<double>(budgets.rate(1, budget.lane)) - budget.rate;
             EXPECT_GE(too_fast, 0);
             EXPECT_LE(too_fast, budget.rate_margin);

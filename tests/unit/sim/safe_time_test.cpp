@@ -412,7 +412,7 @@ struct WaitingPair {
     const BeadSafeTime beads = pair.bead_bound(kHorizon);
     const float time = of_beads ? beads.time : static_cast<float>(hull.time);
     const float gap = of_beads ? beads.gap : hull.gap;
-    const float gap_at_end = of_beads ? 0.0F : hull.gap_at_end;
+    const float at_end = of_beads ? 0.0F : hull.gap_at_end;
     const auto ticks = static_cast<int>(static_cast<double>(time) / dt * (1 - 1e-5));
     table.make_room(1);
     table.add(0, {0, 1}, 0);
@@ -420,7 +420,7 @@ struct WaitingPair {
     for (std::size_t c = 0; c < 3; ++c) direction[c] = static_cast<float>(hull.direction[static_cast<Eigen::Index>(c)]);
     const auto until = static_cast<float>(ticks) * static_cast<float>(dt);
     table.set_bound(0, 0, ticks, direction,
-                    gap > 0 ? GapBound::between(gap, gap_at_end, time, until, of_beads) : GapBound{});
+                    gap > 0 ? GapBound::between(gap, at_end, time, until, of_beads) : GapBound{});
     end = ticks;
   }
   Tick due() const { return const_cast<PairSchedule&>(table).wheel().due(0, now); }
