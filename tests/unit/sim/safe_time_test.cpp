@@ -418,9 +418,8 @@ struct WaitingPair {
     table.add(0, {0, 1}, 0);
     Direction direction;
     for (std::size_t c = 0; c < 3; ++c) direction[c] = static_cast<float>(hull.direction[static_cast<Eigen::Index>(c)]);
-    const auto until = static_cast<float>(ticks) * static_cast<float>(dt);
-    table.set_bound(0, 0, ticks, direction,
-                    gap > 0 ? GapBound::between(gap, at_end, time, until, of_beads) : GapBound{});
+    const auto t = static_cast<float>(ticks) * static_cast<float>(dt);
+    table.set_bound(0, 0, ticks, direction, gap > 0 ? GapBound::between(gap, at_end, time, t, of_beads) : GapBound{});
     end = ticks;
   }
   Tick due() const { return const_cast<PairSchedule&>(table).wheel().due(0, now); }
