@@ -93,22 +93,6 @@ Estimate cpu_ratio(const StepperSpeed& of, const StepperSpeed& other) {
   return {other.rate() / of.rate(), mean_of_samples(ratios).sem};
 }
 
-double sample_every(double every, double duration, const std::string& what, Simulation& simulation,
-                    const std::function<void()>& sample) {
-  const Tick stride = std::llround(every / simulation.world().system.dt);
-  const int samples = std::max(1, static_cast<int>(duration / every));
-  ProgressLine progress(what);
-  double cpu = 0;
-  for (int k = 0; k < samples; ++k) {
-    const double begun = cpu_seconds();
-    advance(simulation, stride);
-    cpu += cpu_seconds() - begun;
-    sample();
-    progress.show((k + 1.0) / samples);
-  }
-  return cpu;
-}
-
 Json json_of(const Case& scene) {
   return {{"length_mm", scene.length},
           {"n_beads", scene.system().rod.n_beads},

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -70,11 +69,6 @@ void time_in_turn(const std::string& what, std::vector<Contender>& contenders, i
 /// CPU time per rod-second of one contender over that of another, timed in turn with it: of the best repetitions, with
 /// an error from the scatter of the ratios of single ones, which is NaN for one.
 Estimate cpu_ratio(const StepperSpeed& of, const StepperSpeed& other);
-
-/// Goes on for `duration` [s] of the simulation's time and calls `sample` after each `every` [s], at least once; `what`
-/// is shown meanwhile. Returns the CPU time of the steps alone [s].
-double sample_every(double every, double duration, const std::string& what, Simulation& simulation,
-                    const std::function<void()>& sample);
 
 /// As members of a report's row.
 Json json_of(const Case& scene);

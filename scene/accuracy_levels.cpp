@@ -8,8 +8,8 @@
 namespace shaken::scene {
 namespace {
 
-// Measured with rods of 4.5 mm at area fraction 0.75 (`shaken bench accuracy statistical`). These are rows of
-// docs/data/accuracy-bias.csv; docs/accuracy.md explains them.
+// Measured with rods of 4.5 mm at area fraction 0.75: rows of docs/data/accuracy-bias.csv, which docs/accuracy.md
+// explains.
 constexpr std::array<Bias, 5> kDraftBias{{{"order", -0.08, 0.53, "%"},
                                           {"temperature in the plane", 0.19, 0.18, "%"},
                                           {"temperature upright", 0.00, 0.09, "%"},

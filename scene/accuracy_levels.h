@@ -25,7 +25,7 @@ struct AccuracyLevel {
   /// Bounds on |bias| with two standard errors to spare, for rods of 4.5 and of 2.5 mm [%].
   double averages_within = 0;  ///< of temperatures, tilt and square displacement
   double just_hit_within = 0;  ///< of the share of rods that were just hit
-  /// CPU time per simulated second against "paper", measured by `shaken bench accuracy`.
+  /// CPU time per simulated second against "paper", as docs/data/accuracy-bias.csv has it.
   double cost = 1;
   std::span<const Bias> bias;
 };

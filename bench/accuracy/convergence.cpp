@@ -141,7 +141,7 @@ Json measure_convergence(const StartCase& start, const Variant& variant, const C
 }
 
 Report convergence_report(const std::vector<Json>& measured) {
-  Report report("deterministic", "accuracy deterministic");
+  Report report("accuracy", "accuracy");
   report.has_verdict = true;
   report.json["converged"] = Json::array();
   for (const Json& of : measured) {

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The two parts of `shaken-bench accuracy`: errors of trajectories, bias of averages. What these measure is written as
-// rows; python/shaken/plots/accuracy.py makes orders and limits of them, and verdicts.py tells them.
+// `shaken-bench accuracy`: errors of trajectories. They are written as rows, of which python/shaken/plots/accuracy.py
+// makes orders.
 #pragma once
 
 #include <array>
-#include <filesystem>
 #include <functional>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "base/estimate.h"
 #include "bench/case.h"
 #include "bench/report.h"
 #include "sim/simulation.h"
@@ -70,35 +67,5 @@ Json quartiles_of(std::vector<double> values);
 /// step, and, of another variant than the first, "from_first", its distance from that one's.
 Json measure_convergence(const StartCase& start, const Variant& variant, const ConvergenceEffort& effort);
 Report convergence_report(const std::vector<Json>& measured);
-
-/// What is turned to trade accuracy for time, and its unit.
-struct Knob {
-  const char* name;
-  const char* unit;
-};
-inline constexpr Knob kStepKnob{"step", "us"}, kPitchKnob{"bead pitch", "mm"}, kSweepsKnob{"sweeps", "1"};
-
-/// One knob turned in one scene.
-struct StatisticsTask {
-  Case scene;  ///< its plan: everything but the knob
-  const Variant* variant = &variants().front();
-  const Knob* knob = &kStepKnob;
-  std::vector<double> values;  ///< from most to least accurate [unit of the knob]
-  double measure = 0;          ///< simulated per value and replica [s]
-  double warm_up = 0;          ///< simulated before, from the steady state of the scene [s]
-  int replicas = 1;            ///< with seeds 1, 2, ...
-};
-
-/// The mean over independent runs of one length.
-Estimate mean_of_runs(std::span<const Estimate> runs);
-
-/// Every value and replica in turn, each from the steady state of the scene with its seed, which comes from `cache`;
-/// with another bead pitch from a steady state of its own. "rows": at each value the means of the observables. "tilt":
-/// v_along(n_z).
-Json measure_statistics(const StatisticsTask& task, const Cache& cache);
-Report statistics_report(const std::vector<Json>& measured);
-
-/// A simulation at step `dt` that goes on from where `from` is, to the nearest tick.
-Simulation continued(const Simulation& from, const System& scene);
 
 }  // namespace shaken::bench

@@ -2,8 +2,6 @@
 """Pictures of what shaken-bench has measured: their data are those of the report, and nothing is cut."""
 from __future__ import annotations
 
-import csv
-import io
 import json
 import math
 import subprocess
@@ -17,11 +15,10 @@ import pytest
 pytest.importorskip("matplotlib")
 from figures_whole import assert_whole  # noqa: E402
 
-from shaken.plots import accuracy, bench, names, rows, style, verdicts  # noqa: E402
+from shaken.plots import bench, names, rows, style  # noqa: E402
 
 _SCENE = {"length_mm": 4.5, "area_fraction": 0.75, "side_mm": 41.865, "n_rods": 1000}
 _PHASES = ("surfaces", "detection", "response", "storing", "rod_bounds", "tightening", "pair_bounds", "neighbors")
-_NAMES = ("T_xy", "T_z", "T_rot", "S", "rms_n_z", "drift", "msd", "hit")
 _MACHINE = {"cpu": "made up", "cores": 2, "compiler": "none", "flags": "-O3"}
 
 
@@ -31,22 +28,7 @@ def _speed_rows() -> list[dict[str, Any]]:
             for phi in (0.45, 0.6, 0.75)]
 
 
-def _statistical() -> dict[str, Any]:
-    rows, tilt = [], []
-    for variant in ("newton", "instant"):
-        for knob, values in (("step", (1, 4, 16, 64)), ("bead pitch", (0.15, 0.3, 0.6)), ("sweeps", (8, 2, 1))):
-            for value in values:
-                series = {**_SCENE, "variant": variant, "knob": knob, "unit": "1", "value": value}
-                # on a line through the limit 2, which the two finest steps give
-                rows.append({**series, "simulated_s": 60.0, "cpu_s_per_rod_s": 0.02 / value, "max_overlap_mm": 0.001,
-                             **{name: {"value": 2 + 0.002 * value, "sem": 0.004} for name in _NAMES}})
-                tilt.append({**series, "n_z": [-0.2, 0.0, 0.2], "v_along": [-1.0, 0.0, 1.0],
-                             "v_along_sem": [0.1, None, 0.9]})
-    observables = [{"name": name, "title": f"the observable {name}", "unit": "1", "has_limit": True} for name in _NAMES]
-    return {"rows": rows, "tilt": tilt, "observables": observables}
-
-
-def _deterministic() -> dict[str, Any]:
+def _accuracy() -> dict[str, Any]:
     quartiles = ("lower", "median", "upper")
     rows = [{"case": case, "variant": "newton", "dt_s": 1e-6 * step, "duration_s": 0.004,
              "scheduled_cpu_s": 1e-4 / step, "reference_cpu_s": 1e-3 / step, "reference_over_scheduled": 10.0,
@@ -63,15 +45,12 @@ def _deterministic() -> dict[str, Any]:
 
 REPORTS: dict[str, dict[str, Any]] = {
     "speed": {"rows": _speed_rows()}, "kinds": {"rows": _speed_rows()},
-    "scaling n": {"rows": [{**_SCENE, "n_rods": n, "relative_cost": 1 + n / 1e4} for n in (500, 2000, 18000)]},
-    "scaling dt": {"rows": [{**_SCENE, "dt_s": 1e-6 * dt, "relative_cost": 4 / dt} for dt in (4, 32, 16, 8, 2, 1)]},
-    "threads": {"rows": [{**_SCENE, "threads": n, "speed_up": n**0.7, "limit": n**0.8} for n in (1, 2, 4)]},
     "hard": {"rows": [{"case": f"case-{k % 5}", "limit": 1.0, "limit_is": "most", "margin": 3.0**k} for k in range(9)]},
     "hard history": {"rows": [{"case": name, "time_s": 5.0 * k, "S": 0.8, "max_overlap": 1e-3 * k,
                                "energy_unaccounted": 1e-14 * k} for name in ("collapse", "rest") for k in range(9)]},
     "effects": {"rows": [{"without": name, "own_state": {"cpu_ratio": ratio, "cpu_ratio_error": 0.02}, "same_state": {}}
                          for name, ratio in (("(nothing)", 1.0), ("vibration", 16.2), ("rod_rod_friction", 1.19))]},
-    "accuracy deterministic": _deterministic(), "accuracy statistical": _statistical(),
+    "accuracy": _accuracy(),
     "peers": {"rows": [{"program": "Shaken", "dt_us": 16, "rod_s_per_cpu_s_best": "12345"},
                        {"program": "ODE", "dt_us": 100, "rod_s_per_cpu_s_best": ""}]},
 }
@@ -94,30 +73,6 @@ def test_nothing_is_cut(name: str, width: str | None) -> None:
         if width == "89mm" and len(sheet.panels) > 1:
             continue  # several panels beside each other are for a page
         assert_whole(sheet)
-
-
-def test_numbers_of_the_report_are_drawn(tmp_path: Path) -> None:
-    figures = dict(bench.figures_of(report("accuracy statistical")))
-    assert set(figures) == {"bias", "tilt", "cost", "model"}
-    figures["cost"].save(tmp_path / "cost.png")
-    text = "".join(line for line in (tmp_path / "cost.csv").read_text().splitlines(True) if not line.startswith("#"))
-    first = next(csv.DictReader(io.StringIO(text)))
-    assert first["curve"] == "newton"
-    assert float(first["x"]) == pytest.approx(20)          # ms per rod and simulated second
-    (row, *_), (limit, *_) = (accuracy.fitted(report("accuracy statistical"))[of] for of in ("rows", "limits"))
-    assert row["T_xy"]["bias"] == pytest.approx(0.001) and limit["at_zero"] == pytest.approx(2)
-    assert float(first["y"]) == pytest.approx(100 * (0.001 + 2 * row["T_xy"]["bias_error"]))
-    assert all(float(value) < 0.5 for drawn in figures["tilt"][0].drawn for value, y in zip(drawn.error, drawn.y)
-               if math.isfinite(y))
-
-
-def test_one_variant_has_no_cost() -> None:
-    one = report("accuracy statistical")
-    one = {**one, "rows": [row for row in one["rows"] if row["variant"] == "newton"]}
-    assert "cost" not in dict(bench.figures_of(one))
-    first = {**report("accuracy statistical"), "rows": [row for row in report("accuracy statistical")["rows"]
-                                                        if row["knob"] == "step" and row["value"] == 1]}
-    assert "cost" not in dict(bench.figures_of(first))  # one step alone has no bias
 
 
 def test_numbers_are_plain() -> None:
@@ -164,17 +119,5 @@ def test_the_verdict_is_told_by_the_program(tmp_path: Path) -> None:
         return subprocess.run([sys.executable, program, "verdict", "-"], input=json.dumps(report(name)), text=True,
                               capture_output=True, check=True).stdout
 
-    assert "head-on  newton   1.00 +- 0.00   4  1.00 +- 0.00   4       -   -\n" in told("accuracy deterministic")
-    assert "Largest step up to which the bias is below 1 %" in told("accuracy statistical")
+    assert "head-on  newton   1.00 +- 0.00   4  1.00 +- 0.00   4       -   -\n" in told("accuracy")
     assert told("speed") == ""
-
-
-def _verdict_of_steps(verdicts_of_s: list[str]) -> str:
-    return verdicts._steps_below([{"value": 2**k, "S": {"verdict": found}} for k, found in enumerate(verdicts_of_s)],
-                                 "S")
-
-
-def test_the_last_step_below_has_all_finer_ones_below() -> None:
-    assert _verdict_of_steps(["below", "below", "open", "below"]) == "  S: 2 us (4 us: open)\n"
-    assert _verdict_of_steps(["below", "below"]) == "  S: 2 us\n"
-    assert _verdict_of_steps(["above", "below"]) == "  S: none (1 us: above)\n"

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""What the rows of `shaken-bench accuracy` come to: orders of convergence, and biases."""
+"""What the rows of `shaken-bench accuracy` come to: orders of convergence, also in words for a terminal."""
 from __future__ import annotations
 
 import math
-from typing import Any, Callable, Mapping, NamedTuple, Sequence
+from typing import Any, Mapping, NamedTuple, Sequence
 
 import numpy as np
 
@@ -14,10 +14,6 @@ NORMS = ("position", "director", "energy")
 #: solution itself is off by; of these the LEAST finest, and each next one while its error stays within a factor ON_LINE
 #: of the line through those before.
 ABOVE_FLOOR, ON_LINE, LEAST = 8.0, 1.5, 4
-#: A limit dt -> 0 is that of a straight line through the steps up to so many times the finest.
-LINEAR = 8.0
-#: Where a bias is settled.
-BOUND = 0.01
 
 
 class PowerLaw(NamedTuple):
@@ -33,28 +29,6 @@ class PowerLaw(NamedTuple):
         return self.coefficient * x**self.order
 
 
-class Line(NamedTuple):
-    """at_zero + slope x, each with its standard error; chi_squared is about `freedom` if the line holds."""
-
-    at_zero: float
-    at_zero_error: float
-    slope: float
-    slope_error: float
-    chi_squared: float
-    freedom: int
-
-
-def line_through(x: Sequence[float], y: Sequence[float], errors: Sequence[float]) -> Line:
-    """By weighted least squares."""
-    x, y, errors = (np.asarray(values, dtype=float) for values in (x, y, errors))
-    design = np.column_stack([1 / errors, x / errors])
-    covariance = np.linalg.inv(design.T @ design)
-    found = covariance @ (design.T @ (y / errors))
-    left = y / errors - design @ found
-    return Line(found[0], math.sqrt(covariance[0, 0]), found[1], math.sqrt(covariance[1, 1]), float(left @ left),
-                len(x) - 2)
-
-
 def power_law(x: Sequence[float], y: Sequence[float], floor: float = 0.0) -> PowerLaw | None:
     """Through the asymptotic part of `y` at rising `x`; None if fewer than LEAST points count."""
     x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
@@ -64,11 +38,9 @@ def power_law(x: Sequence[float], y: Sequence[float], floor: float = 0.0) -> Pow
         return None
 
     def through(points: int) -> PowerLaw:
-        log_x, log_y = np.log(x[first:first + points]), np.log(y[first:first + points])
-        middle = log_x.mean()
-        line = line_through(log_x - middle, log_y, np.ones(points))
-        return PowerLaw(line.slope, line.slope_error * math.sqrt(line.chi_squared / line.freedom),
-                        math.exp(line.at_zero - line.slope * middle), first, points)
+        (order, at_one), covariance = np.polyfit(np.log(x[first:first + points]), np.log(y[first:first + points]), 1,
+                                                 cov=True)
+        return PowerLaw(order, math.sqrt(covariance[0, 0]), math.exp(at_one), first, points)
 
     law = through(LEAST)
     for k in range(first + LEAST, len(y)):
@@ -76,18 +48,6 @@ def power_law(x: Sequence[float], y: Sequence[float], floor: float = 0.0) -> Pow
             break
         law = through(law.points + 1)
     return law
-
-
-def relative_bias(value: float, error: float, truth: float, truth_error: float) -> tuple[float, float]:
-    """(value - truth) / truth; the error is of both, taken as independent."""
-    return value / truth - 1, math.hypot(error / truth, value / truth * truth_error / truth)
-
-
-def verdict(bias: float, error: float, bound: float = BOUND) -> str:
-    """"below" or "above" the bound with two standard errors to spare; "open" where these do not tell."""
-    if abs(bias) + 2 * error < bound:
-        return "below"
-    return "above" if abs(bias) - 2 * error > bound else "open"
 
 
 def with_orders(report: Row) -> dict[str, Any]:
@@ -105,38 +65,70 @@ def with_orders(report: Row) -> dict[str, Any]:
     return {**report, "orders": orders}
 
 
-def with_biases(report: Row) -> dict[str, Any]:
-    """"limits": the limit dt -> 0 of each observable. Rows get the "bias" of each relative to it; of impulses, and for
-    other knobs than the step, relative to the first row."""
-    rows, limits = [], []
-    for series in series_of(report["rows"], "length_mm", "variant", "knob"):
-        found = [dict(row) for row in series]
-        for of in report["observables"]:
-            name, first = of["name"], series[0]
-            fine = [row for row in series if row["value"] <= LINEAR * first["value"] and number(row, f"{name}/sem") > 0]
-            truth, truth_error = number(first, f"{name}/value"), number(first, f"{name}/sem")
-            has_limit = first["knob"] == "step" and of["has_limit"] and len({row["value"] for row in fine}) > 1
-            if has_limit:
-                line = line_through(*(column(fine, path) for path in ("value", f"{name}/value", f"{name}/sem")))
-                truth, truth_error = line.at_zero, line.at_zero_error
-                limits.append({"length_mm": first["length_mm"], "variant": first["variant"], "observable": name,
-                               **line._asdict()})
-            for row, one in zip(series, found):
-                bias, error = relative_bias(number(row, f"{name}/value"), number(row, f"{name}/sem"), truth,
-                                            truth_error)
-                if row is first and not has_limit:
-                    bias, error = 0.0, 0.0  # the first value against itself is no measurement
-                one[name] = {**row[name], "bias": bias, "bias_error": error, "verdict": verdict(bias, error)}
-        rows += found
-    return {**report, "rows": rows, "limits": limits}
+def table(titles: Sequence[str], lines: Sequence[Sequence[str]], n_texts: int) -> str:
+    """Aligned columns, of which the first are texts and the others numbers."""
+    widths = [max(len(line[k]) for line in (titles, *lines)) for k in range(len(titles))]
+    return "".join("  ".join(cell.ljust(width) if k < n_texts else cell.rjust(width)
+                             for k, (cell, width) in enumerate(zip(line, widths))).rstrip() + "\n"
+                   for line in (titles, *lines))
 
 
-#: "bench" of a report -> what adds the fits to it.
-FITS: Mapping[str, Callable[[Row], dict[str, Any]]] = {
-    "accuracy deterministic": with_orders, "accuracy statistical": with_biases}
+def _text(value: float | None, form: str) -> str:
+    return "-" if value is None or not math.isfinite(value) else format(value, form)
 
 
-def fitted(report: Row) -> Row:
-    """The report with the fits that its figures and its verdict need."""
-    fit = FITS.get(report.get("bench", ""))
-    return fit(report) if fit is not None and report.get("rows") else report
+class Column(NamedTuple):
+    """A number of each row."""
+
+    title: str
+    path: str
+    form: str
+    factor: float = 1.0
+
+
+def _numbers(row: Row, columns: Sequence[Column]) -> list[str]:
+    return [_text(of.factor * number(row, of.path), of.form) for of in columns]
+
+
+#: Of each step of a case.
+_ERRORS = [Column("dt us", "dt_s", ".10g", 1e6), Column("position mm", "error/position/median", ".2e"),
+           Column("lower", "error/position/lower", ".2e"), Column("upper", "error/position/upper", ".2e"),
+           Column("director rad", "error/director/median", ".2e"), Column("energy", "error/energy/median", ".2e"),
+           Column("scheduled us", "scheduled_cpu_s", ".4g", 1e6), Column("reference us", "reference_cpu_s", ".4g", 1e6),
+           Column("ratio", "reference_over_scheduled", ".1f"), Column("trouble", "in_trouble", ".0f")]
+#: Of each converged solution.
+_CONVERGED = [Column("dt ns", "dt_s", ".4g", 1e9), Column("impulses", "impulses", ".4g"),
+              *(Column(norm, f"error/{norm}/upper", ".2e") for norm in NORMS),
+              *(Column(norm, f"from_first/{norm}/median", ".2e") for norm in NORMS)]
+
+
+def _case_table(rows: Sequence[Row], columns: Sequence[Column], more: Mapping[str, str] | None = None) -> str:
+    """With the columns `more` of yes and no."""
+    more = more or {}
+    return table(["case", "variant", *(of.title for of in columns), *more],
+                 [[row["case"], row["variant"], *_numbers(row, columns),
+                   *("yes" if row[member] else "NO" for member in more.values())] for row in rows], 2)
+
+
+def verdict_text(report: Row) -> str:
+    """What the rows come to, as shaken-bench writes them; empty for other benches."""
+    if report.get("bench") != "accuracy" or not report.get("rows"):
+        return ""
+    report = with_orders(report)
+    text = ("\nErrors against a converged solution at the end of each case: median over an ensemble of starts, and "
+            "its\nquartiles for the position. CPU time of one start. Energy: kinetic, relative.\n" +
+            _case_table(report["rows"], _ERRORS, {"same state": "states_equal"}) +
+            "\nConverged solutions: their step, the impulses of one start, what one of twice that step is off by "
+            "(upper\nquartile), and how far they are from that of the first variant (median).\n" +
+            _case_table(report["converged"], _CONVERGED))
+    lines = []
+    for of in report["orders"]:
+        lines.append([of["case"], of["variant"]])
+        for norm in NORMS:
+            law = of[norm]
+            lines[-1] += [f"{law['order']:.2f} +- {law['order_error']:.2f}", str(law["points"])] if law else ["-", "-"]
+    return (text + "\nOrder of convergence: slope of the median error in log-log, its standard error, and from how "
+            f"many steps. The\nfinest {LEAST} steps count, then each next one while it stays within a factor "
+            f"{ON_LINE:g} of the line; errors below {ABOVE_FLOOR:g}\ntimes what the converged solution is off by do "
+            "not.\n" +
+            table(["case", "variant", *(title for norm in NORMS for title in (norm, "of"))], lines, 2))

@@ -34,7 +34,7 @@ def main(arguments: Sequence[str]) -> int:
             print(f"matplotlib {matplotlib.__version__} of {sys.executable}")
         elif options.command == "verdict":
             from .bench import read_report
-            from .verdicts import verdict_text
+            from .accuracy import verdict_text
             print(verdict_text(read_report(Path(options.report))), end="", flush=True)
         else:
             from .bench import draw_report
