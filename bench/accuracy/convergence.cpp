@@ -16,6 +16,30 @@ namespace {
 constexpr int kConvergedBy = 64;  ///< the converged solution's step is the finest step over this
 constexpr int kTimedMembers = 4;  ///< by the reference stepper too, to be timed and compared
 
+const std::vector<Column> kErrorColumns{{"case", "case"},
+                                        {"variant", "variant"},
+                                        {"dt us", "dt_s", "{:.10g}", 1e6},
+                                        {"position mm", "error/position/median", "{:.2e}"},
+                                        {"lower", "error/position/lower", "{:.2e}"},
+                                        {"upper", "error/position/upper", "{:.2e}"},
+                                        {"director rad", "error/director/median", "{:.2e}"},
+                                        {"energy", "error/energy/median", "{:.2e}"},
+                                        {"scheduled us", "scheduled_cpu_s", "{:.4g}", 1e6},
+                                        {"reference us", "reference_cpu_s", "{:.4g}", 1e6},
+                                        {"ratio", "reference_over_scheduled", "{:.1f}"},
+                                        {"trouble", "in_trouble"},
+                                        {"same state", "states_equal"}};
+const std::vector<Column> kConvergedColumns{{"case", "case"},
+                                            {"variant", "variant"},
+                                            {"dt ns", "dt_s", "{:.4g}", 1e9},
+                                            {"impulses", "impulses", "{:.4g}"},
+                                            {"position", "error/position/upper", "{:.2e}"},
+                                            {"director", "error/director/upper", "{:.2e}"},
+                                            {"energy", "error/energy/upper", "{:.2e}"},
+                                            {"position", "from_first/position/median", "{:.2e}"},
+                                            {"director", "from_first/director/median", "{:.2e}"},
+                                            {"energy", "from_first/energy/median", "{:.2e}"}};
+
 /// Errors of the members of an ensemble, by norm.
 struct Samples {
   std::array<std::vector<double>, kNormNames.size()> of;
@@ -148,6 +172,13 @@ Report convergence_report(const std::vector<Json>& measured) {
     report.add(of.at("rows"));
     report.json["converged"].push_back(of.at("converged"));
   }
+  report.text +=
+      "\nErrors against a converged solution at the end of each case: median over an ensemble of starts, and its\n"
+      "quartiles for the position. CPU time of one start. Energy: kinetic, relative.\n" +
+      table(report.rows(), kErrorColumns) +
+      "\nConverged solutions: their step, the impulses of one start, what one of twice that step is off by\n"
+      "(upper quartile), and how far they are from that of the first variant (median).\n" +
+      table(report.json["converged"], kConvergedColumns);
   return report;
 }
 

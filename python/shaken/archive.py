@@ -21,7 +21,7 @@ import numpy as np
 from .errors import ShakenError
 from .frames import Frame
 from .run import Arrays, DirectoryRun, Run
-from .whole import write_whole
+from .system import write_whole
 
 SUFFIX = ".run.xz"
 #: No file is larger: what figures need least is left out until it fits.

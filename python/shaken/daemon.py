@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import http.client
 import json
+import os
 import re
 import socket
 import sys
@@ -13,11 +14,27 @@ from pathlib import Path
 from typing import Any, Callable, Mapping
 
 from .errors import DaemonFailed, NoDaemon, NotFound, ShakenError
-from .root import root_folder
-from .quantities import seconds
+from .units import seconds
 
 #: Wall time for which `wait` waits for a daemon that is away, as while it is restarted [s]; `shaken wait` as long.
 _MAY_BE_AWAY = 10.0
+
+
+def root_folder(root: str | Path | None = None) -> Path:
+    """`root`; if that is None, $SHAKEN_ROOT, else $XDG_DATA_HOME/shaken, else ~/.local/share/shaken. Relative paths in
+    the last two are ignored, as the XDG base directory specification has it: they would be another root in every
+    folder."""
+    if root is not None:
+        return Path(root)
+    if os.environ.get("SHAKEN_ROOT"):
+        return Path(os.environ["SHAKEN_ROOT"])
+    data = os.environ.get("XDG_DATA_HOME", "")
+    if os.path.isabs(data):
+        return Path(data) / "shaken"
+    home = os.environ.get("HOME", "")
+    if not os.path.isabs(home):
+        raise ShakenError("no root directory: set SHAKEN_ROOT, or HOME to an absolute path")
+    return Path(home) / ".local" / "share" / "shaken"
 
 
 class _Connection(http.client.HTTPConnection):

@@ -10,7 +10,7 @@ import numpy as np
 
 from .errors import ShakenError
 from .hdf5 import open_file
-from .quantities import seconds
+from .units import seconds
 
 
 @dataclass(frozen=True, repr=False)

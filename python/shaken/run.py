@@ -25,6 +25,14 @@ _SPECIES = re.compile("rods_[0-9]+")
 _TABLE = "/van_hove/displacement_mm"  # a row for each lag
 
 
+def axes_of(array: str) -> list[str]:
+    """The names of the axes of an array of the first species, the slowest first: ["/msd/lag_s"] of
+    "/msd/total_mm2"."""
+    for part, described in _DESCRIBED:
+        array = part.sub(described, array)
+    return ARRAYS.get(array, {}).get("axes", [])
+
+
 class Array(np.ndarray):
     """Numbers of an observable: a numpy array that knows what it is, and so do its slices, copies and pickles. What is
     computed from it is an Array whose unit is not known, or a number.
@@ -119,9 +127,7 @@ class Arrays(Mapping[str, Array]):
         array = Array(values, path, unit)
         species, own = split_species(path)
         species = f"/{species}" if species else ""
-        for part, described in _DESCRIBED:
-            own = part.sub(described, own)
-        at = [species + axis for axis in ARRAYS.get(own, {}).get("axes", ())]
+        at = [species + axis for axis in axes_of(own)]
         if len(at) > 1:
             *rows, columns = axes = tuple(self._fetch(axis) for axis in at)
             array = Array(np.asarray(array).reshape(*map(len, rows), columns.shape[-1]), path, unit)
@@ -329,7 +335,7 @@ def open_run(run: str | Path, root: str | Path | None = None) -> Run:
     if path.is_file():
         from .archive import read_archived
         return read_archived(path)
-    from .root import root_folder
+    from .daemon import root_folder
     runs = root_folder(root) / "runs"
     name = str(run)
     found = sorted(runs.glob(name + "*")) if len(name) >= 4 and math.isfinite(_hex(name)) else []

@@ -10,9 +10,9 @@ from .daemon import Daemon, quoted
 from .catalogue import KEYS, UNITS
 from .errors import ShakenError, UnknownName
 from .estimate import Estimate, replica_mean
-from .quantities import number_of, unit_in
+from .units import number_of, unit_in
 from .run import DirectoryRun, Run
-from .summary import has_results, version_text
+from .tables.rows import has_results, swept, version_text
 
 
 class Point:
@@ -86,11 +86,7 @@ class Sweep:
     @property
     def parameters(self) -> list[str]:
         """The swept keys that have more than one value."""
-        values: dict[str, set[str]] = {}
-        for point in self.points:
-            for path, value in point.parameters.items():
-                values.setdefault(path, set()).add(json.dumps(value))
-        return [path for path, found in values.items() if len(found) > 1]
+        return swept(self.points)
 
     def where(self, **conditions: Any) -> "Sweep":
         """The points whose keys have these values: `sweep.where(**{"rods.length": 4.5})`, or with a part of the name

@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from shaken.study.other_program import tables
+from shaken.study.report import other_program as tables
 
 VALIDATE = Path(__file__).resolve().parents[2] / "tests" / "validate"
 

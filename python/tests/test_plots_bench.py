@@ -15,7 +15,7 @@ import pytest
 pytest.importorskip("matplotlib")
 from figures_whole import assert_whole  # noqa: E402
 
-from shaken.plots import bench, names, rows, style  # noqa: E402
+from shaken.plots import accuracy, bench, names, style  # noqa: E402
 
 _SCENE = {"length_mm": 4.5, "area_fraction": 0.75, "side_mm": 41.865, "n_rods": 1000}
 _PHASES = ("surfaces", "detection", "response", "storing", "rod_bounds", "tightening", "pair_bounds", "neighbors")
@@ -108,8 +108,8 @@ def test_reports_are_drawn_by_the_program_beside_their_rows(tmp_path: Path) -> N
 
 
 def test_numbers_of_a_row() -> None:
-    assert rows.number({"a": {"b": 2}}, "a/b") == 2
-    assert np.isnan(rows.number({"a": {"b": None}}, "a/b")) and np.isnan(rows.number({}, "a/b"))
+    assert accuracy.number({"a": {"b": 2}}, "a/b") == 2
+    assert np.isnan(accuracy.number({"a": {"b": None}}, "a/b")) and np.isnan(accuracy.number({}, "a/b"))
 
 
 def test_the_verdict_is_told_by_the_program(tmp_path: Path) -> None:

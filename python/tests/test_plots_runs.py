@@ -14,7 +14,7 @@ pytest.importorskip("matplotlib")
 from figures_whole import assert_whole  # noqa: E402
 
 from shaken.estimate import Estimate, replica_mean  # noqa: E402
-from shaken.plots import names, pictures, runs, series, sweeps  # noqa: E402
+from shaken.plots import names, runs, series, sweeps  # noqa: E402
 
 NAN = float("nan")
 TILT = {"/tilt/n_z": [-0.1, 0.1], "/tilt/v_along_mm_s": [1.0, 2.0]}
@@ -126,14 +126,14 @@ def test_a_map_has_the_first_run_of_each_point_at_its_place(tmp_path: Path) -> N
         if k != 4:
             Image.new("RGB", (9, 9), (40 * k, 0, 0)).save(folder / "rods.png")
         sweep.append((str(folder), {"wall": "rough", "rods.area_fraction": phi, "rods.length": length}))
-    sheet, missing = pictures.picture_map(sweep, ["rods.area_fraction", "rods.length"], str(renderer))
+    sheet, missing = sweeps.picture_map(sweep, ["rods.area_fraction", "rods.length"], str(renderer))
     assert missing == ["nothing was recorded", "torn"]
     red = [round(float(panel.axes.images[0].get_array()[4, 4, 0]) * 255) if panel.has_picture else panel.absent
            for panel in sheet]
     assert red == ["no frame", 200, "no data", 40, "no frame", 0]  # long rods above; two of (0.4, 2.5 mm)
     assert names.plain(sheet[1].title) == "φ = 0.6, ℓ = 4.5 mm" and not sheet[2].is_used
     assert_whole(sheet.finish())
-    row, _ = pictures.picture_map([one for one in sweep if one[1]["rods.length"] == "2.5 mm"], ["rods.area_fraction"],
+    row, _ = sweeps.picture_map([one for one in sweep if one[1]["rods.length"] == "2.5 mm"], ["rods.area_fraction"],
                                   str(renderer))
     assert [panel.has_picture for panel in row] == [True, False, True]
 

@@ -10,7 +10,7 @@ import pytest
 
 import shaken
 from conftest import made_up_run
-from shaken import archive, hdf5, quantities
+from shaken import archive, hdf5, units
 from shaken.plots import runs
 from shaken.run import error_name
 from shaken.units import split_species, unit_of
@@ -79,11 +79,11 @@ def test_parts_and_copies_of_arrays_know_what_they_are(run_at):
 
 
 def test_texts_of_quantities_are_numbers_in_default_units():
-    assert quantities.seconds("1.5 min") == 90 and quantities.number_of("20ms") == pytest.approx(0.02)
-    assert quantities.number_of("high") == "high" and quantities.number_of("3 apples") == "3 apples"
+    assert units.seconds("1.5 min") == 90 and units.number_of("20ms") == pytest.approx(0.02)
+    assert units.number_of("high") == "high" and units.number_of("3 apples") == "3 apples"
     for text in ("x", "3 mm", "", "1.2.3 s"):
         with pytest.raises(shaken.ShakenError, match="is no time"):
-            quantities.seconds(text)
+            units.seconds(text)
 
 
 @pytest.mark.parametrize("name, parts", [("/rods_2/msd/lag_s", ("rods_2", "/msd/lag_s")),

@@ -229,7 +229,7 @@ def test_nothing_is_left_behind_by_a_process_that_is_killed(tmp_path, how):
     script = tmp_path / "script.py"
     script.write_text("""
 import subprocess, sys, time
-from shaken.children import ends_with_us, scratch_folder
+from shaken.system import ends_with_us, scratch_folder
 with scratch_folder("shaken-test-") as folder:
     (folder / "file").write_text("text")
     child = subprocess.Popen(["sleep", "600"], preexec_fn=ends_with_us)

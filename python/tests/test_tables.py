@@ -12,8 +12,8 @@ import pytest
 
 from shaken.errors import NotFound, ShakenError, nearest
 from shaken.estimate import student_factor
-from shaken.quantities import quantity
-from shaken.tables import app, conditions, inset, results, rows, text
+from shaken.units import quantity
+from shaken.tables import app, conditions, results, rows, text
 from shaken.tables.conditions import Condition, marked
 
 
@@ -350,7 +350,6 @@ class FakeDaemon:
 @pytest.fixture
 def said(monkeypatch, capsys):
     monkeypatch.setattr(results, "Daemon", FakeDaemon)
-    monkeypatch.setattr(inset, "Daemon", FakeDaemon)
 
     def run(*words, verb="results"):
         code = app.main([verb, *words])

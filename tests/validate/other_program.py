@@ -23,7 +23,7 @@ sys.path[:0] = [str(ROOT / "bench/peers"), str(ROOT / "python")]
 import lammps  # noqa: E402
 import shaken  # noqa: E402
 import system as peers  # noqa: E402
-from shaken.study.other_program import tables  # noqa: E402
+from shaken.study.report import other_program as tables  # noqa: E402
 
 EVERY = 0.02008  # [s]; frames see all phases of the plates' period of 5 ms
 SHAKEN_FRAMES = 12000  # of its run

@@ -11,11 +11,10 @@ from pathlib import Path
 from typing import Any, Sequence
 
 from ..errors import ShakenError
-from ..options import Options, failed
+from ..program import BAD_INPUT, FAILED, OK, Options, failed, run
 from .rods import Level, Measuring, NotDiffusive, Species, Unmet
 from .search import Calibrated, noise_for
 
-OK, FAILED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 _PICTURES = (".png", ".pdf", ".svg")
 
 
@@ -127,19 +126,12 @@ def draw(path: Path, rows: Sequence[tuple[Species, list[Calibrated], list[Level]
     sheet.save(path, {"Software": "shaken calibrate"})
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
+def main(arguments: Sequence[str]) -> int:
     options = parser().parse_args(arguments)
     species = [Species(**one) for one in json.loads(options.species)]
-    problems = problems_of(options, species)
-    if problems:
+    if problems := problems_of(options, species):
         return failed("\n".join(problems), BAD_INPUT, options.json)
-    try:
-        return _run(options, species)
-    except (ShakenError, OSError) as error:
-        return failed(str(error), FAILED, options.json)
-    except KeyboardInterrupt:
-        print("interrupted", file=sys.stderr)
-        return INTERRUPTED
+    return run(lambda given: _run(given, species), options, options.json, code=FAILED)
 
 
 def _run(options: argparse.Namespace, species: Sequence[Species]) -> int:
@@ -176,7 +168,3 @@ def _as_json(options: argparse.Namespace, every: Sequence[tuple[Species, list[Ca
                          "calibrated": [{"wanted_rad2_s": each.wanted, "noise_sem_rad_per_mm": each.error,
                                          "is_met": each.is_met, **each.level.as_json()} for each in found],
                          "levels": [level.as_json() for level in levels]} for one, found, levels in every]}
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -8,13 +8,13 @@ import math
 import subprocess
 import time
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Callable, Mapping
 
 import numpy as np
 
-from ..children import ends_with_us, scratch_folder
+from ..system import ends_with_us, scratch_folder
 from ..errors import ShakenError
 from ..run import open_run
 from .diffusion import BEYOND, Diffusion, diffusion, exponent

@@ -8,7 +8,6 @@ from typing import Callable, Sequence
 
 import numpy as np
 
-from ..errors import ShakenError
 from .rods import Level, NotDiffusive, Unmet
 
 #: Noise that is tried first, the least that is tried, and the largest that a scene may have [rad/mm].

@@ -2,18 +2,46 @@
 """What the rows of `shaken-bench accuracy` come to: orders of convergence, also in words for a terminal."""
 from __future__ import annotations
 
+import json
 import math
 from typing import Any, Mapping, NamedTuple, Sequence
 
 import numpy as np
 
-from .rows import Row, column, like, number, series_of
+from ..tables.text import Column, table
+
+#: A row of a report of shaken-bench.
+Row = Mapping[str, Any]
 
 NORMS = ("position", "director", "energy")
 #: The asymptotic part of a series of errors: steps whose error is at least ABOVE_FLOOR times what the converged
 #: solution itself is off by; of these the LEAST finest, and each next one while its error stays within a factor ON_LINE
 #: of the line through those before.
 ABOVE_FLOOR, ON_LINE, LEAST = 8.0, 1.5, 4
+
+
+def number(row: Any, path: str) -> float:
+    """The number at "scheduled/spread" in a row; NaN if there is none."""
+    for part in path.split("/"):
+        row = row.get(part) if isinstance(row, Mapping) else None
+    return float(row) if isinstance(row, (int, float)) and not isinstance(row, bool) else math.nan
+
+
+def column(rows: Sequence[Row], path: str, factor: float = 1.0) -> np.ndarray:
+    return factor * np.array([number(row, path) for row in rows])
+
+
+def series_of(rows: Sequence[Row], *members: str) -> list[list[Row]]:
+    """Rows that are alike in some members, as one list each, in the order in which these begin."""
+    series: dict[str, list[Row]] = {}
+    for row in rows:
+        series.setdefault(json.dumps([row.get(member) for member in members]), []).append(row)
+    return list(series.values())
+
+
+def like(rows: Sequence[Row], row: Row, *members: str) -> Row | None:
+    """The one of the rows that is like `row` in these members."""
+    return next((other for other in rows if all(other.get(m) == row.get(m) for m in members)), None)
 
 
 class PowerLaw(NamedTuple):
@@ -65,70 +93,18 @@ def with_orders(report: Row) -> dict[str, Any]:
     return {**report, "orders": orders}
 
 
-def table(titles: Sequence[str], lines: Sequence[Sequence[str]], n_texts: int) -> str:
-    """Aligned columns, of which the first are texts and the others numbers."""
-    widths = [max(len(line[k]) for line in (titles, *lines)) for k in range(len(titles))]
-    return "".join("  ".join(cell.ljust(width) if k < n_texts else cell.rjust(width)
-                             for k, (cell, width) in enumerate(zip(line, widths))).rstrip() + "\n"
-                   for line in (titles, *lines))
-
-
-def _text(value: float | None, form: str) -> str:
-    return "-" if value is None or not math.isfinite(value) else format(value, form)
-
-
-class Column(NamedTuple):
-    """A number of each row."""
-
-    title: str
-    path: str
-    form: str
-    factor: float = 1.0
-
-
-def _numbers(row: Row, columns: Sequence[Column]) -> list[str]:
-    return [_text(of.factor * number(row, of.path), of.form) for of in columns]
-
-
-#: Of each step of a case.
-_ERRORS = [Column("dt us", "dt_s", ".10g", 1e6), Column("position mm", "error/position/median", ".2e"),
-           Column("lower", "error/position/lower", ".2e"), Column("upper", "error/position/upper", ".2e"),
-           Column("director rad", "error/director/median", ".2e"), Column("energy", "error/energy/median", ".2e"),
-           Column("scheduled us", "scheduled_cpu_s", ".4g", 1e6), Column("reference us", "reference_cpu_s", ".4g", 1e6),
-           Column("ratio", "reference_over_scheduled", ".1f"), Column("trouble", "in_trouble", ".0f")]
-#: Of each converged solution.
-_CONVERGED = [Column("dt ns", "dt_s", ".4g", 1e9), Column("impulses", "impulses", ".4g"),
-              *(Column(norm, f"error/{norm}/upper", ".2e") for norm in NORMS),
-              *(Column(norm, f"from_first/{norm}/median", ".2e") for norm in NORMS)]
-
-
-def _case_table(rows: Sequence[Row], columns: Sequence[Column], more: Mapping[str, str] | None = None) -> str:
-    """With the columns `more` of yes and no."""
-    more = more or {}
-    return table(["case", "variant", *(of.title for of in columns), *more],
-                 [[row["case"], row["variant"], *_numbers(row, columns),
-                   *("yes" if row[member] else "NO" for member in more.values())] for row in rows], 2)
-
-
 def verdict_text(report: Row) -> str:
-    """What the rows come to, as shaken-bench writes them; empty for other benches."""
+    """The orders that shaken-bench's rows come to, as a table for a terminal; empty for other benches."""
     if report.get("bench") != "accuracy" or not report.get("rows"):
         return ""
-    report = with_orders(report)
-    text = ("\nErrors against a converged solution at the end of each case: median over an ensemble of starts, and "
-            "its\nquartiles for the position. CPU time of one start. Energy: kinetic, relative.\n" +
-            _case_table(report["rows"], _ERRORS, {"same state": "states_equal"}) +
-            "\nConverged solutions: their step, the impulses of one start, what one of twice that step is off by "
-            "(upper\nquartile), and how far they are from that of the first variant (median).\n" +
-            _case_table(report["converged"], _CONVERGED))
-    lines = []
-    for of in report["orders"]:
-        lines.append([of["case"], of["variant"]])
-        for norm in NORMS:
-            law = of[norm]
-            lines[-1] += [f"{law['order']:.2f} +- {law['order_error']:.2f}", str(law["points"])] if law else ["-", "-"]
-    return (text + "\nOrder of convergence: slope of the median error in log-log, its standard error, and from how "
-            f"many steps. The\nfinest {LEAST} steps count, then each next one while it stays within a factor "
-            f"{ON_LINE:g} of the line; errors below {ABOVE_FLOOR:g}\ntimes what the converged solution is off by do "
-            "not.\n" +
-            table(["case", "variant", *(title for norm in NORMS for title in (norm, "of"))], lines, 2))
+    orders = with_orders(report)["orders"]
+    columns = [Column(name, [of[name] for of in orders]) for name in ("case", "variant")]
+    for norm in NORMS:
+        laws = [of[norm] for of in orders]
+        columns += [Column(norm, [f"{law['order']:.2f} +- {law['order_error']:.2f}" if law else "-" for law in laws],
+                           right=True),
+                    Column("of", [str(law["points"]) if law else "-" for law in laws], right=True)]
+    return ("\nOrder of convergence: slope of the median error in log-log, its standard error, and from how many "
+            f"steps.\nThe finest {LEAST} steps count, then each next one while it stays within a factor {ON_LINE:g} of "
+            f"the line;\nerrors below {ABOVE_FLOOR:g} times what the converged solution is off by do not.\n" +
+            table(columns, 0)[0])

@@ -3,15 +3,36 @@
 from __future__ import annotations
 
 import argparse
-import io
-import os
+import logging
 import sys
 from pathlib import Path
 from typing import Sequence
 
 from ..errors import ShakenError
+from ..program import not_installed, run
 
-NOTHING, BAD_INPUT = 1, 2
+
+def _work(options: argparse.Namespace) -> None:
+    if missing := not_installed("matplotlib", "numpy", "h5py"):
+        raise ShakenError(missing)
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)  # that it lists the fonts, the first time
+    if options.command == "check":
+        import h5py  # noqa: F401, which must go with the same numpy
+        import matplotlib
+        print(f"matplotlib {matplotlib.__version__} of {sys.executable}")
+    elif options.command == "verdict":
+        from .accuracy import verdict_text
+        from .bench import read_report
+        print(verdict_text(read_report(Path(options.report))), end="", flush=True)
+    else:
+        from .bench import draw_report
+        for path in draw_report(Path(options.report), Path(options.out), options.width or None):
+            print(path, flush=True)
+
+
+def _say(reason: str, code: int, _: bool) -> int:
+    print(reason)
+    return code
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -24,26 +45,4 @@ def main(arguments: Sequence[str]) -> int:
     bench.add_argument("--width", default="", help="89mm, 120mm or 183mm")
     verdict = commands.add_parser("verdict", help="what the rows of `shaken-bench accuracy` come to, in words")
     verdict.add_argument("report", help="NAME.json, as it has written; - is stdin")
-    options = parser.parse_args(arguments)
-    if isinstance(sys.stdout, io.TextIOWrapper):
-        sys.stdout.reconfigure(errors="surrogateescape")  # names of files, whatever their bytes
-    try:
-        if options.command == "check":
-            import h5py  # noqa: F401, which must go with the same numpy
-            import matplotlib
-            print(f"matplotlib {matplotlib.__version__} of {sys.executable}")
-        elif options.command == "verdict":
-            from .bench import read_report
-            from .accuracy import verdict_text
-            print(verdict_text(read_report(Path(options.report))), end="", flush=True)
-        else:
-            from .bench import draw_report
-            for path in draw_report(Path(options.report), Path(options.out), options.width or None):
-                print(path, flush=True)
-    except BrokenPipeError:  # whoever read has gone, as `head` does
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return NOTHING
-    except ShakenError as problem:
-        print(problem)
-        return BAD_INPUT
-    return 0
+    return run(_work, parser.parse_args(arguments), say=_say)

@@ -12,7 +12,7 @@ import numpy as np
 from ..errors import ShakenError
 from . import accuracy, names, style
 from .panel import Panel
-from .rows import Row, column, like, number, series_of
+from .accuracy import Row, column, like, series_of
 from .save import Origin
 from .sheet import Sheet
 

@@ -47,11 +47,7 @@ TABLE = {**_described(catalogue.KEYS), **_described(catalogue.NUMBERS), **_descr
 
 
 def _entry(path: str) -> tuple[str, str, str] | None:
-    name = path
-    if name.startswith("measured."):
-        name = name[len("measured."):]
-    if name.endswith(".value"):
-        name = name[:-len(".value")]
+    name = path.removeprefix("measured.").removesuffix(".value")
     name = _ALIASES.get(name, name)
     species, own = split_species(name)
     for known, of in ((name, ""), (own, species), (f"rods.{own}", species)):
@@ -127,9 +123,8 @@ def point_label(parameters: Mapping[str, Any]) -> str:
     return ", ".join(value_label(path, value) for path, value in parameters.items())
 
 
-_WORDS = ((r"\langle ", "⟨"), (r"\langle", "⟨"), (r"\rangle", "⟩"), (r"\mathrm", ""), (r"\hat", ""), ("$", ""), ("{",
-                                                                                                                 ""),
-          ("}", ""))
+_WORDS = ((r"\langle ", "⟨"), (r"\langle", "⟨"), (r"\rangle", "⟩"),
+          *((mark, "") for mark in (r"\mathrm", r"\hat", "$", "{", "}")))
 
 
 def plain(text: str) -> str:

@@ -11,32 +11,33 @@ import numpy as np
 
 from ..errors import ShakenError
 from ..hdf5 import open_file
-from ..run import error_name
-from ..summary import version_text
+from ..run import axes_of, error_name
+from ..tables.rows import version_text
 from . import maps, names
 from .series import VERSION, Arrangement, label_of, mean_curve
 from .sheet import Sheet
 
 _DEGREES = 180 / np.pi
 _MOST_OF_TRACE = 1500  # points of what is recorded over time
+Range = tuple[float | None, float | None]
 
 
 @dataclass(frozen=True)
 class Observable:
-    """A figure of one array against another.
+    """A figure of an array against its axis.
 
     name:      of the files
-    y:         several arrays are added up
+    y, also:   the array, and another one that is added to it
     factors:   that x and y are multiplied with
     is_trace:  recorded over time, and no average: it says nothing about steadiness
     rows:      what y (and x, perhaps) has a row for each value of, one behind the other: that of `row` is drawn
-    log, zero, x_range, y_range: of the axes
+    log, zero, x_range, y_range: of the axes; ranges begin at 0 if left out, unless they are logarithmic or have a zero
+    species:   "rods_2" of another one than the first
     """
 
     name: str
-    x: str
-    y: tuple[str, ...]
-    x_title: str = ""
+    y: str
+    also: str = ""
     y_title: str = ""
     factors: tuple[float, float] = (1.0, 1.0)
     is_trace: bool = False
@@ -44,69 +45,75 @@ class Observable:
     row: int = 0
     log: tuple[bool, bool] = (False, False)
     zero: bool = False
-    x_range: tuple[float | None, float | None] = (None, None)
-    y_range: tuple[float | None, float | None] = (None, None)
+    x_range: Range | None = None
+    y_range: Range | None = None
     x_ticks: tuple[float, ...] = ()
+    species: str = ""
+
+    def array(self, name: str) -> str:
+        return f"/{self.species}{name}" if self.species and name else name
+
+    @property
+    def x(self) -> str:
+        return self.array(axes_of(self.y)[-1])
+
+    @property
+    def ys(self) -> list[str]:
+        return [self.array(name) for name in (self.y, self.also) if name]
 
     @property
     def titles(self) -> tuple[str, str]:
-        return self.x_title or names.axis_title(self.x), self.y_title or names.axis_title(self.y[0])
+        y = self.y_title or names.axis_title(self.y)
+        return names.axis_title(axes_of(self.y)[-1]), f"{self.species}: {y}" if self.species else y
+
+    @property
+    def ranges(self) -> tuple[Range, Range]:
+        return (self.x_range or (_ANY if self.log[0] else _FROM_ZERO),
+                self.y_range or (_ANY if self.log[1] or self.zero else _FROM_ZERO))
 
 
-_FROM_ZERO = (0.0, None)
+_FROM_ZERO, _ANY = (0.0, None), (None, None)
 OBSERVABLES = (
-    Observable("order_time", "/order/time_s", ("/order/order",), is_trace=True, x_range=_FROM_ZERO, y_range=(0, 1)),
-    Observable("order_pdf", "/order/pdf/order", ("/order/pdf/density",), x_range=(0, 1), y_range=_FROM_ZERO),
-    Observable("angles", "/angles/theta_rad", ("/angles/density_per_rad",), factors=(_DEGREES, 1 / _DEGREES),
+    Observable("order_time", "/order/order", is_trace=True, y_range=(0, 1)),
+    Observable("order_pdf", "/order/pdf/density", x_range=(0, 1)),
+    Observable("angles", "/angles/density_per_rad", factors=(_DEGREES, 1 / _DEGREES),
                x_title=names.axis_title("/angles/theta_rad", "°"),
-               y_title=names.axis_title("/angles/density_per_rad", "1/°"), x_range=(-90, 90), y_range=_FROM_ZERO,
+               y_title=names.axis_title("/angles/density_per_rad", "1/°"), x_range=(-90, 90),
                x_ticks=(-90, -45, 0, 45, 90)),
-    Observable("tilt", "/tilt/n_z", ("/tilt/v_along_mm_s",), zero=True),
-    Observable("defects", "/defects/time_s", ("/defects/n_plus", "/defects/n_minus"),
-               y_title=names.axis_title("/defects/n"), is_trace=True, x_range=_FROM_ZERO, y_range=_FROM_ZERO),
-    Observable("g2", "/g2/r_mm", ("/g2/g2",), zero=True, x_range=_FROM_ZERO),
-    Observable("g", "/g2/r_mm", ("/g2/g",), x_range=_FROM_ZERO, y_range=_FROM_ZERO),
-    Observable("g2_across", "/pairs/cut/r_mm", ("/pairs/cut/g2_across",), zero=True, x_range=_FROM_ZERO),
-    Observable("layers", "/layers/q_per_mm", ("/layers/spectrum_across",), x_range=_FROM_ZERO, y_range=_FROM_ZERO),
-    Observable("structure", "/structure/q_per_mm", ("/structure/factor",), x_range=_FROM_ZERO, y_range=_FROM_ZERO),
-    Observable("polar_time", "/polar/time_s", ("/polar/order",), is_trace=True, x_range=_FROM_ZERO, y_range=(0, 1)),
-    Observable("temperature_time", "/temperatures/time_s", ("/temperatures/horizontal_pJ",), is_trace=True,
-               x_range=_FROM_ZERO, y_range=_FROM_ZERO),
-    Observable("scattering", "/scattering/lag_s", ("/scattering/f",), rows="/scattering/q_per_mm",
+    Observable("tilt", "/tilt/v_along_mm_s", zero=True, x_range=_ANY),
+    Observable("defects", "/defects/n_plus", "/defects/n_minus", y_title=names.axis_title("/defects/n"), is_trace=True),
+    Observable("g2", "/g2/g2", zero=True),
+    Observable("g", "/g2/g"),
+    Observable("g2_across", "/pairs/cut/g2_across", zero=True),
+    Observable("layers", "/layers/spectrum_across"),
+    Observable("structure", "/structure/factor"),
+    Observable("polar_time", "/polar/order", is_trace=True, y_range=(0, 1)),
+    Observable("temperature_time", "/temperatures/horizontal_pJ", is_trace=True),
+    Observable("scattering", "/scattering/f", rows="/scattering/q_per_mm",
                y_title=names.axis_title("/scattering/f") + ", smallest $q$", log=(True, False), zero=True),
-    Observable("non_gaussian", "/scattering/lag_s", ("/scattering/alpha_2",), log=(True, False), zero=True),
-    Observable("van_hove", "/van_hove/displacement_mm", ("/van_hove/along_per_mm",), rows="/van_hove/lag_s", row=-1,
-               y_title="van Hove function $G_s(x, t)$, longest $t$ (1/mm)", log=(False, True), x_range=_FROM_ZERO),
-    Observable("flow", "/flow/r_mm", ("/flow/c",), zero=True, x_range=_FROM_ZERO),
-    Observable("clusters_time", "/clusters/time_s", ("/clusters/largest",), is_trace=True, x_range=_FROM_ZERO,
-               y_range=(0, 1)),
-    Observable("cluster_sizes", "/clusters/sizes/size", ("/clusters/sizes/density",), log=(True, True)),
-    Observable("power_time", "/collisions/time_s", ("/collisions/power_given_pJ_s",), is_trace=True,
-               x_range=_FROM_ZERO, y_range=_FROM_ZERO),
-    Observable("pressure_time", "/stress/time_s", ("/stress/collisional_xx_pJ_mm2", "/stress/collisional_yy_pJ_mm2"),
-               y_title="pressure of impacts (pJ/mm²)", is_trace=True, x_range=_FROM_ZERO, y_range=_FROM_ZERO),
-    Observable("g_between", "/mixing/r_mm", ("/mixing/g_12",), x_range=_FROM_ZERO, y_range=_FROM_ZERO),
-    Observable("density_memory", "/density/memory/lag_s", ("/density/memory/correlation",), zero=True,
-               x_range=_FROM_ZERO),
-    Observable("drift", "/drift/time_s", ("/drift/x_mm", "/drift/y_mm"), y_title="displacement of all rods (mm)",
-               is_trace=True, x_range=_FROM_ZERO, zero=True),
-    Observable("msd", "/msd/lag_s", ("/msd/total_mm2",), log=(True, True)),
-    Observable("orientation_memory", "/rotation/lag_s", ("/rotation/c2",), log=(True, False), zero=True),
-    Observable("velocity_memory", "/velocity/lag_s", ("/velocity/c_v",), log=(True, False), zero=True),
-    Observable("number_fluctuations", "/fluctuations/mean_n", ("/fluctuations/std_n",), log=(True, True)),
+    Observable("non_gaussian", "/scattering/alpha_2", log=(True, False), zero=True),
+    Observable("van_hove", "/van_hove/along_per_mm", rows="/van_hove/lag_s", row=-1,
+               y_title="van Hove function $G_s(x, t)$, longest $t$ (1/mm)", log=(False, True)),
+    Observable("flow", "/flow/c", zero=True),
+    Observable("clusters_time", "/clusters/largest", is_trace=True, y_range=(0, 1)),
+    Observable("cluster_sizes", "/clusters/sizes/density", log=(True, True)),
+    Observable("power_time", "/collisions/power_given_pJ_s", is_trace=True),
+    Observable("pressure_time", "/stress/collisional_xx_pJ_mm2", "/stress/collisional_yy_pJ_mm2",
+               y_title="pressure of impacts (pJ/mm²)", is_trace=True),
+    Observable("g_between", "/mixing/g_12"),
+    Observable("density_memory", "/density/memory/correlation", zero=True),
+    Observable("drift", "/drift/x_mm", "/drift/y_mm", y_title="displacement of all rods (mm)", is_trace=True,
+               zero=True),
+    Observable("msd", "/msd/total_mm2", log=(True, True)),
+    Observable("orientation_memory", "/rotation/c2", log=(True, False), zero=True),
+    Observable("velocity_memory", "/velocity/c_v", log=(True, False), zero=True),
+    Observable("number_fluctuations", "/fluctuations/std_n", log=(True, True)),
 )
 
 
-def _of_species(species: str, of: Observable) -> Observable:
-    """The figure of the same observable of another species."""
-    x_title, y_title = of.titles
-    return replace(of, name=f"{species}_{of.name}", x=f"/{species}{of.x}", y=tuple(f"/{species}{y}" for y in of.y),
-                   rows=of.rows and f"/{species}{of.rows}",
-                   x_title=x_title, y_title=f"{species}: {y_title}")
-
-
 #: The same of the species that `measure.of` = "each" adds.
-OF_EVERY_SPECIES = (*OBSERVABLES, *(_of_species(species, of) for species in ("rods_2", "rods_3") for of in OBSERVABLES))
+OF_EVERY_SPECIES = (*OBSERVABLES, *(replace(of, name=f"{species}_{of.name}", species=species)
+                                    for species in ("rods_2", "rods_3") for of in OBSERVABLES))
 
 
 @dataclass
@@ -143,7 +150,8 @@ def read_run(directory: str | Path, parameters: Mapping[str, Any], state: str = 
         summary = {}  # it has not ended
     if not isinstance(summary, dict):
         summary = {}
-    wanted = {name for one in OF_EVERY_SPECIES for name in (one.x, *one.y, error_name(one.y[0]), one.rows) if name}
+    wanted = {name for one in OF_EVERY_SPECIES
+              for name in (one.x, *one.ys, error_name(one.ys[0]), one.array(one.rows)) if name}
     wanted |= {species + name for species in ("", "/rods_2", "/rods_3") for name in maps.ARRAYS + maps.DENSITY}
     arrays = {}
     try:
@@ -181,8 +189,8 @@ class _Curve:
 def _row(run: PlottedRun, of: Observable, name: str) -> np.ndarray | None:
     """An array, or that of its rows that is drawn."""
     values = run.arrays.get(name)
-    n_rows = len(run.arrays.get(of.rows, ()))
-    if values is None or not n_rows or (name == of.x and len(values) < len(run.arrays.get(of.y[0], ()))):
+    n_rows = len(run.arrays.get(of.array(of.rows), ()))
+    if values is None or not n_rows or (name == of.x and len(values) < len(run.arrays.get(of.ys[0], ()))):
         return values
     length = len(values) // n_rows
     first = of.row % n_rows * length
@@ -190,7 +198,7 @@ def _row(run: PlottedRun, of: Observable, name: str) -> np.ndarray | None:
 
 
 def _curve_of(run: PlottedRun, of: Observable) -> _Curve | None:
-    parts = [part for name in of.y if (part := _row(run, of, name)) is not None]
+    parts = [part for name in of.ys if (part := _row(run, of, name)) is not None]
     x = _row(run, of, of.x)
     if x is None or not parts:
         return None
@@ -199,7 +207,7 @@ def _curve_of(run: PlottedRun, of: Observable) -> _Curve | None:
     if n == 0:
         return None
     x, y = x[:n] * of.factors[0], sum(part[:n] for part in parts) * of.factors[1]
-    error = _row(run, of, error_name(of.y[0])) if len(of.y) == 1 else None
+    error = _row(run, of, error_name(of.ys[0])) if not of.also else None
     if error is not None:
         error = np.concatenate([error[:n], np.full(max(0, n - len(error)), np.nan)]) * of.factors[1]
     for value, log in ((x, of.log[0]), (y, of.log[1])):
@@ -263,7 +271,7 @@ def run_figures(runs: Sequence[PlottedRun], width: str | None = None) -> Iterato
                             **(look if k == 0 else {"colour": look["colour"]}))
         for panel, _ in arrangement.panels_of(sheet):
             panel.scale(*("log" if log else "linear" for log in of.log))
-            panel.range(of.x_range, of.y_range)
+            panel.range(*of.ranges)
             if of.zero:
                 panel.zero()
             if of.x_ticks:

@@ -11,7 +11,7 @@ from typing import Any, Iterable, Mapping, Sequence
 import numpy as np
 
 from ..errors import ShakenError
-from ..whole import write_whole
+from ..system import write_whole
 from . import names
 
 #: Keyword -> a text of one line: {"Software": "shaken plot 0.1.0", "Runs": "1f0c59d16ab8b7d7"}. Keywords are those of

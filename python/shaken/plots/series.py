@@ -8,7 +8,7 @@ from typing import Any, Mapping, Sequence
 
 import numpy as np
 
-from ..estimate import student_factor
+from ..estimate import Estimate, replica_mean
 from . import names, style
 from .panel import Panel
 from .sheet import Sheet
@@ -137,17 +137,7 @@ def mean_curve(values: Sequence[np.ndarray],
     of one curve its own. The errors are None where none are known."""
     if len(values) == 1:
         return values[0], errors[0]
-    y = np.array(values, dtype=float)
-    own = np.array([np.full(y.shape[1], np.nan) if error is None else error for error in errors], dtype=float)
-    there = np.isfinite(y)
-    own = np.where(there, own, np.nan)
-    n = there.sum(axis=0)
-    with np.errstate(all="ignore"):
-        mean = np.where(there, y, 0).sum(axis=0) / n
-        scatter = np.sqrt(np.where(there, (y - mean) ** 2, 0).sum(axis=0) / (n - 1) / n)
-        n_own = np.isfinite(own).sum(axis=0)
-        within = np.sqrt(np.nansum(own**2, axis=0)) / n
-        factor = np.array([student_factor(int(count)) if count > 1 else np.nan for count in n])
-        several = np.maximum(within, np.where(n_own == n, scatter, factor * scatter))
-        error = np.where(n > 1, several, np.where(n_own > 0, within, np.nan))
-    return mean, error
+    unknown = np.full(len(values[0]), np.nan)
+    own = [unknown if error is None else error for error in errors]
+    means = [replica_mean(map(Estimate, *at)) for at in zip(zip(*values), zip(*own))]
+    return np.array([mean.value for mean in means]), np.array([mean.error for mean in means])

@@ -56,7 +56,10 @@ class Sheet:
 
     @styled
     def colourbar(self, scale: Any, panels: Sequence[Panel] | None = None, title: str = "") -> Any:
-        """The bar of a ColourScale, or of what Panel.map returned, to the right of `panels` (all, if left out)."""
+        """The bar of a ColourScale, or of what Panel.map returned, to the right of `panels` (all, if left out); none
+        of None, where nothing was drawn."""
+        if scale is None:
+            return None
         from matplotlib.cm import ScalarMappable
         from matplotlib.ticker import FixedLocator, NullLocator
         mappable = ScalarMappable(scale.norm, scale.map) if isinstance(scale, ColourScale) else scale
@@ -150,17 +153,22 @@ class Sheet:
         handles = _explanations(said)
         if not handles:
             return 0.0
-        options: dict[str, Any] = {"loc": "lower left", "borderaxespad": 0, "fontsize": 6, "labelcolor": DARK_GREY,
-                                   "handlelength": 1.4}
+        _, height = self._key_of_all([handle for handle, _ in handles], [text for _, text in handles], renderer,
+                                     loc="lower left", borderaxespad=0, fontsize=6, labelcolor=DARK_GREY,
+                                     handlelength=1.4, bbox_to_anchor=(2 * _EDGE / self.width, 0))
+        return height
+
+    def _key_of_all(self, handles: Sequence[Any], texts: Sequence[str], renderer: Any,
+                    **look: Any) -> tuple[Any, float]:
+        """A key of the figure in as many columns as there is room for, and its height [inches]."""
         for n in range(len(handles), 0, -1):
-            legend = self.figure.legend([handle for handle, _ in handles], [text for _, text in handles], ncol=n,
-                                        bbox_to_anchor=(2 * _EDGE / self.width, 0), **options)
+            legend = self.figure.legend(handles, texts, ncol=n, **look)
             legend.set_in_layout(False)
             extent = legend.get_window_extent(renderer)
             if n == 1 or extent.width / self.figure.dpi < self.width - 4 * _EDGE:
-                return extent.height / self.figure.dpi
+                break
             legend.remove()
-        return 0.0
+        return legend, extent.height / self.figure.dpi
 
     def _share(self) -> None:
         used = [one for one in self.panels if one.is_used]
@@ -185,18 +193,12 @@ class Sheet:
             one.entries = []
         if not entries:
             return 0.0
-        for n in range(len(entries), 0, -1):
-            legend = self.figure.legend(list(entries.values()), list(entries), ncol=n, loc="upper center",
-                                        borderaxespad=0, bbox_to_anchor=(0.5, 1))
-            legend.set_in_layout(False)
-            extent = legend.get_window_extent(renderer)
-            if n == 1 or extent.width / self.figure.dpi < self.width - 4 * _EDGE:
-                from matplotlib.transforms import ScaledTranslation
-                legend.set_bbox_to_anchor((0.5, 1), self.figure.transFigure + ScaledTranslation(
-                    0, -top - _EDGE, self.figure.dpi_scale_trans))
-                return extent.height / self.figure.dpi + 2 * _EDGE
-            legend.remove()
-        return 0.0
+        from matplotlib.transforms import ScaledTranslation
+        legend, height = self._key_of_all(list(entries.values()), list(entries), renderer, loc="upper center",
+                                          borderaxespad=0, bbox_to_anchor=(0.5, 1))
+        legend.set_bbox_to_anchor((0.5, 1), self.figure.transFigure + ScaledTranslation(
+            0, -top - _EDGE, self.figure.dpi_scale_trans))
+        return height + 2 * _EDGE
 
     def _share_keys(self) -> None:
         """Of two panels with the same key the later one needs none."""

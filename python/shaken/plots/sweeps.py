@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: MIT
-"""Numbers of a sweep against what was swept."""
+"""A sweep in one figure: numbers against what was swept, and pictures of its runs over that."""
 from __future__ import annotations
 
 import math
+import subprocess
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any, Mapping, Sequence
 
-from . import names
-from .series import VERSION, WAY, Arrangement, number_of
+from ..system import scratch_folder
+from . import names, style
+from .series import VERSION, WAY, Arrangement, label_of, number_of
 from .sheet import Sheet
 
 
@@ -125,3 +128,43 @@ def sweep_figure(points: Sequence[PlottedPoint], x: str = "", y: str = "order.me
         if y == "order.mean":
             panel.range(y=(0, 1)).reference(y=0.5)
     return f"{file_name(y)}_{file_name(path)}", sheet
+
+
+def picture_map(runs: Sequence[tuple[str, Mapping[str, Any]]], axes: Sequence[str], renderer: str,
+                width: str | None = None) -> tuple[Sheet, list[str]]:
+    """The map, and why some of its places have no picture. Of replicas, and of runs that differ in more than the axes,
+    the first is shown.
+
+    runs:     (directory, parameters): the swept keys as they were asked for
+    axes:     one or two of them that are numbers
+    renderer: the program shaken-render
+    """
+    from matplotlib.image import imread
+    x, y = ([number_of(parameters[key]) if key else 0.0 for _, parameters in runs] for key in (*axes, "")[:2])
+    across, up = sorted(set(x)), sorted(set(y), reverse=True)
+    size = style.inches(width or "183mm") * 25.4 / len(across)
+    sheet = style.sheet(width or "183mm", len(up), len(across), size + 4, letters=False)
+    missing = []
+    with scratch_folder("shaken-map-") as scratch:
+        for (directory, parameters), column, row in zip(runs, map(across.index, x), map(up.index, y)):
+            panel, picture = sheet[len(across) * row + column], scratch / "rods.png"
+            if panel.is_used:
+                continue
+            panel.titles(title=label_of({key: parameters[key] for key in axes}))
+            side = round(min(max(size, 10), 60) * 12)  # 300 dots per inch
+            problem = _draw([renderer, "picture", directory, "--bare", "--colour=angle", "--no-defects",
+                             f"--size={side}x{side}", "-o", str(picture)])
+            if not problem:
+                panel.picture(imread(picture))
+                continue
+            panel.absent = "no frame"
+            missing.append(problem)
+    return sheet, missing
+
+
+def _draw(command: Sequence[str]) -> str:
+    """Runs shaken-render; why there is no picture, or nothing."""
+    if not Path(command[2], "trajectory.h5").exists():
+        return "nothing was recorded"
+    done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    return done.stdout.decode(errors="replace").strip() if done.returncode else ""

@@ -3,15 +3,14 @@
 import sys
 from pathlib import Path
 
-if __package__:
-    from .app import main
-else:
-    sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
-    try:
-        from shaken.study.app import main
-    except ModuleNotFoundError as error:
-        print(f"shaken: {error.name} is not installed, which `shaken figures` needs: `apt install python3-numpy "
-              "python3-scipy python3-matplotlib python3-h5py`", file=sys.stderr)
-        sys.exit(2)
+if not __package__:
+    sys.path[0] = str(Path(__file__).resolve().parents[2])
 
-sys.exit(main())
+from shaken.program import BAD_INPUT, failed, not_installed  # noqa: E402, which the line before finds
+
+if missing := not_installed("numpy", "scipy", "matplotlib", "h5py"):
+    sys.exit(failed(missing, BAD_INPUT, "--json" in sys.argv))
+
+from shaken.study.app import main  # noqa: E402, which needs these
+
+sys.exit(main(sys.argv[1:]))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import io
 import json
 import math
 import os
@@ -14,18 +13,15 @@ from typing import Any, Sequence
 from ..archive import archived_runs
 from ..daemon import Daemon
 from ..errors import ShakenError
-from ..options import Options, failed
 from ..plots.style import inches
-from ..quantities import seconds
+from ..program import BAD_INPUT, FAILED, OK, Options, failed, run
+from ..units import seconds
 from . import running
 from .figures import FIGURES, Figure, chosen, draw
 from .evidence import Evidence
-from .plan import write_plan
 from .report import tally, write_report
 from .sets import ORDER, SCALES, sweeps
 from .statements import as_json, as_table, judged, of_figures
-
-OK, FAILED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 
 
 def parser() -> argparse.ArgumentParser:
@@ -126,25 +122,12 @@ def problems_of(options: argparse.Namespace) -> list[str]:
     return found
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
+def main(arguments: Sequence[str]) -> int:
     options = parser().parse_args(arguments)
-    if isinstance(sys.stdout, io.TextIOWrapper):
-        sys.stdout.reconfigure(errors="surrogateescape")  # names of files, whatever their bytes
-    problems = problems_of(options)
-    if problems:
+    if problems := problems_of(options):
         return failed("\n".join(problems), BAD_INPUT, options.json)
-    try:
-        code = _run(options)
-        sys.stdout.flush()
-        return code
-    except OSError as error:  # a full disk; or whoever read has gone, as `head` does
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return FAILED if isinstance(error, BrokenPipeError) else failed(str(error), FAILED, False)
-    except ShakenError as error:
-        return failed(str(error), FAILED, options.json)
-    except KeyboardInterrupt:
-        print("interrupted: jobs that are queued go on; the same command goes on from here", file=sys.stderr)
-        return INTERRUPTED
+    return run(_run, options, options.json, code=FAILED,
+               interrupted="interrupted: jobs that are queued go on; the same command goes on from here")
 
 
 def _run(options: argparse.Namespace) -> int:
@@ -163,7 +146,7 @@ def _run(options: argparse.Namespace) -> int:
                       sweeps(configs_folder(options.configs), SCALES[options.scale], wanted)}
         if options.plan:
             drawing = f"shaken --root ROOT figures {' '.join(options.figures)} --scale {options.scale} --collect"
-            print("\n".join(map(str, write_plan(options.plan, program, all_sweeps, options.cores, drawing))))
+            print("\n".join(map(str, running.write_plan(options.plan, program, all_sweeps, options.cores, drawing))))
             return OK
         if options.collect:
             known = running.sweeps_of_points(program, all_sweeps.values())
@@ -247,7 +230,3 @@ def _agreed(plan: running.Plan, options: argparse.Namespace) -> bool:
         return True
     print("start? [y/N] ", end="", file=sys.stderr, flush=True)
     return sys.stdin.readline().strip().lower() in ("y", "yes")
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -18,7 +18,7 @@ from .layer_checks import layered, theta_m
 from .layer_wavelength import mean_wavelength
 from .motion_checks import (PAPERS_PARABOLA, late_velocity_correlation, long_rods, papers_diffusion, short_rods,
                             speed_between)
-from .rules import text
+from .rules import markdown, text
 from .structure_checks import mean_waves, ordered_in_large_boxes
 
 #: A column of a table: its heading, and what it says of the runs at one state point.
@@ -27,9 +27,8 @@ Column = tuple[str, Callable[[Runs], str]]
 
 def table(points: Iterable[Runs], columns: Sequence[Column]) -> str:
     """A table of Markdown with a row for the runs at each state point; state points without runs are left out."""
-    lines = ["| " + " | ".join(heading for heading, _ in columns) + " |", "|---" * len(columns) + "|"]
-    lines += ["| " + " | ".join(cell(runs) for _, cell in columns) + " |" for runs in points if runs]
-    return "\n".join(lines) + "\n"
+    headings, cells = zip(*columns)
+    return markdown(headings, [[cell(runs) for cell in cells] for runs in points if runs])
 
 
 def key(heading: str, path: str, unit: str = "") -> Column:
@@ -73,11 +72,6 @@ def log_interpolated(points: Sequence[tuple[float, Estimate]], x: float) -> Esti
     return Estimate(reason="outside")
 
 
-def ratio(a: Estimate, b: Estimate) -> Estimate:
-    """a / b of independent numbers."""
-    return derived(a.value / b.value, [(1 / b.value, a), (-a.value / b.value ** 2, b)])
-
-
 def beads(evidence: Evidence) -> str:
     """D against the number of beads at one area fraction, and beside D of the usual rods where as many lie in an area,
     in which the set `density` gives its neighbours."""
@@ -92,7 +86,7 @@ def beads(evidence: Evidence) -> str:
 
     def compared(here: Runs) -> str:
         other = at_same_number(here)
-        return text(ratio(here.number("diffusion_mm2_s"), other)) if other.is_known and key_of(here[0], BEADS) != 9 \
+        return text(here.number("diffusion_mm2_s") / other) if other.is_known and key_of(here[0], BEADS) != 9 \
             else "–"
 
     found = table(by(runs, BEADS), [
@@ -102,7 +96,7 @@ def beads(evidence: Evidence) -> str:
     fewest, most = runs.smallest(BEADS), runs.largest(BEADS)
     if fewest and most:
         found += f"\nD of the fewest beads over D of the most, at the same area fraction: " \
-                 f"{text(ratio(fewest.number('diffusion_mm2_s'), most.number('diffusion_mm2_s')))}.\n"
+                 f"{text(fewest.number('diffusion_mm2_s') / most.number('diffusion_mm2_s'))}.\n"
     return found
 
 
@@ -144,25 +138,26 @@ def readings(evidence: Evidence) -> str:
     """D of rods of 2.5 mm by both readings of the paper's formula beside its fit, and the fits to both."""
     rival = dict(points_of(evidence["frequency"].where(FREQUENCY, 280), PACKING, long_time_diffusion))
     usual = points_of(short_rods(evidence), PACKING, long_time_diffusion)
-    lines = ["| φ | rods | the paper's fit | 200 Hz, MSD = 4Dt | over the fit | 200 Hz, MSD = 2Dt | over the fit | "
-             "280 Hz, MSD = 2Dt | over the fit |", "|---" * 9 + "|"]
-    for at, found, rods, other in (*((at, found, "N", rival.get(at)) for at, found in usual if at > 0.59),
-                                   *((at, found, f"{MORE_RODS} N", None) for at, found in more_rods(evidence))):
+    rows = []
+    for at, d, rods, other in (*((at, d, "N", rival.get(at)) for at, d in usual if at > 0.59),
+                               *((at, d, f"{MORE_RODS} N", None) for at, d in more_rods(evidence))):
         fit = papers_diffusion(at)
-        cells = [found, found / fit, found * 2, found * 2 / fit,
+        cells = [d, d / fit, d * 2, d * 2 / fit,
                  *([other * 2, other * 2 / fit] if other else [Estimate(), Estimate()])]
-        lines.append(f"| {at:.3g} | {rods} | {fit:.1f} | {' | '.join(text(cell) for cell in cells)} |")
+        rows.append([f"{at:.3g}", rods, f"{fit:.1f}", *map(text, cells)])
+    found = markdown(["φ", "rods", "the paper's fit", "200 Hz, MSD = 4Dt", "over the fit", "200 Hz, MSD = 2Dt",
+                      "over the fit", "280 Hz, MSD = 2Dt", "over the fit"], rows)
     fits = [(name, fitted) for name, points in (("N rods", dense_diffusion(evidence)),
                                                 (f"{MORE_RODS} N rods", more_rods(evidence)))
             if (fitted := parabola(points))]
     if fits:
         d0, c, phi0 = PAPERS_PARABOLA
-        lines += ["", "The parabola D₀ + C (φ − φ₀)², fitted from 0.65 on:", "",
-                  "| of | D₀ (mm²/s) | C (mm²/s) | φ₀ | χ² per degree of freedom |", "|---" * 5 + "|",
-                  f"| the paper | {d0:g} | {c:g} | {phi0:g} | – |"]
-        lines += [f"| {name}, MSD = {4 // factor}Dt | {text(values[0] * factor)} | {text(values[1] * factor)} | "
-                  f"{text(values[2])} | {chi2:.2g} |" for name, (values, chi2) in fits for factor in (1, 2)]
-    return "\n".join(lines) + "\n"
+        found += "\nThe parabola D₀ + C (φ − φ₀)², fitted from 0.65 on:\n\n" + markdown(
+            ["of", "D₀ (mm²/s)", "C (mm²/s)", "φ₀", "χ² per degree of freedom"],
+            [["the paper", f"{d0:g}", f"{c:g}", f"{phi0:g}", "–"],
+             *([f"{name}, MSD = {4 // factor}Dt", text(values[0] * factor), text(values[1] * factor), text(values[2]),
+                f"{chi2:.2g}"] for name, (values, chi2) in fits for factor in (1, 2))])
+    return found
 
 
 def inertia(evidence: Evidence) -> str:
@@ -175,7 +170,7 @@ def inertia(evidence: Evidence) -> str:
     return table(by(evidence["inertia"], PACKING), [
         PACKED, BOX, SEEDS, ("D, uniform solid (mm²/s)", lambda here: text(solid(here))),
         ("D, beads added up (mm²/s)", lambda here: text(long_time_diffusion(here))),
-        ("ratio", lambda here: text(ratio(long_time_diffusion(here), solid(here)))),
+        ("ratio", lambda here: text(long_time_diffusion(here) / solid(here))),
         number("tilt keeps its sign (ms)", "n_z_switching_time_s", 1000),
         number("v beyond n_z = 0.31 (mm/s)", beyond_reversal)])
 
@@ -194,14 +189,14 @@ def rival_frequency(evidence: Evidence) -> str:
     runs = evidence["frequency"].where(FREQUENCY, 280)
     return table(by(runs, PACKING), [
         PACKED, BOX, SEEDS, ("D at long lags over that at short ones", lambda here: text(
-            ratio(here.number("diffusion_mm2_s"), here.number("diffusion_short_mm2_s")))),
+            here.number("diffusion_mm2_s") / here.number("diffusion_short_mm2_s"))),
         number("exponent, long lags", "alpha_long"),
         number("v beyond n_z = 0.31 (mm/s)", beyond_reversal)])
 
 
 def shaking(evidence: Evidence) -> str:
     """Order and motion at area fraction 0.75 against the strength of shaking."""
-    shaken = Runs(run for run in evidence["shaking"] if key_of(run, GAMMA) > 0)
+    shaken = evidence["shaking"].beyond(GAMMA, 0)
     return table(by(shaken, LENGTH, GAMMA), [
         LONG, key("Γ", GAMMA), BOX, SEEDS, number("S", "S"), longest_lag("total"),
         ("D (mm²/s)", lambda here: text(long_time_diffusion(here))),
@@ -238,8 +233,6 @@ def diffusion_minimum(evidence: Evidence) -> str:
 def way_in_boxes(run: Run) -> Estimate:
     """Root mean square displacement along the director at the longest lag, in sides of the box, the common drift of all
     rods included."""
-    if "/msd/along_mm2" not in run:
-        return Estimate(reason="not measured")
     msd = run["/msd/along_mm2"]
     last = float(np.asarray(msd)[-1])
     error = float(np.asarray(msd.error)[-1]) if msd.error is not None else math.nan
@@ -249,8 +242,6 @@ def way_in_boxes(run: Run) -> Estimate:
 
 def drift_part(run: Run) -> Estimate:
     """The part of the mean square displacement at the longest lag that is the common drift of all rods."""
-    if "/msd/relative_total_mm2" not in run:
-        return Estimate(reason="not measured")
     total, relative = (float(np.asarray(run[f"/msd/{name}_mm2"])[-1]) for name in ("total", "relative_total"))
     return Estimate(1 - relative / total, steady=True)
 
@@ -258,7 +249,7 @@ def drift_part(run: Run) -> Estimate:
 def streaming(evidence: Evidence) -> str:
     """Motion of rods of 4.5 mm along the director, dense."""
     points = [here for name in ("long-rods", "diffusion-along", "layers")
-              for here in by(Runs(run for run in evidence[name] if key_of(run, PACKING) > 0.59), PACKING, SIDE)]
+              for here in by(evidence[name].beyond(PACKING, 0.59), PACKING, SIDE)]
     points.sort(key=lambda here: (key_of(here[0], PACKING), key_of(here[0], SIDE), here[0].summary["sim_seconds"]))
 
     def longest(here: Runs) -> str:
@@ -294,8 +285,7 @@ def linear_response(evidence: Evidence) -> str:
         known = rods.get(key_of(here[0], LENGTH), Runs()).at(packing=key_of(here[0], PACKING))
         return long_time_diffusion(known, way) if known else Estimate(reason="not measured")
 
-    lines = ["| ℓ | φ | pulled | runs | τ at 0.1° (s) | τ at 0.25° (s) | later half over earlier | T/m (mm²/s²) | "
-             "N D_c (mm²/s) | over τT/m | D of a rod (mm²/s) | over τT/m |", "|---" * 12 + "|"]
+    rows = []
     for here in by(runs, LENGTH, PACKING):
         both = key_of(here[0], LENGTH) > 4
         for degrees in response.directions(here):
@@ -305,12 +295,12 @@ def linear_response(evidence: Evidence) -> str:
             wide = (response.pulled(here, 90 - degrees) if both else down).of(response.wandering)
             own = own_diffusion(here, way)
             taus = [text(down.where("plates.inclination", angle).of(response.damping_time)) for angle in (0.1, 0.25)]
-            cells = [f"{key_of(here[0], LENGTH):g} mm", f"{key_of(here[0], PACKING):g}",
-                     {"total": "either way"}.get(way, way + " the director"), seeds(down), *taus,
-                     *(text(cell) for cell in (down.of(response.later_over_earlier), kinetic, wide,
-                                               wide / (tau * kinetic), own, own / (tau * kinetic)))]
-            lines.append("| " + " | ".join(cells) + " |")
-    return "\n".join(lines) + "\n"
+            rows.append([f"{key_of(here[0], LENGTH):g} mm", f"{key_of(here[0], PACKING):g}",
+                         {"total": "either way"}.get(way, way + " the director"), seeds(down), *taus,
+                         *(text(cell) for cell in (down.of(response.later_over_earlier), kinetic, wide,
+                                                   wide / (tau * kinetic), own, own / (tau * kinetic)))])
+    return markdown(["ℓ", "φ", "pulled", "runs", "τ at 0.1° (s)", "τ at 0.25° (s)", "later half over earlier",
+                     "T/m (mm²/s²)", "N D_c (mm²/s)", "over τT/m", "D of a rod (mm²/s)", "over τT/m"], rows)
 
 
 #: Fewer lasting defects than this [1/mm2], of both signs, are one in a box of 33 mm at a time.
@@ -410,7 +400,7 @@ def sizes(evidence: Evidence) -> str:
 def blunt(evidence: Evidence) -> str:
     """Rods of 4 mm with ends of several diameters: crystalline order and P(theta), from rows and from a fluid."""
     points = [here for name in ("layer-trends", "fluid-start", "strip")
-              for here in by(Runs(run for run in evidence[name].at(4.0) if key_of(run, PACKING) > 0.78), END, PACKING)]
+              for here in by(evidence[name].at(4.0).beyond(PACKING, 0.78), END, PACKING)]
     points.sort(key=lambda here: (key_of(here[0], END), key_of(here[0], PACKING)))
     return table(points, [
         key(names.plain(names.symbol(END)), END, " mm"), PACKED, BOX, START, SEEDS, number("S", "S"),
@@ -420,7 +410,7 @@ def blunt(evidence: Evidence) -> str:
 
 def strip(evidence: Evidence) -> str:
     """Layers in a strip that is long across the rods beside those in the square box; nothing where none was run."""
-    strips = Runs(run for run in evidence["strip"].at(end=0.4) if key_of(run, PACKING) > 0.78)
+    strips = evidence["strip"].at(end=0.4).beyond(PACKING, 0.78)
     if not strips:
         return ""
 

@@ -13,6 +13,7 @@ from typing import Callable, Iterable, Iterator, Sequence
 import numpy as np
 from scipy import stats
 
+from ..errors import UnknownName
 from ..estimate import NAN, Estimate, derived, replica_mean
 from ..plots.series import mean_curve
 from ..run import Run
@@ -115,11 +116,23 @@ def mean(estimates: Sequence[Estimate]) -> Estimate:
     return found
 
 
+def _measured(value: Callable[[Run], Estimate], run: Run) -> Estimate:
+    """What a function makes of a run; it need not ask whether the run has what it is made of."""
+    try:
+        return value(run)
+    except UnknownName:
+        return Estimate(reason="not measured")
+
+
 class Runs(list[Run]):
     """Some runs: those of a set, of a state point."""
 
     def where(self, path: str, value: float) -> "Runs":
         return Runs(run for run in self if abs(key_of(run, path) - value) < 1e-6 * max(1.0, abs(value)))
+
+    def beyond(self, path: str, value: float) -> "Runs":
+        """The runs in which a key is larger than that."""
+        return Runs(run for run in self if key_of(run, path) > value)
 
     def at(self, length: float | None = None, packing: float | None = None, side: float | None = None,
            end: float | None = None, gap: float | None = None) -> "Runs":
@@ -154,7 +167,7 @@ class Runs(list[Run]):
     def of(self, value: Callable[[Run], Estimate]) -> Estimate:
         """The mean of what a function makes of each run. What does not know its own drift is as steady as S is, in all
         of these runs together."""
-        found = mean([value(run) for run in self])
+        found = mean([_measured(value, run) for run in self])
         noted = _reads.get()
         if noted is not None and found.is_known:
             noted.append(Read(self, found))

@@ -15,7 +15,7 @@ from ..run import Array, Run
 from .beyond_paper import dense_diffusion, more_rods, parabola, swimming_defects
 from .evidence import FREQUENCY, LENGTH, PACKING, SIDE, Evidence, Runs, key_of, number_of, place_on, points_of
 from .late_lags import long_time_diffusion
-from .material import Material, angle_bar, draw_curves, draw_points, draw_rods, first_snapshot, packing_scale
+from .material import Material, angle_bar, draw_against, draw_curves, draw_points, draw_rods, packing_scale
 from .motion_checks import (FREE_OF_THE_WINDOW, VELOCITY_WINDOW, late_c2, late_velocity_correlation, long_rods,
                             papers_diffusion, short_rods, speed_between)
 from .order_checks import phase_diagram
@@ -92,8 +92,6 @@ def _short_limit(direction: str) -> Any:
     """D in one direction over the lags that are short for the run: those of D at short lags in the plane."""
     def of(run: Run) -> Estimate:
         name = f"/msd/{direction}_mm2"
-        if name not in run:
-            return Estimate(reason="not measured")
         low, high = (number_of(run, f"diffusion_short_lag_{end}_s").value for end in ("from", "to"))
         return _half_slope(run[name], low, high, number_of(run, "diffusion_mm2_s").steady)
 
@@ -127,9 +125,7 @@ def diffusion(material: Material) -> Sheet:
         (long_, "along", "ℓ = 4.5 mm, along the director", _short_limit("along"), ("diffusion-along",)),
         (long_, "across", "ℓ = 4.5 mm, across", _short_limit("across"), ("diffusion-across",)))
     for k, (runs, direction, title, short_limit, statements) in enumerate(rows):
-        panel = sheet[2 * k].titles(names.axis_title("/msd/lag_s"), names.axis_title(f"/msd/{direction}_mm2"), title)
-        panel.scale("log", "log")
-        draw_curves(panel, runs, f"/msd/{direction}_mm2", scale)
+        draw_curves(sheet[2 * k].scale("log", "log"), runs, f"/msd/{direction}_mm2", scale, title=title)
         panel = sheet[2 * k + 1].titles(names.axis_title(PACKING), "D (mm²/s)", title)
         draw_points(panel, runs.points(PACKING, short_limit), "t → 0", 0)
         late = points_of(runs, PACKING, lambda here, way=direction: long_time_diffusion(here, way))
@@ -143,8 +139,7 @@ def diffusion(material: Material) -> Sheet:
             panel.range(y=(0, None))
         material.stamp(panel, *statements)
     material.stamp(sheet[0], "diffusion-normal")
-    if scale:
-        sheet.colourbar(scale, [sheet[0], sheet[2], sheet[4]])
+    sheet.colourbar(scale, [sheet[0], sheet[2], sheet[4]])
     return sheet
 
 
@@ -158,8 +153,7 @@ def diffusion_more(material: Material) -> Sheet:
         panel.titles(names.axis_title("/msd/lag_s"), f"MSD/{d}t (mm²/s)", title).scale("log", "linear")
         draw_curves(panel, runs, f"/msd/d_{name}_mm2_s", scale, keep=lambda t, d: t > 0.1)
         panel.range(y=(0, None))
-    if scale:
-        sheet.colourbar(scale, sheet.panels[:3])
+    sheet.colourbar(scale, sheet.panels[:3])
     panel = sheet[3].titles(names.axis_title(PACKING), "exponent of the MSD, short times", "normal diffusion: 1")
     draw_points(panel, short.points(PACKING, "alpha_short"), "ℓ = 2.5 mm", 0)
     draw_points(panel, long_.points(PACKING, "alpha_along_short"), "ℓ = 4.5 mm, along", 1)
@@ -175,21 +169,16 @@ def memory(material: Material) -> Sheet:
     sheet = material.sheet(6)
     for panel, runs, title, statement in ((sheet[0], short, "ℓ = 2.5 mm", "memory"),
                                           (sheet[1], long_, "ℓ = 4.5 mm", "c2-plateau")):
-        panel.titles(names.axis_title("/rotation/lag_s"), names.axis_title("/rotation/c2"), title).scale("log",
-                                                                                                         "linear")
-        draw_curves(panel, runs, "/rotation/c2", scale)
-        panel.range(y=(0, 1)).zero()
+        draw_curves(panel.scale("log"), runs, "/rotation/c2", scale, title=title).range(y=(0, 1)).zero()
         material.stamp(panel, statement)
     panel = sheet[2].titles(names.axis_title(PACKING), names.axis_title("c2_plateau"), "what stays, ℓ = 4.5 mm")
     draw_points(panel, points_of(long_rods(material.evidence), PACKING, late_c2))
     panel.range(y=(0, 1))
     for panel, runs, name, title in ((sheet[3], short, "c_v", "velocity, ℓ = 2.5 mm"),
                                      (sheet[4], long_, "c_v_along", "along, ℓ = 4.5 mm")):
-        panel.titles(names.axis_title("/velocity/lag_s"), names.axis_title(f"/velocity/{name}"), title)
-        draw_curves(panel, runs, f"/velocity/{name}", scale, keep=lambda t, c: t < 2.05)
+        draw_curves(panel, runs, f"/velocity/{name}", scale, keep=lambda t, c: t < 2.05, title=title)
         panel.zero().reference(x=VELOCITY_WINDOW, label="window of the velocities")
-    if scale:
-        sheet.colourbar(scale, [sheet[0], sheet[1], sheet[3], sheet[4]])
+    sheet.colourbar(scale, [sheet[0], sheet[1], sheet[3], sheet[4]])
     low, high = FREE_OF_THE_WINDOW
     panel = sheet[5].titles(names.axis_title(PACKING), "$C_v$ along (mm²/s²)", f"lags of {low:g} to {high:g} s")
     draw_points(panel, [(at, e) for at, e in long_rods(material.evidence).points(PACKING, late_velocity_correlation)
@@ -204,29 +193,23 @@ def rotation(material: Material) -> Sheet:
     short, long_ = material.evidence["short-rods"], material.evidence["long-rods"]
     scale = packing_scale(short, long_)
     sheet = material.sheet(4, columns=2, height=52)
-    for panel, runs, title, statement in ((sheet[0], short, "ℓ = 2.5 mm", ""), (sheet[1], long_, "ℓ = 4.5 mm",
-                                                                               "rotation-saturates")):
-        panel.titles(names.axis_title("/rotation/lag_s"), names.axis_title("/rotation/msad_rad2"), title)
-        panel.scale("log", "log")
-        draw_curves(panel, runs, "/rotation/msad_rad2", scale)
-        if statement:
-            material.stamp(panel, statement)
-    if scale:
-        sheet.colourbar(scale, sheet.panels[:2])
+    for panel, runs, title, statement in ((sheet[0], short, "ℓ = 2.5 mm", ()),
+                                          (sheet[1], long_, "ℓ = 4.5 mm", ("rotation-saturates",))):
+        draw_curves(panel.scale("log", "log"), runs, "/rotation/msad_rad2", scale, title=title)
+        material.stamp(panel, *statement)
+    sheet.colourbar(scale, sheet.panels[:2])
 
     def short_limit(run: Run) -> Estimate:
         low, high = (number_of(run, f"rotation_short_lag_{end}_s").value for end in ("from", "to"))
         return _half_slope(run["/rotation/msad_rad2"], low, high, number_of(run, "S").steady)
 
     panel = sheet[2].titles(names.axis_title(PACKING), names.axis_title("rotational_diffusion_rad2_s"), "ℓ = 2.5 mm")
-    panel.scale(y="log")
-    draw_points(panel, short.points(PACKING, short_limit), "t → 0", 0)
+    draw_points(panel.scale(y="log"), short.points(PACKING, short_limit), "t → 0", 0)
     draw_points(panel, short.points(PACKING, "rotational_diffusion_rad2_s"), "t → ∞", 1)
     material.stamp(panel, "rotation")
-    panel = sheet[3].titles(names.axis_title(PACKING), "exponent $α_r$, short times", "ℓ = 2.5 mm")
-    draw_points(panel, short.points(PACKING, "alpha_rotation_short"))
-    panel.reference(y=1)
-    material.stamp(panel, "rotation-short")
+    draw_against(sheet[3], PACKING, "alpha_rotation_short", [(short, "")], "ℓ = 2.5 mm",
+                 "exponent $α_r$, short times").reference(y=1)
+    material.stamp(sheet[3], "rotation-short")
     return sheet
 
 
@@ -234,9 +217,8 @@ def defects(material: Material) -> Sheet:
     """14: defects of rods of 3 mm that are ordered here and there."""
     runs = material.evidence["no-order"].at(3.0, 0.85)
     sheet = material.sheet(4, columns=2, height=66)
-    snapshot = first_snapshot(runs, 1)
-    if snapshot:
-        draw_rods(sheet[0], snapshot, runs[0].scene, f"ℓ = 3 mm, φ = 0.85, t = {snapshot.time:.0f} s", defects=True)
+    draw_rods(sheet[0], runs, "ℓ = 3 mm, φ = 0.85", 1, defects=True)
+    if sheet[0].is_used:
         angle_bar(sheet, [sheet[0]])
     panel = sheet[1].titles(names.axis_title("/defects/time_s"), "defects of charge +1/2", "as many of −1/2")
     for run in runs:
@@ -252,9 +234,7 @@ def defects(material: Material) -> Sheet:
             panel.curve(found[0], found[1], found[2], label=label, colour=k, look="points")
     panel.zero()
     material.stamp(panel, "defects")
-    panel = sheet[3].titles(names.axis_title("/g2/r_mm"), names.axis_title("/g2/g2"), "orientation")
-    draw_curves(panel, runs, "/g2/g2", None)
-    panel.zero()
+    draw_curves(sheet[3], runs, "/g2/g2", None, title="orientation").zero()
     return sheet
 
 
@@ -341,15 +321,11 @@ def accuracy(material: Material) -> Sheet:
             title = names.symbol(name)
             panel.curve(x, ratios, errors, label=title, colour=k, look="points", joined=False)
             other.curve(x, sigmas, label=title, colour=k, look="points", joined=False)
-    sets = sorted(name for name, controls in material.evidence.controls.items() if controls)
     for one in (panel, other):
-        one.axes.set_xticks(range(len(sorted(material.evidence.controls))), sorted(material.evidence.controls),
-                            rotation=30,
+        one.axes.set_xticks(range(len(material.evidence.controls)), sorted(material.evidence.controls), rotation=30,
                             ha="right")
-    del sets
     panel.reference(y=1)
-    for level in (-2, 2):
-        other.reference(y=level)
+    other.reference(y=-2).reference(y=2)
     return sheet
 
 

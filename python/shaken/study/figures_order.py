@@ -10,7 +10,8 @@ from . import scaling
 from .evidence import GAMMA, LENGTH, PACKING, SIDE, Runs, by, key_of, points_of
 from .layer_checks import two_peaks
 from .late_lags import long_time_diffusion
-from .material import (Material, angle_bar, draw_curves, draw_points, draw_rods, first_snapshot, packing_scale)
+from .material import (Material, angle_bar, draw_against, draw_curves, draw_points, draw_rods, labelled,
+                       packing_scale)
 from .order_checks import ORDERED, phase_diagram, pooled_density, transition
 from .structure_checks import far_g2
 
@@ -20,10 +21,7 @@ def start(material: Material) -> Sheet:
     runs = material.evidence["long-rods"]
     sheet = material.sheet(3, height=58)
     for panel, packing in zip(sheet, (0.45, 0.75)):
-        here = runs.at(packing=packing)
-        snapshot = first_snapshot(here)
-        if snapshot:
-            draw_rods(panel, snapshot, here[0].scene, f"φ = {packing:g}, t = {snapshot.time:.0f} s")
+        draw_rods(panel, runs.at(packing=packing), f"φ = {packing:g}")
     angle_bar(sheet, sheet.panels[:2])
     panel = sheet[2]
     panel.titles(names.axis_title("/order/time_s"), names.axis_title("/order/order"), "S(t)")
@@ -31,10 +29,8 @@ def start(material: Material) -> Sheet:
     for packing in runs.values(PACKING):
         order = runs.at(packing=packing)[0]["/order/order"]
         panel.curve(order.axis, order, colour=scale(packing), look="line")
-    panel.range(y=(0, 1))
-    panel.reference(x=400, label="the paper: steady")
-    if scale:
-        sheet.colourbar(scale, [panel])
+    panel.range(y=(0, 1)).reference(x=400, label="the paper: steady")
+    sheet.colourbar(scale, [panel])
     material.stamp(panel, "steady-state")
     return sheet
 
@@ -43,11 +39,9 @@ def order(material: Material) -> Sheet:
     """3: mean order against area fraction, and the phase diagram."""
     runs = phase_diagram(material.evidence)
     sheet = material.sheet(2, height=62, columns=2)
-    panel = sheet[0].titles(names.axis_title(PACKING), names.axis_title("S"), "mean order")
-    for k, length in enumerate(runs.values(LENGTH)):
-        draw_points(panel, runs.at(length).points(PACKING, "S"), names.value_label(LENGTH, length), k)
-    panel.range(y=(0, 1)).reference(y=ORDERED, label="0.5")
-    material.stamp(panel, "ordered", "saturates")
+    draw_against(sheet[0], PACKING, "S", labelled(runs, LENGTH), "mean order")
+    sheet[0].range(y=(0, 1)).reference(y=ORDERED, label="0.5")
+    material.stamp(sheet[0], "ordered", "saturates")
     panel = sheet[1].titles(names.axis_title(PACKING), names.axis_title(LENGTH), "phase diagram")
     lengths, packings = runs.values(LENGTH), runs.values(PACKING)
     grid = np.array([[runs.at(length, packing).number("S").value if runs.at(length, packing) else np.nan
@@ -78,7 +72,8 @@ def order(material: Material) -> Sheet:
 
 def order_statistics(material: Material) -> Sheet:
     """4: the distribution of S, its width, the Binder cumulant."""
-    runs = material.evidence["long-rods"]
+    runs, short = material.evidence["long-rods"], material.evidence["short-rods"]
+    both = ((runs, "ℓ = 4.5 mm"), (short, "ℓ = 2.5 mm"))
     scale = packing_scale(runs)
     sheet = material.sheet(3)
     panel = sheet[0].titles(names.axis_title("/order/pdf/order"), "P[S] / max P[S]", "distribution")
@@ -89,21 +84,16 @@ def order_statistics(material: Material) -> Sheet:
             panel.curve(places, density / density.max(), colour=scale(packing), look="line",
                         steady=here.number("S").steady)
     panel.range((0, 1), (0, 1.05))
-    if scale:
-        sheet.colourbar(scale, [panel])
+    sheet.colourbar(scale, [panel])
     material.stamp(panel, "unimodal")
-    panel = sheet[1].titles(names.axis_title(PACKING), "standard deviation of S", "how far S fluctuates")
-    draw_points(panel, runs.points(PACKING, "S_std"), "ℓ = 4.5 mm", 0)
-    draw_points(panel, material.evidence["short-rods"].points(PACKING, "S_std"), "ℓ = 2.5 mm", 1)
+    panel = draw_against(sheet[1], PACKING, "S_std", both, "how far S fluctuates", "standard deviation of S")
     phi = transition(runs)
     if phi.is_known:
         panel.reference(x=phi.value, label="⟨S⟩ = 0.5")
     panel.range(y=(0, None))
     material.stamp(panel, "broadest")
-    panel = sheet[2].titles(names.axis_title(PACKING), names.axis_title("binder"), "Binder cumulant")
-    draw_points(panel, runs.points(PACKING, "binder"), "ℓ = 4.5 mm", 0)
-    draw_points(panel, material.evidence["short-rods"].points(PACKING, "binder"), "ℓ = 2.5 mm", 1)
-    panel.reference(y=0, label="disorder").reference(y=1, label="order")
+    draw_against(sheet[2], PACKING, "binder", both, "Binder cumulant")
+    sheet[2].reference(y=0, label="disorder").reference(y=1, label="order")
     return sheet
 
 
@@ -113,9 +103,7 @@ def steady(material: Material) -> Sheet:
     turned = material.evidence["turned"].at(3.5, 0.85)
     sheet = material.sheet(4, columns=2, height=58)
     for panel, runs, title in ((sheet[0], straight, "started along a side"), (sheet[1], turned, "started at 30°")):
-        snapshot = first_snapshot(runs)
-        if snapshot:
-            draw_rods(panel, snapshot, runs[0].scene, f"{title}, t = {snapshot.time:.0f} s")
+        draw_rods(panel, runs, title)
     angle_bar(sheet, [panel for panel in sheet.panels[:2] if panel.is_used] or sheet.panels[:1])
     for panel, name, title in ((sheet[2], "/order/order", "order"), (sheet[3], "/order/director_rad", "director")):
         panel.titles(names.axis_title("/order/time_s"),
@@ -132,7 +120,7 @@ def steady(material: Material) -> Sheet:
 
 def shaking(material: Material) -> Sheet:
     """Order and motion against the strength of shaking."""
-    runs = Runs(run for run in material.evidence["shaking"] if key_of(run, GAMMA) > 0)
+    runs = material.evidence["shaking"].beyond(GAMMA, 0)
     sheet = material.sheet(3)
     for panel, name in zip(sheet, ("S", "diffusion_mm2_s", "rotational_diffusion_rad2_s")):
         panel.titles(names.axis_title(GAMMA), names.axis_title(name))
@@ -141,8 +129,7 @@ def shaking(material: Material) -> Sheet:
             late = name == "diffusion_mm2_s"
             points = points_of(here, GAMMA, long_time_diffusion) if late else here.points(GAMMA, name)
             draw_points(panel, points, names.value_label(LENGTH, length), k)
-        panel.range(y=(0, 1 if name == "S" else None))
-        panel.reference(x=7, label="the paper's")
+        panel.range(y=(0, 1 if name == "S" else None)).reference(x=7, label="the paper's")
     material.stamp(sheet[1], "activity")
     return sheet
 
@@ -152,15 +139,11 @@ def scaling_with_size(material: Material) -> Sheet:
     the director that predicts it, and G2 far away."""
     runs = scaling.boxes(material.evidence)
     sheet = material.sheet(6)
-    panel = sheet[0].titles(names.axis_title(PACKING), names.axis_title("S"), "several boxes")
-    other = sheet[1].titles(names.axis_title(PACKING), names.axis_title("binder"), "Binder cumulant")
-    for k, side in enumerate(runs.values(SIDE)):
-        here = runs.at(side=side)
-        if len(here.values(PACKING)) > 1:
-            draw_points(panel, here.points(PACKING, "S"), names.value_label(SIDE, side), k)
-            draw_points(other, here.points(PACKING, "binder"), names.value_label(SIDE, side), k)
-    panel.range(y=(0, 1)).reference(y=ORDERED, label="0.5")
-    material.stamp(panel, "transition-size")
+    for panel, name, title in ((sheet[0], "S", "several boxes"), (sheet[1], "binder", "Binder cumulant")):
+        several = [(here if len(here.values(PACKING)) > 1 else Runs(), label) for here, label in labelled(runs, SIDE)]
+        draw_against(panel, PACKING, name, several, title)
+    sheet[0].range(y=(0, 1)).reference(y=ORDERED, label="0.5")
+    material.stamp(sheet[0], "transition-size")
 
     panel = sheet[2].titles(names.axis_title(SIDE), names.axis_title("S"), "lines: waves").scale("log", "log")
     far = sheet[5].titles(names.axis_title(SIDE), "G₂ at half the box", "far away")
@@ -169,10 +152,10 @@ def scaling_with_size(material: Material) -> Sheet:
         here, label = runs.at(packing=packing), names.value_label(PACKING, packing)
         order = here.points(SIDE, "S")
         draw_points(panel, order, label, k)
-        draw_points(far, [(side, far_g2(here.at(side=side))) for side in here.values(SIDE)], label, k)
+        draw_points(far, points_of(here, SIDE, far_g2), label, k)
         if packing < 0.54:
             continue  # no director
-        draw_points(stiff, [(side, scaling.stiffness(here.at(side=side))) for side in here.values(SIDE)], label, k)
+        draw_points(stiff, points_of(here, SIDE, scaling.stiffness), label, k)
         (first, s), x = order[0], scaling.predicted(here.largest(SIDE)).value
         sides = np.array([side for side, _ in order])
         panel.curve(sides, s.value * (sides / first) ** x, colour=k)
@@ -203,12 +186,9 @@ def equilibrium(material: Material) -> Sheet:
     panel.range(y=(0, 1))
     scale = packing_scale(quiet)
     for panel, length in zip(sheet.panels[1:], quiet.values(LENGTH)):
-        panel.titles(names.axis_title("/g2/r_mm"), names.axis_title("/g2/g2"),
-                     f"at equilibrium, {names.value_label(LENGTH, length)}")
-        draw_curves(panel, quiet.at(length), "/g2/g2", scale)
-        panel.range(y=(0, 1)).zero()
-    if scale:
-        sheet.colourbar(scale, sheet.panels[1:])
+        draw_curves(panel, quiet.at(length), "/g2/g2", scale,
+                    title=f"at equilibrium, {names.value_label(LENGTH, length)}").range(y=(0, 1)).zero()
+    sheet.colourbar(scale, sheet.panels[1:])
     return sheet
 
 
@@ -217,8 +197,6 @@ def films(material: Material) -> Sheet:
     runs = material.evidence["movies"]
     sheet = material.sheet(max(len(runs), 1), columns=4)
     for panel, run in zip(sheet, runs):
-        snapshot = first_snapshot([run])
-        if snapshot:
-            draw_rods(panel, snapshot, run.scene, f"ℓ = {key_of(run, LENGTH):g} mm, φ = {key_of(run, PACKING):g}, "
-                      f"w = {key_of(run, 'box.gap'):g} mm")
+        draw_rods(panel, [run], f"ℓ = {key_of(run, LENGTH):g} mm, φ = {key_of(run, PACKING):g}, "
+                  f"w = {key_of(run, 'box.gap'):g} mm", timed=False)
     return sheet

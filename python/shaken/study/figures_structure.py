@@ -12,7 +12,7 @@ from ..plots.sheet import Sheet
 from .layer_checks import layered, theta_m
 from .layer_wavelength import mean_wavelength
 from .evidence import END, GAP, LENGTH, PACKING, SIDE, Runs, box_text, key_of, points_of
-from .material import Material, angle_bar, draw_curves, draw_points, draw_rods, first_snapshot, packing_scale
+from .material import Material, angle_bar, draw_against, draw_curves, draw_points, draw_rods, packing_scale
 from .structure_checks import mean_waves, ordered_in_large_boxes
 
 
@@ -23,11 +23,9 @@ def g2(material: Material) -> Sheet:
     sets = ((evidence["short-rods"], "ℓ = 2.5 mm"), (evidence["long-rods"], "ℓ = 4.5 mm"))
     scale = packing_scale(*(runs for runs, _ in sets))
     for panel, (runs, title) in zip(sheet, sets):
-        panel.titles(names.axis_title("/g2/r_mm"), names.axis_title("/g2/g2"), title).scale("log", "log")
-        draw_curves(panel, runs, "/g2/g2", scale, keep=lambda r, g: r > 0.5)
+        draw_curves(panel.scale("log", "log"), runs, "/g2/g2", scale, keep=lambda r, g: r > 0.5, title=title)
         panel.range(y=(3e-3, 1.1), exactly=True)
-    if scale:
-        sheet.colourbar(scale)
+    sheet.colourbar(scale)
     material.stamp(sheet[0], "g2")
     return sheet
 
@@ -92,11 +90,8 @@ def distances(material: Material) -> Sheet:
     sets = ((evidence["short-rods"], "ℓ = 2.5 mm"), (evidence["long-rods"], "ℓ = 4.5 mm"))
     scale = packing_scale(*(runs for runs, _ in sets))
     for panel, (runs, title) in zip((sheet[0], sheet[3]), sets):
-        panel.titles(names.axis_title("/g2/r_mm"), names.axis_title("/g2/g"), title)
-        draw_curves(panel, runs, "/g2/g", scale, keep=lambda r, g: r < 10)
-        panel.reference(y=1)
-    if scale:
-        sheet.colourbar(scale, [sheet[0], sheet[3]])
+        draw_curves(panel, runs, "/g2/g", scale, keep=lambda r, g: r < 10, title=title).reference(y=1)
+    sheet.colourbar(scale, [sheet[0], sheet[3]])
     dense = [(evidence["layers"].at(packing=packing), f"φ = {packing:g}") for packing in (0.75, 0.85)]
     _maps(sheet, [sheet[1], sheet[2]], dense, "/pairs/g")
     for panel, (runs, title) in zip((sheet[4], sheet[5]), dense):
@@ -139,15 +134,13 @@ def layers(material: Material) -> Sheet:
     sheet = material.sheet(9, height=48)
     long_ = evidence["layers"].at(4.5)
     dense = long_.at(packing=0.85) or evidence["long-rods"].at(packing=0.85)
-    snapshot = first_snapshot(dense)
-    if snapshot:
-        draw_rods(sheet[0], snapshot, dense[0].scene, f"φ = 0.85, t = {snapshot.time:.0f} s")
+    draw_rods(sheet[0], dense, "φ = 0.85")
+    if sheet[0].is_used:
         angle_bar(sheet, [sheet[0]])
     everything = evidence["long-rods"]
     scale = packing_scale(everything)
     _angles(sheet[1], everything, PACKING, "ℓ = 4.5 mm", scale)
-    if scale:
-        sheet.colourbar(scale, [sheet[1]])
+    sheet.colourbar(scale, [sheet[1]])
     sheet[1].reference(x=10, label="10°").reference(x=-10)
     material.stamp(sheet[1], "layers")
     by_end = evidence["layer-trends"].at(4.0, 0.85)
@@ -193,19 +186,14 @@ def layer_trends(material: Material) -> Sheet:
     trends = material.evidence.joined("layers", "layer-trends")
     series = [(trends.at(length, end=0.4), names.value_label(LENGTH, length)) for length in (4.0, 4.5)]
     for length in (4.0, 4.5):
-        strips = Runs(run for run in material.evidence["strip"].at(length, end=0.4) if key_of(run, PACKING) > 0.78)
+        strips = material.evidence["strip"].at(length, end=0.4).beyond(PACKING, 0.78)
         series += [(strips, f"{names.value_label(LENGTH, length)}, {box_text(strips[0])}")] if strips else []
     sheet = material.sheet(3)
-    for panel, name, statement in zip(sheet, ("theta_m_deg", "wavelength_mm", "layer_order"),
-                                      ("angle-packing", "wavelength-packing", "")):
-        if name == "layer_order":
-            panel.titles(names.axis_title(PACKING), names.axis_title(name), "order of the layers")
-            for k, (runs, label) in enumerate(series):
-                draw_points(panel, runs.points(PACKING, name), label, k)
-            panel.range(y=(0, None))
-            continue
-        _against(panel, series, PACKING, name, "angle" if name == "theta_m_deg" else "wavelength")
+    for panel, name, title, statement in ((sheet[0], "theta_m_deg", "angle", "angle-packing"),
+                                          (sheet[1], "wavelength_mm", "wavelength", "wavelength-packing")):
+        _against(panel, series, PACKING, name, title)
         material.stamp(panel, statement)
+    draw_against(sheet[2], PACKING, "layer_order", series, "order of the layers").range(y=(0, None))
     return sheet
 
 
@@ -216,10 +204,8 @@ def larger_box(material: Material) -> Sheet:
     both = Runs([*small, *large])
     sheet = material.sheet(4, columns=2, height=58)
     for panel, runs, title in ((sheet[0], small, "the desk's box"), (sheet[1], large, "twice as wide")):
-        snapshot = first_snapshot(runs)
-        if snapshot:
-            draw_rods(panel, snapshot, runs[0].scene, f"L = {snapshot.box[0]:.1f} mm")
-        else:
+        draw_rods(panel, runs, f"L = {key_of(runs[0], SIDE):.1f} mm" if runs else "", timed=False)
+        if not panel.is_used:
             panel.titles(title=title).absent = "no runs yet"
     angle_bar(sheet, sheet.panels[:2])
     _angles(sheet[2], both, SIDE, "P(θ)")
@@ -235,9 +221,7 @@ def ends(material: Material) -> Sheet:
     shown = [(rows.at(end=end), f"{names.plain(names.value_label(END, end))}, from rows") for end in (0.4, 0.5)]
     shown += [(fluid.at(end=end), f"{names.plain(names.value_label(END, end))}, from a fluid") for end in (0.5, 0.6)]
     for panel, (runs, title) in zip(sheet, shown):
-        snapshot = first_snapshot(runs)
-        if snapshot:
-            draw_rods(panel, snapshot, runs[0].scene, title)
+        draw_rods(panel, runs, title, timed=False)
     angle_bar(sheet, [panel for panel in sheet.panels[:4] if panel.is_used] or sheet.panels[:1])
     for panel, runs, title in ((sheet[4], rows, "P(θ), from rows"), (sheet[5], fluid, "P(θ), from a fluid")):
         _angles(panel, runs, END, title)
@@ -250,9 +234,7 @@ def taper(material: Material) -> Sheet:
     tapered, plain = material.evidence["layers"].at(4.5, 0.80), material.evidence["taper"].at(4.5, 0.80)
     sheet = material.sheet(3, height=58)
     for panel, runs, title in zip(sheet, (tapered, plain), ("tapered", "untapered")):
-        snapshot = first_snapshot(runs)
-        if snapshot:
-            draw_rods(panel, snapshot, runs[0].scene, f"{title}, φ = 0.80")
+        draw_rods(panel, runs, f"{title}, φ = 0.80", timed=False)
     angle_bar(sheet, sheet.panels[:2])
     _angles(sheet[2], Runs([*tapered, *plain]), END, "P(θ)")
     material.stamp(sheet[2], "taper")
@@ -268,9 +250,8 @@ def gap(material: Material) -> Sheet:
     _cuts_across(sheet[4], runs, None, GAP)
     material.stamp(sheet[4], "gap")
     _angles(sheet[5], runs, GAP, "P(θ)")
-    panel = sheet[6].titles(names.axis_title("/g2/r_mm"), names.axis_title("/g2/g"), "distances")
-    draw_curves(panel, runs, "/g2/g", None, GAP, keep=lambda r, g: r < 8, labels=True)
-    panel.reference(y=1)
+    draw_curves(sheet[6], runs, "/g2/g", None, GAP, keep=lambda r, g: r < 8, labels=True,
+                title="distances").reference(y=1)
     panel = sheet[7].titles(names.axis_title(GAP), "crystalline order", "crystal")
     draw_points(panel, runs.points(GAP, "bragg_peak"), "Bragg peak", 0)
     draw_points(panel, runs.points(GAP, "psi_6"), "ψ₆", 1)
@@ -285,15 +266,15 @@ def elasticity(material: Material) -> Sheet:
     sheet = material.sheet(2, columns=2, height=55)
     panel = sheet[0].titles("wave number q (1/mm)", "power of the director (mm²)", "φ = 0.65").scale("log", "log")
     waves = mean_waves(runs.at(packing=0.65))
-    for k, (label, powers) in enumerate((("along: bend", [wave.bend for wave in waves]),
-                                         ("across: splay", [wave.splay for wave in waves]))):
-        panel.curve(np.array([wave.q for wave in waves]), np.array([power.value for power in powers]),
-                    np.array([power.error for power in powers]), label=label, colour=k, look="points", joined=False)
+    for k, label in enumerate(("along: bend", "across: splay")):
+        powers = [(wave.bend, wave.splay)[k] for wave in waves]
+        panel.curve([wave.q for wave in waves], [power.value for power in powers], [power.error for power in powers],
+                    label=label, colour=k, look="points", joined=False)
     panel = sheet[1].titles("wave number q (1/mm)", "power of splay over bend", "ratio").scale("log", "log")
     for k, packing in enumerate(runs.values(PACKING)):
         waves = mean_waves(runs.at(packing=packing))
-        panel.curve(np.array([wave.q for wave in waves]), np.array([wave.ratio.value for wave in waves]),
-                    np.array([wave.ratio.error for wave in waves]), label=f"φ = {packing:g}", colour=k, look="points")
+        panel.curve([wave.q for wave in waves], [wave.ratio.value for wave in waves],
+                    [wave.ratio.error for wave in waves], label=f"φ = {packing:g}", colour=k, look="points")
     panel.reference(y=1)
     material.stamp(panel, "splay-bend")
     return sheet
@@ -308,6 +289,5 @@ def fluctuations(material: Material) -> Sheet:
         panel.titles("mean number ⟨N⟩", "ΔN / √⟨N⟩", title).scale("log", "linear")
         draw_curves(panel, runs, "/fluctuations/std_n", scale, y=lambda n, std: std / np.sqrt(n))
         panel.range(y=(0, None))
-    if scale:
-        sheet.colourbar(scale)
+    sheet.colourbar(scale)
     return sheet

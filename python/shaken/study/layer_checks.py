@@ -12,12 +12,12 @@ from scipy.optimize import least_squares
 from ..estimate import Estimate, mean_of_samples, student_factor
 from ..plots import names
 from ..run import Array, Run
-from .evidence import (END, GAP, LENGTH, PACKING, SIDE, Evidence, Runs, box_of, box_text, by, is_from_a_fluid, key_of,
+from .evidence import (END, GAP, LENGTH, PACKING, SIDE, Evidence, Runs, box_text, by, is_from_a_fluid, key_of,
                        number_of, place_on, points_of)
 from .layer_wavelength import TWO_PEAKS, mean_wavelength, wavelength
 from .order_checks import ORDERED
 from .rules import (AGREES, CONSISTENT, NOT_RUN, Answer, Finding, above, all_of, below, close_to, conclude, larger,
-                    listed, no, refutable, text, trend, unknown, yes)
+                   listed, needed, no, refutable, text, trend, unknown, yes)
 
 #: Change of the dip from one half of the time to the other below which layers count as formed.
 STILL = 0.1
@@ -98,7 +98,7 @@ def theta_m(run: Run) -> Estimate:
     return Estimate(math.degrees(abs(best.x[0])), steady=number_of(run, "S").steady, unit="deg")
 
 
-def _mean_angle(runs: Runs) -> Estimate:
+def mean_angle(runs: Runs) -> Estimate:
     return runs.of(theta_m)
 
 
@@ -177,9 +177,7 @@ def g2_oscillates(evidence: Evidence) -> Finding:
 
 
 def no_layers_at_wide_gaps(evidence: Evidence) -> Finding:
-    reference = evidence["layers"].at(4.5, 0.80)
-    if not reference:
-        return Finding()
+    reference = needed(evidence["layers"].at(4.5, 0.80))
     answers, found = [], [_gap_text(reference)]
     plain = evidence["layers"].at(4.5, 0.75)
     if plain:
@@ -212,14 +210,13 @@ def taper_makes_layers(evidence: Evidence) -> Finding:
     parts = []
     for length in (3.5, 4.0, 4.5):
         runs = layered(evidence.joined("layers", "layer-trends", "strip").at(length, 0.85, end=0.4).widest())
-        if runs and (theta := _mean_angle(runs)).is_known:
+        if runs and (theta := mean_angle(runs)).is_known:
             parts.append((length, theta * (1 / taper_angle(runs[0]))))
-    if len(parts) < 2:
-        return Finding()
+    needed(parts, 2)
     mean = math.fsum(part.value for _, part in parts) / len(parts)
     found = f"θ_m over the angle of two tapered flanks at φ = 0.85: {listed(parts, 'ℓ')}"
     answers, how = [close_to(part, mean, 0.15) for _, part in parts], "θ_m follows the taper"
-    untapered = by(Runs(run for run in evidence["taper"] if key_of(run, PACKING) > 0.78), PACKING)
+    untapered = by(evidence["taper"].beyond(PACKING, 0.78), PACKING)
     for plain in untapered:
         found += (f"; rods without a taper at {key_of(plain[0], PACKING):g}: S = {text(plain.number('S'))}, "
                   f"dip to {text(dip(plain))}")
@@ -232,9 +229,7 @@ def taper_makes_layers(evidence: Evidence) -> Finding:
 
 
 def crystal_at_a_narrow_gap(evidence: Evidence) -> Finding:
-    reference, narrow = evidence["layers"].at(4.5, 0.80), evidence["gaps"].at(gap=0.9)
-    if not reference or not narrow:
-        return Finding()
+    reference, narrow = needed(evidence["layers"].at(4.5, 0.80)), needed(evidence["gaps"].at(gap=0.9))
     found = f"{_gap_text(reference)}; {_gap_text(narrow)}"
     more = larger(narrow.number("bragg_peak"), reference.number("bragg_peak"))
     if two_peaks(narrow).word or more.word is False:
@@ -251,6 +246,17 @@ def _goes_far(runs: Runs) -> bool:
     measured = min(float(run.summary["sim_seconds"]) - float(run.summary.get("t_steady_s") or 0) for run in runs)
     way = math.sqrt(max(2 * runs.number("diffusion_along_mm2_s").value * measured, 0))
     return not way < 2 * key_of(runs[0], LENGTH)
+
+
+def angle_trend(series: Callable[[Evidence], list[tuple[Runs, str]]], rising: bool) -> Callable[[Evidence], Finding]:
+    """Whether theta_m rises, or falls, in some series."""
+    return lambda evidence: _trend(series(evidence), mean_angle, rising, "°")
+
+
+def wavelength_trend(series: Callable[[Evidence], list[tuple[Runs, str]]],
+                     rising: bool) -> Callable[[Evidence], Finding]:
+    """Whether the wavelength rises, or falls, in some series."""
+    return lambda evidence: _trend(series(evidence), mean_wavelength, rising, " mm")
 
 
 def _symbol(path: str) -> str:
@@ -285,34 +291,22 @@ def _trend(series: list[tuple[Runs, str]], of: Callable[[Runs], Estimate], risin
     return finding
 
 
-def _by_packing(evidence: Evidence) -> list[tuple[Runs, str]]:
+def by_packing(evidence: Evidence) -> list[tuple[Runs, str]]:
     square = evidence.joined("layers", "layer-trends")
-    return [(Runs(run for run in runs.at(length, end=0.4) if key_of(run, PACKING) > 0.78), PACKING)
+    return [(runs.at(length, end=0.4).beyond(PACKING, 0.78), PACKING)
             for length in (4.0, 4.5) for runs in (square, evidence["strip"])]
 
 
-def _by_length(evidence: Evidence) -> list[tuple[Runs, str]]:
+def by_length(evidence: Evidence) -> list[tuple[Runs, str]]:
     return [(runs.at(packing=0.85, end=0.4), LENGTH)
             for runs in (evidence.joined("layers", "layer-trends"), evidence["strip"])]
 
 
-def _by_end(evidence: Evidence) -> list[tuple[Runs, str]]:
+def by_end(evidence: Evidence) -> list[tuple[Runs, str]]:
     """At 0.85, where rods with blunt ends freeze, and at 0.825, where those with ends of 0.5 mm may still flow. At 0.80
     the usual rods of this length have no layers with which those of others could be compared."""
     dense = [evidence[name].at(4.0, 0.85) for name in ("layer-trends", "fluid-start", "strip")]
     return [(runs, END) for runs in (*dense, evidence["strip"].at(4.0, 0.825))]
-
-
-def angle_grows_with_packing(evidence: Evidence) -> Finding:
-    return _trend(_by_packing(evidence), _mean_angle, True, "°")
-
-
-def angle_falls_with_length(evidence: Evidence) -> Finding:
-    return _trend(_by_length(evidence), _mean_angle, False, "°")
-
-
-def angle_falls_with_end(evidence: Evidence) -> Finding:
-    return _trend(_by_end(evidence), _mean_angle, False, "°")
 
 
 def _two_peaks_in_order(runs: Runs) -> Answer:
@@ -329,7 +323,7 @@ def _whatever_the_start(answers: list[Answer]) -> Answer:
 
 def two_peaks_at_every_end(evidence: Evidence) -> Finding:
     answers, found = [], []
-    series = [runs for runs, _ in _by_end(evidence)]
+    series = [runs for runs, _ in by_end(evidence)]
     ends = sorted({end for runs in series for end in runs.values(END)})
     for end in ends if len(ends) > 1 else []:
         starts = [here for runs in series if (here := runs.at(end=end))]
@@ -341,25 +335,10 @@ def two_peaks_at_every_end(evidence: Evidence) -> Finding:
     return conclude(answers, "; ".join(found), everywhere=True)
 
 
-def wavelength_falls_with_packing(evidence: Evidence) -> Finding:
-    return _trend(_by_packing(evidence), mean_wavelength, False, " mm")
-
-
-def wavelength_grows_with_length(evidence: Evidence) -> Finding:
-    return _trend(_by_length(evidence), mean_wavelength, True, " mm")
-
-
-def wavelength_grows_with_end(evidence: Evidence) -> Finding:
-    return _trend(_by_end(evidence), mean_wavelength, True, " mm")
-
-
 def larger_box(evidence: Evidence) -> Finding:
-    large = evidence["larger-box"].at(4.0, 0.85, end=0.4)
-    small = evidence["layer-trends"].at(4.0, 0.85, end=0.4)
-    if not large or not small:
-        return Finding()
+    small, large = (needed(evidence[name].at(4.0, 0.85, end=0.4)) for name in ("layer-trends", "larger-box"))
     lam = [mean_wavelength(layered(runs)) for runs in (small, large)]
-    theta = [_mean_angle(layered(runs)) for runs in (small, large)]
+    theta = [mean_angle(layered(runs)) for runs in (small, large)]
     boxes = [box_text(runs[0]) for runs in (small, large)]
     return conclude([larger(lam[1], lam[0]).placed("λ larger"), larger(theta[0], theta[1]).placed("θ_m smaller")],
                     f"ℓ = 4 mm, φ = 0.85: λ = {text(lam[0])} mm and {text(lam[1])} mm, θ_m = {text(theta[0])}° and "

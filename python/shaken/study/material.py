@@ -13,7 +13,8 @@ from ..estimate import Estimate
 from ..plots import names, style
 from ..plots.panel import Panel
 from ..plots.sheet import Sheet
-from .evidence import PACKING, Evidence, Runs, key_of
+from ..run import Run, axes_of
+from .evidence import PACKING, Evidence, Runs
 from .rules import Finding
 from .statements import STATEMENTS
 
@@ -55,9 +56,11 @@ def draw_curves(panel: Panel, runs: Runs, array: str, scale: style.ColourScale |
                 x: Callable[[np.ndarray], np.ndarray] = lambda x: x,
                 y: Callable[[np.ndarray, np.ndarray], np.ndarray] = lambda x, y: y,
                 keep: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None, labels: bool = False,
-                errors: bool = True, look: str = "line") -> None:
+                errors: bool = True, look: str = "line", title: str | None = None) -> Panel:
     """An array against its axis, the mean over replicas, a curve for each value of a key. What `keep` leaves out within
-    it is a gap."""
+    it is a gap. With a title the axes have theirs, too."""
+    if title is not None:
+        panel.titles(names.axis_title(axes_of(array)[-1]), names.axis_title(array), title)
     for k, value in enumerate(runs.values(path)):
         here = runs.where(path, value)
         found = here.curve(array)
@@ -73,6 +76,7 @@ def draw_curves(panel: Panel, runs: Runs, array: str, scale: style.ColourScale |
                     here.number("S").steady if "S" in here[0] else True,
                     label=names.value_label(path, value) if labels else "",
                     colour=scale(value) if scale else k, look=look)
+    return panel
 
 
 def draw_points(panel: Panel, points: Sequence[tuple[float, Estimate]], label: str = "", colour: Any = None,
@@ -82,19 +86,23 @@ def draw_points(panel: Panel, points: Sequence[tuple[float, Estimate]], label: s
                 [e.steady for _, e in points], label=label, colour=colour, look="points", **more)
 
 
-def first_snapshot(runs: Iterable[Any], k: int = 0) -> Snapshot | None:
-    """The k-th snapshot of the first run that has one."""
-    for run in runs:
-        found = getattr(run, "snapshots", [])
-        if found:
-            return found[min(k, len(found) - 1)]
-    return None
+def labelled(runs: Runs, path: str) -> list[tuple[Runs, str]]:
+    """The runs at each value of a key, with that in print."""
+    return [(runs.where(path, value), names.value_label(path, value)) for value in runs.values(path)]
+
+
+def draw_against(panel: Panel, path: str, of: str | Callable[[Run], Estimate],
+                 series: Iterable[tuple[Runs, str]], title: str = "", y: str = "") -> Panel:
+    """A number of runs against a key, of several series, each with its label; y: its title in place of its name."""
+    panel.titles(names.axis_title(path), y or names.axis_title(str(of)), title)
+    for k, (runs, label) in enumerate(series):
+        draw_points(panel, runs.points(path, of), label, k)
+    return panel
 
 
 #: Angles to the director [degrees] and their colours: grey along it, orange and blue to its sides, dark across it.
-_ANGLE_COLOURS = ((-90, "#262626"), (-45, "#08306b"), (-14, "#3f8fd2"), (0, "#dcdcdc"), (14, "#ef8a1d"), (45,
-                                                                                                          "#7f2704"),
-                  (90, "#262626"))
+_ANGLE_COLOURS = ((-90, "#262626"), (-45, "#08306b"), (-14, "#3f8fd2"), (0, "#dcdcdc"), (14, "#ef8a1d"),
+                  (45, "#7f2704"), (90, "#262626"))
 
 
 @functools.lru_cache(maxsize=1)
@@ -106,11 +114,17 @@ def angle_colours() -> Any:
     return ScalarMappable(Normalize(-90, 90), colours)
 
 
-def draw_rods(panel: Panel, snapshot: Snapshot, scene: dict[str, Any], title: str = "",
+def draw_rods(panel: Panel, runs: Sequence[Run], title: str = "", k: int = 0, timed: bool = True,
               defects: bool = False) -> None:
-    """The rods of an instant, tapered as they are, coloured by their angle to the director, with a scale bar."""
+    """The rods of the k-th snapshot of the first of these runs that has one, tapered as they are, coloured by their
+    angle to the director, with a scale bar; `timed`: the time stands behind the title."""
     from matplotlib.collections import PolyCollection
-    rods = scene["rods"]
+    known = [found for run in runs if (found := getattr(run, "snapshots", []))]
+    if not known:
+        return
+    snapshot, rods = known[0][min(k, len(known[0]) - 1)], runs[0].scene["rods"]
+    if timed:
+        title += f", t = {snapshot.time:.0f} s"
     width, height = snapshot.box
     images = np.array([(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)]) * snapshot.box
     place = (snapshot.positions[None] + images[:, None]).reshape(-1, 2)
@@ -181,7 +195,3 @@ def angle_bar(sheet: Sheet, panels: Sequence[Panel]) -> None:
     """The colours of rods, beside the panels that show some."""
     bar = sheet.colourbar(angle_colours(), panels, "angle to the director (°)")
     bar.set_ticks([-90, -45, 0, 45, 90])
-
-
-def fraction(runs: Runs) -> float:
-    return key_of(runs[0], PACKING) if runs else math.nan

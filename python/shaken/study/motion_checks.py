@@ -11,8 +11,8 @@ from ..run import Run
 from . import late_lags
 from .evidence import LENGTH, PACKING, SIDE, Evidence, Runs, by, key_of, mean_of_places, number_of, points_of
 from .late_lags import long_time_diffusion
-from .rules import (Answer, Finding, above, all_of, below, close_to, conclude, doubt, larger, listed, no, refutable,
-                    text, trend, unknown, yes)
+from .rules import (Answer, Finding, above, below, close_to, conclude, doubt, larger, listed, needed, no, text, trend,
+                   unknown, yes)
 
 #: Change of the slope of the MSD from one octave of lags to the next, as a part of it, below which motion is diffusive.
 SAME_SLOPE = 0.1
@@ -46,8 +46,6 @@ def long_rods(evidence: Evidence) -> Runs:
 
 def speed_between(run: Run, low: float, high: float) -> Estimate:
     """Weighted mean of v along the rod [mm/s] over tilts from `low` to `high`, both hands taken together."""
-    if "/tilt/folded/v_along_mm_s" not in run:
-        return Estimate(reason="not measured")
     v = run["/tilt/folded/v_along_mm_s"]
     n_z, errors = np.asarray(v.axis), np.asarray(v.error)
     good = (n_z >= low) & (n_z <= high) & (errors > 0) & np.isfinite(v)
@@ -59,9 +57,7 @@ def speed_between(run: Run, low: float, high: float) -> Estimate:
 
 
 def tilt_and_velocity(evidence: Evidence) -> Finding:
-    runs = evidence["mechanism"].at(packing=0.60)
-    if not runs:
-        return Finding()
+    runs = needed(evidence["mechanism"].at(packing=0.60))
     speed = runs.number("tilt_fastest_mm_s")
 
     def place_in(run: Run) -> Estimate:
@@ -80,9 +76,7 @@ def velocity_reverses(evidence: Evidence) -> Finding:
 
 
 def no_velocity_without_tilt(evidence: Evidence) -> Finding:
-    runs = evidence["mechanism"].at(packing=0.60)
-    if not runs:
-        return Finding()
+    runs = needed(evidence["mechanism"].at(packing=0.60))
 
     def at_rest(run: Run) -> Estimate:
         v = run["/tilt/v_along_mm_s"]
@@ -95,9 +89,7 @@ def no_velocity_without_tilt(evidence: Evidence) -> Finding:
 
 
 def no_motion_sideways(evidence: Evidence) -> Finding:
-    runs = evidence["mechanism"].at(packing=0.60)
-    if not runs:
-        return Finding()
+    runs = needed(evidence["mechanism"].at(packing=0.60))
     chi2, noise, n = 0.0, 0.0, 0
     for run in runs:
         v = run["/tilt/v_across_mm_s"]
@@ -105,8 +97,7 @@ def no_motion_sideways(evidence: Evidence) -> Finding:
         chi2 += float((np.asarray(v)[good] ** 2 / np.asarray(v.error)[good] ** 2).sum())
         noise += float((np.asarray(v.error)[good] ** 2).sum())
         n += int(good.sum())
-    if not n:
-        return Finding()
+    needed(range(n))
     excess = Estimate(chi2 / n, math.sqrt(2 / n), True)  # chi2 of n independent bins at zero is n +- sqrt(2 n)
     error, speed = math.sqrt(noise / n), abs(runs.number("tilt_fastest_mm_s").value)
     if above(excess, 1).word:
@@ -164,8 +155,7 @@ def persists_for_want_of_noise(evidence: Evidence) -> Finding:
         if at in turning and at in ways:
             answers.append(below(turning[at] * ways[at].value, 1).placed(f"{at:g}"))
             found.append(f"ways persist for {text(ways[at])} s, 1/D_r = {1 / turning[at].value:.2g} s at φ = {at:g}")
-    if len(answers) < 2:
-        return Finding()
+    needed(answers, 2)
     answers.append(larger(turning[0.65], turning[0.85]).placed("less noise when denser"))
     long_ = evidence["long-rods"].at(4.5, 0.75)
     if long_:  # which turn still less
@@ -214,36 +204,33 @@ def _grows_linearly(runs: Runs, curve: str, exponent: str) -> tuple[Answer, str]
     return close_to(change, 1, SAME_SLOPE), f"slope {text(change)}"
 
 
+def _linear_growth(runs: Runs, curve: str, exponent: str) -> tuple[list[Answer], list[str]]:
+    """The same at each packing that knows a number, with its place."""
+    found = [(packing, *_grows_linearly(runs.at(packing=packing), curve, exponent)) for packing in runs.values(PACKING)]
+    known = [(f"{packing:g}", answer, numbers) for packing, answer, numbers in found if numbers]
+    return [answer.placed(at) for at, answer, _ in known], [f"{numbers} at φ = {at}" for at, _, numbers in known]
+
+
 def diffusion_is_normal(evidence: Evidence) -> Finding:
     runs = short_rods(evidence)
     points = runs.points(PACKING, "alpha_short")
     answers = [close_to(e, 1, 0.1).placed(f"short times, {at:g}") for at, e in points]
     found = [f"exponents at short times: {listed(points, 'φ')}"] if points else []
-    late = []
-    for packing in runs.values(PACKING):
-        answer, numbers = _grows_linearly(runs.at(packing=packing), "/msd/total_mm2", "alpha_long")
-        if numbers:
-            answers.append(answer.placed(f"long times, {packing:g}"))
-            late.append(f"{numbers} at φ = {packing:g}")
+    grows, late = _linear_growth(runs, "/msd/total_mm2", "alpha_long")
     if late:
         found.append("at long times, as exponent or as slope over that at half the lag: " + "; ".join(late))
-    return conclude(answers, ". ".join(found))
+    return conclude([*answers, *(answer.placed(f"long times, {answer.at}") for answer in grows)], ". ".join(found))
 
 
 def normal_in_both_phases(evidence: Evidence) -> Finding:
     answers, found = [], []
     for phase, name, disordered in (("disorder", "total", True), ("along the director", "along", False),
                                     ("across it", "across", False)):
-        late = []
-        runs = Runs(run for run in long_rods(evidence) if (key_of(run, PACKING) < 0.52) == disordered)
+        runs = Runs(run for run in long_rods(evidence)  # but at the transition
+                    if (key_of(run, PACKING) < 0.52 if disordered else key_of(run, PACKING) >= 0.59))
         own = "alpha_long" if disordered else f"alpha_{name}_long"
-        for packing in runs.values(PACKING):
-            if 0.52 < packing < 0.59:
-                continue  # at the transition
-            answer, numbers = _grows_linearly(runs.at(packing=packing), f"/msd/{name}_mm2", own)
-            if numbers:
-                answers.append(answer.placed(f"{phase}, {packing:g}"))
-                late.append(f"{numbers} at φ = {packing:g}")
+        grows, late = _linear_growth(runs, f"/msd/{name}_mm2", own)
+        answers += [answer.placed(f"{phase}, {answer.at}") for answer in grows]
         if late:
             found.append(f"{phase}: {'; '.join(late)}")
     return conclude(answers, "at long times, as exponent or as slope over that at half the lag, " + ". ".join(found))
@@ -271,7 +258,7 @@ def diffusion_along_the_director(evidence: Evidence) -> Finding:
 
 
 def no_superdiffusion_across(evidence: Evidence) -> Finding:
-    runs = Runs(run for run in long_rods(evidence) if key_of(run, PACKING) > 0.59)
+    runs = long_rods(evidence).beyond(PACKING, 0.59)
     short = runs.points(PACKING, "alpha_across_short")
     # in the widest box: in a narrow one rods glide along two or three turned layers for long
     everywhere = Runs([*runs, *evidence.joined("layers", "strip").at(4.5, end=0.4)])
@@ -289,11 +276,9 @@ def no_superdiffusion_across(evidence: Evidence) -> Finding:
 
 def slower_when_denser(evidence: Evidence) -> Finding:
     runs = short_rods(evidence)
-    c2 = runs.points(PACKING, "c2_decay_s")
+    c2 = needed(runs.points(PACKING, "c2_decay_s"), 2)
     # below that it is the window over which velocities are averaged
-    c_v = [(at, e) for at, e in runs.points(PACKING, "velocity_correlation_s") if at > 0.64]
-    if len(c2) < 2 or len(c_v) < 2:
-        return Finding()
+    c_v = needed([(at, e) for at, e in runs.points(PACKING, "velocity_correlation_s") if at > 0.64], 2)
     return conclude([trend(c2, rising=True).placed("C₂"), trend(c_v, rising=True).placed("C_v from 0.65 on"),
                      *[unknown("it is that of the averaging window").placed("C_v below 0.65")
                        for _ in [at for at, _ in c2 if at < 0.64][:1]]],
@@ -306,10 +291,8 @@ def late_c2(runs: Runs) -> Estimate:
 
 
 def c2_levels_off(evidence: Evidence) -> Finding:
-    runs = Runs(run for run in long_rods(evidence) if key_of(run, PACKING) > 0.59)
-    points = points_of(runs, PACKING, late_c2)
-    if len(points) < 2:
-        return Finding()
+    runs = long_rods(evidence).beyond(PACKING, 0.59)
+    points = needed(points_of(runs, PACKING, late_c2), 2)
     changes = runs.points(PACKING, late_lags.change_of_level("/rotation/c2"))
     return conclude([trend(points, rising=True).placed("grows with packing"),
                      *(close_to(e, 0, LEVEL).placed(f"level at {at:g}") for at, e in changes),
@@ -334,8 +317,6 @@ FREE_OF_THE_WINDOW = (0.8, 2.8)
 def late_velocity_correlation(run: Run) -> Estimate:
     """C_v(t) along the director [mm2/s2], its mean over lags beyond the averaging window."""
     name = "/velocity/product_along_mm2_s2"
-    if name not in run:
-        return Estimate(reason="not measured")
     product = run[name]
     lag = np.asarray(product.axis)
     late = (lag >= FREE_OF_THE_WINDOW[0] - 1e-9) & (lag <= FREE_OF_THE_WINDOW[1] + 1e-9)
@@ -345,9 +326,7 @@ def late_velocity_correlation(run: Run) -> Estimate:
 def velocity_along_grows(evidence: Evidence) -> Finding:
     runs = long_rods(evidence)
     points = [(at, e) for at, e in runs.points(PACKING, late_velocity_correlation) if at > 0.59]
-    growing = [(at, e) for at, e in points if at < 0.81]
-    if len(growing) < 2:
-        return Finding()
+    growing = needed([(at, e) for at, e in points if at < 0.81], 2)
     at_zero = [(at, e) for at, e in runs.points(PACKING, "velocity_variance_along_mm2_s2") if at > 0.59]
     return conclude([trend(growing, rising=True).placed("lags of 0.8 to 2.8 s"),
                      *([trend(at_zero, rising=True).placed("C_v(0)")] if len(at_zero) > 1 else [])],
@@ -356,28 +335,18 @@ def velocity_along_grows(evidence: Evidence) -> Finding:
 
 
 def rotation_slows(evidence: Evidence) -> Finding:
-    points = evidence["short-rods"].points(PACKING, "rotational_diffusion_rad2_s")
-    if len(points) < 2:
-        return Finding()
+    points = needed(evidence["short-rods"].points(PACKING, "rotational_diffusion_rad2_s"), 2)
     return conclude([trend(points, rising=False)], f"D_r = {listed(points, 'φ')} rad²/s")
 
 
 def rotation_subdiffusive(evidence: Evidence) -> Finding:
-    points = evidence["short-rods"].points(PACKING, "alpha_rotation_short")
-    if len(points) < 2:
-        return Finding()
+    points = needed(evidence["short-rods"].points(PACKING, "alpha_rotation_short"), 2)
     return conclude([trend(points, rising=False).placed("falls with packing"),
                      *(below(e, 1).placed(f"{at:g}") for at, e in points)], f"exponent {listed(points, 'φ')}")
 
 
 def turning_diffuses(evidence: Evidence) -> Finding:
-    answers, found = [], []
-    runs = short_rods(evidence)
-    for packing in runs.values(PACKING):
-        answer, numbers = _grows_linearly(runs.at(packing=packing), "/rotation/msad_rad2", "alpha_rotation_long")
-        if numbers:
-            answers.append(answer.placed(f"{packing:g}"))
-            found.append(f"{numbers} at φ = {packing:g}")
+    answers, found = _linear_growth(short_rods(evidence), "/rotation/msad_rad2", "alpha_rotation_long")
     return conclude(answers, "at long times: " + "; ".join(found))
 
 
@@ -400,9 +369,7 @@ def turning_saturates(evidence: Evidence) -> Finding:
 
 
 def defects_move(evidence: Evidence) -> Finding:
-    runs = evidence["no-order"].at(3.0, 0.85)
-    if not runs:
-        return Finding()
+    runs = needed(evidence["no-order"].at(3.0, 0.85))
     plus, minus, along = (runs.number(f"lasting_defect_speed_{name}_mm_s") for name in ("plus", "minus", "plus_along"))
     found = (f"ℓ = 3 mm, φ = 0.85: +1/2 move at {text(plus)} mm/s, −1/2 at {text(minus)} mm/s; +1/2 towards their own "
              f"tail: {text(along)} mm/s")

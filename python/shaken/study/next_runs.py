@@ -10,7 +10,7 @@ from typing import Iterable
 import numpy as np
 
 from .evidence import GAMMA, PACKING, Evidence, Runs, box_of, key_of
-from .rules import NO_DATA, OPEN
+from .rules import NO_DATA, OPEN, markdown
 from .running import speed
 from .statements import Verdict
 
@@ -95,19 +95,17 @@ def _price(evidence: Evidence, batches: Iterable[Batch]) -> str:
 
 def open_questions(evidence: Evidence) -> str:
     """What would decide the questions of docs/findings.md, and its price; as a table of Markdown."""
-    lines = ["| question | runs | ℓ | φ | box | time of each | CPU-h |", "|---|---|---|---|---|---|---|"]
-    for question, (runs, batch) in QUESTIONS.items():
-        lines.append(f"| {question} | {runs} | {batch.length:g} mm | {batch.packing:g} | {batch.side:.3g} mm | "
-                     f"{batch.seconds:g} s | {_price(evidence, [batch])} |")
-    return "\n".join(lines) + "\n"
+    return markdown(["question", "runs", "ℓ", "φ", "box", "time of each", "CPU-h"],
+                    [[question, runs, f"{batch.length:g} mm", f"{batch.packing:g}", f"{batch.side:.3g} mm",
+                      f"{batch.seconds:g} s", _price(evidence, [batch])]
+                     for question, (runs, batch) in QUESTIONS.items()])
 
 
 def open_statements(evidence: Evidence, found: Iterable[Verdict]) -> str:
     """The statements that are open, why they are, what would decide them, and its price; as a table of Markdown."""
-    lines = ["| the paper says | why it is open | what would decide it | CPU-h |", "|---|---|---|---|"]
+    rows = []
     for verdict in found:
         if verdict.finding.verdict in (OPEN, NO_DATA):
             runs, batches = DECIDING.get(verdict.statement.id, ("–", ()))
-            lines.append(f"| {verdict.statement.says} | {verdict.finding.why or 'no runs yet'} | {runs} | "
-                         f"{_price(evidence, batches)} |")
-    return "\n".join(lines) + "\n"
+            rows.append([verdict.statement.says, verdict.finding.why or "no runs yet", runs, _price(evidence, batches)])
+    return markdown(["the paper says", "why it is open", "what would decide it", "CPU-h"], rows)

@@ -13,8 +13,8 @@ from . import scaling
 from .evidence import (GAMMA, LENGTH, PACKING, PAPERS_BOX, SIDE, SMALL_DRIFT, Evidence, Runs, crossing, key_of,
                        points_of)
 from .late_lags import long_time_diffusion
-from .rules import (NOT_RUN, Answer, Finding, above, all_of, below, close_to, conclude, doubt, larger, listed, no,
-                    refutable, text, trend, unknown, yes)
+from .rules import (NOT_RUN, Answer, Finding, above, all_of, below, close_to, conclude, doubt, larger, listed, needed,
+                   no, refutable, text, trend, unknown, yes)
 from .structure_checks import far_g2
 
 #: <S> above which a state counts as ordered, as the paper draws the line.
@@ -61,18 +61,14 @@ def steady_after_the_start(evidence: Evidence) -> Finding:
 
 
 def ordered_when_dense(evidence: Evidence) -> Finding:
-    runs = evidence["long-rods"].at(packing=0.75)
-    if not runs:
-        return Finding()
+    runs = needed(evidence["long-rods"].at(packing=0.75))
     s = runs.number("S")
     return conclude([close_to(s, 0.9, 0.05)], f"S = {text(s)}")
 
 
 def disordered_when_dilute(evidence: Evidence) -> Finding:
     everywhere = evidence.joined("long-rods", "dilute").at(length=4.5, packing=0.45)
-    runs = everywhere.largest(SIDE)
-    if not runs:
-        return Finding()
+    runs = needed(everywhere.largest(SIDE))
     s, far, power = runs.number("S"), far_g2(runs), scaling.power(everywhere)
     # Whatever its correlations, a disordered state of N >> 1 independent regions has S ~ 1/sqrt(N), that is 1/L; an
     # ordered one has the same S in every box.
@@ -110,9 +106,7 @@ def short_rods_do_not_order(evidence: Evidence) -> Finding:
 def transition_falls_with_length(evidence: Evidence) -> Finding:
     runs = phase_diagram(evidence)
     points = [(length, transition(runs.at(length))) for length in (3.5, 4.0, 4.5) if runs.at(length)]
-    passed = [(length, phi) for length, phi in points if phi.is_known]
-    if not passed:
-        return Finding()
+    passed = needed([(length, phi) for length, phi in points if phi.is_known])
     return conclude([trend(points, rising=False)], "S = 0.5 is passed at φ = " + listed(passed, "ℓ", ""))
 
 
@@ -150,8 +144,7 @@ def transition_rises_with_size(evidence: Evidence) -> Finding:
     runs = evidence.joined("long-rods", "size").at(length=4.5)
     points = [(side, transition(runs.at(side=side))) for side in runs.values(SIDE)
               if len(runs.at(side=side).values(PACKING)) > 1]
-    if len(points) < 2:
-        return Finding()
+    needed(points, 2)
     passed = [(side, phi) for side, phi in points if phi.is_known]
     return conclude([trend(points, rising=True)], "S = 0.5 is passed at φ = " + listed(passed, "L", ""))
 
@@ -235,9 +228,8 @@ def one_peak(evidence: Evidence) -> Finding:
 
 def broadest_at_the_transition(evidence: Evidence) -> Finding:
     runs = evidence["long-rods"]
-    points = runs.points(PACKING, "S_std")
-    phi = transition(runs)
-    if len(points) < 3 or not phi.is_known:
+    points, phi = needed(runs.points(PACKING, "S_std"), 3), transition(runs)
+    if not phi.is_known:
         return Finding()
     place, widest = max(points, key=lambda point: point[1].value)
     farther = [larger(widest, estimate) for at, estimate in points if abs(at - place) > 0.051]
@@ -250,8 +242,6 @@ def broadest_at_the_transition(evidence: Evidence) -> Finding:
 def angle_to_side(run: Run) -> Estimate:
     """Angle between the director and the nearest side of the box [degrees], the mean of eight blocks of the steady
     state. Its drift is that of a straight line through them, and its error comes from their scatter about it."""
-    if "/order/director_rad" not in run:
-        return Estimate(reason="not measured")
     angle, n = run["/order/director_rad"], 8
     late = np.asarray(angle)[np.asarray(angle.axis) >= float(run.summary.get("t_steady_s") or 0)]
     if len(late) < n:
@@ -272,8 +262,7 @@ def oblique_axis(evidence: Evidence) -> Finding:
     turned = evidence["turned"].at(length=3.5, packing=0.85)
     straight = evidence["layer-trends"].at(length=3.5, packing=0.85)
     if not turned:
-        if not straight:
-            return Finding()
+        needed(straight)
         return conclude([unknown(NOT_RUN)],
                         f"started along a side: S = {text(straight.number('S'))}, director "
                         f"{text(straight.of(angle_to_side))}° from it")
@@ -288,11 +277,8 @@ def oblique_axis(evidence: Evidence) -> Finding:
 
 def activity(evidence: Evidence) -> Finding:
     runs = evidence["shaking"].at(length=2.5)
-    moving = Runs(run for run in runs if key_of(run, GAMMA) > 0)
     still = runs.where(GAMMA, 0.0)
-    d = points_of(moving, GAMMA, long_time_diffusion)
-    if len(d) < 2:
-        return Finding()
+    d = needed(points_of(runs.beyond(GAMMA, 0), GAMMA, long_time_diffusion), 2)
     answers: list[Answer] = [trend(d, rising=True).placed("D grows with Γ")]
     found = f"D = {listed(d, 'Γ', ' mm²/s')}"
     if not still:

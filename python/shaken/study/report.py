@@ -1,25 +1,81 @@
 # SPDX-License-Identifier: MIT
-"""What is written about the runs of a study: verdicts, sets and their cost, versions; as tables of Markdown."""
+"""What is written about the runs of a study, in Markdown: verdicts, sets and their cost, versions; and the pages of the
+validation, one for each figure of the paper, with the statements that belong to it."""
 from __future__ import annotations
 
 import functools
+import json
+import math
 import re
 import textwrap
 from collections import Counter
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Callable, Iterable, Mapping
+from typing import Any, Callable, Iterable, Mapping, Sequence
+
+import numpy as np
 
 from ..errors import ShakenError
+from ..estimate import Estimate
+from ..run import Run
 from .beyond_paper import SECTIONS, strip
 from .evidence import Evidence
 from .figures import FIGURES, Figure
 from .next_runs import open_questions, open_statements
-from .other_program import tables
-from .pages import PAGES, content, index, page_of
-from .rules import AGREES, CONSISTENT, CONTRADICTS, DISAGREES, IN_PART, NO_DATA, OPEN
+from .rules import AGREES, CONSISTENT, CONTRADICTS, DISAGREES, IN_PART, NO_DATA, OPEN, SIGMAS, markdown, text
 from .sets import ORDER
 from .statements import CALIBRATES, HARDLY_FAILS, STATEMENTS, Statement, Verdict, as_table, judged
 from .time_step import differences, prices
+
+
+@dataclass(frozen=True)
+class Page:
+    """A page.
+
+    name:    of its file without the suffix, "figure-8"
+    figures: what is drawn on it, by the ids of `Figure`: the paper's figure, and those beyond it that bear on the same
+             statements
+    """
+
+    name: str
+    figures: tuple[str, ...]
+
+    @property
+    def drawn(self) -> list[Figure]:
+        return [figure for figure in FIGURES if figure.id in self.figures]
+
+    def has(self, statement: Statement) -> bool:
+        return statement.figure in self.figures
+
+
+PAGES: tuple[Page, ...] = (
+    Page("figure-2", ("2",)), Page("figure-3", ("3", "scaling", "steady")), Page("figure-4", ("4",)),
+    Page("figure-5", ("5",)), Page("figure-6", ("6", "elasticity")), Page("figure-7", ("7",)),
+    Page("figure-8", ("8", "layer-trends", "larger-box", "ends", "gap", "taper")),
+    Page("figure-9", ("9", "diffusion-more")), Page("figure-10", ("10",)), Page("figure-11", ("11",)),
+    Page("figure-12", ("12",)), Page("figure-13", ("13",)),
+    Page("figure-14", ("14", "melting")), Page("shaking", ("shaking",)))
+
+
+def page_of(statement: Statement) -> Page:
+    return next(page for page in PAGES if page.has(statement))
+
+
+def content(page: Page, images: Sequence[str], found: Sequence[Verdict]) -> str:
+    """The figures of a page, as they are in Markdown, and the table of its statements."""
+    return "\n".join([*images, as_table([v for v in found if page.has(v.statement)], figure=None)])
+
+
+def index(found: Sequence[Verdict], folder: str) -> str:
+    """The pages, what they show, and the verdicts on their statements; a table of Markdown."""
+    rows = []
+    for page in PAGES:
+        words = [CALIBRATES if v.statement.role == CALIBRATES else v.finding.verdict
+                 for v in found if page.has(v.statement)]
+        counted = ", ".join(f"{words.count(word)} {word}" for word in dict.fromkeys(words))
+        shows = "; ".join(figure.title for figure in page.drawn)
+        rows.append([f"[{page.name.replace('-', ' ')}]({folder}/{page.name}.md)", shows, counted])
+    return markdown(["page", "shows", "statements"], rows)
 
 
 def origin(evidence: Evidence) -> str:
@@ -35,19 +91,18 @@ def origin(evidence: Evidence) -> str:
 
 def sets_table(evidence: Evidence) -> str:
     """What each set has taken, as its runs tell; a table of Markdown."""
-    lines = ["| | set | runs | rods | simulated s | CPU-h |", "|---|---|---|---|---|---|"]
+    def times(runs: Iterable[Run]) -> list[str]:
+        return [f"{sum(run.summary['sim_seconds'] for run in runs):.0f}",
+                f"{sum(run.summary['cpu_seconds'] for run in runs) / 3600:.2f}"]
+
+    rows = []
     for letter, name in ORDER:
-        runs = [*evidence[name], *evidence.controls.get(name, [])]
-        if not runs:
-            continue
-        rods = sorted({run.summary["n_rods"] for run in runs})
-        lines.append(f"| {letter} | `{name}` | {len(runs)} | {rods[0]} to {rods[-1]} | "
-                     f"{sum(run.summary['sim_seconds'] for run in runs):.0f} | "
-                     f"{sum(run.summary['cpu_seconds'] for run in runs) / 3600:.2f} |")
+        if runs := [*evidence[name], *evidence.controls.get(name, [])]:
+            rods = sorted({run.summary["n_rods"] for run in runs})
+            rows.append([letter, f"`{name}`", f"{len(runs)}", f"{rods[0]} to {rods[-1]}", *times(runs)])
     everything = evidence.everything
-    lines.append(f"| | together | {len(everything)} | | {sum(run.summary['sim_seconds'] for run in everything):.0f} | "
-                 f"{sum(run.summary['cpu_seconds'] for run in everything) / 3600:.2f} |")
-    return "\n".join(lines) + "\n"
+    return markdown(["", "set", "runs", "rods", "simulated s", "CPU-h"],
+                    [*rows, ["", "together", f"{len(everything)}", "", *times(everything)]])
 
 
 def tally(evidence: Evidence) -> str:
@@ -89,10 +144,46 @@ _PHASES = ("ordered", "disordered", "short", "transition")
 
 def phases(evidence: Evidence) -> str:
     """The paper's words on the phase diagram and what was found, for a page that shows the figure; in Markdown."""
-    lines = ["| the paper says | found here | verdict |", "|---|---|---|"]
-    for verdict in judged(evidence, [s for s in STATEMENTS if s.id in _PHASES]):
-        lines.append(f"| {verdict.statement.says} | {verdict.finding.found or '–'} | {verdict.words} |")
-    return "\n".join(lines) + "\n"
+    found = judged(evidence, [s for s in STATEMENTS if s.id in _PHASES])
+    return markdown(["the paper says", "found here", "verdict"],
+                    [[verdict.statement.says, verdict.finding.found or "–", verdict.words] for verdict in found])
+
+
+def other_program(path: Path) -> str:
+    """What another program finds for the same rods: the numbers of the file that `./dev validate other-program` wrote,
+    for each kind of rod; tables of Markdown."""
+    cases = json.loads(path.read_text())
+    return "\n".join(_compared([case for case in cases if case["rods"] == rods])
+                     for rods in dict.fromkeys(case["rods"] for case in cases))
+
+
+def _compared(cases: list[dict[str, Any]]) -> str:
+    found = [{name: Estimate(*number) for name, number in case["numbers"].items()} for case in cases]
+    soft = [(case["softness"], numbers) for case, numbers in zip(cases, found) if case["softness"]]
+    ours, *others = found
+    others.append({name: _extrapolated([(x, them[name]) for x, them in soft if name in them]) for name in ours})
+    rows = []
+    known, beyond = [0] * len(others), [0] * len(others)
+    for name, our in ours.items():
+        cells = [text(our)]
+        for k, number in enumerate(numbers.get(name, Estimate()) for numbers in others):
+            apart = (number.value - our.value) / math.hypot(number.error, our.error)
+            known[k] += number.is_known
+            beyond[k] += abs(apart) > SIGMAS
+            cells.append(f"{text(number)} ({apart:+.1f})".replace("-", "−") if number.is_known else "–")
+        rows.append([name, *cells])
+    rows.append(["beyond two errors", "", *map("{} of {}".format, beyond, known)])
+    rows.append(["simulated s, CPU-h", *(f"{case['seconds']:.0f}, {case['cpu_s'] / 3600:.2f}" for case in cases), ""])
+    return markdown([cases[0]["rods"], *(case["title"] for case in cases), "rigid, extrapolated"], rows)
+
+
+def _extrapolated(points: list[tuple[float, Estimate]]) -> Estimate:
+    """The value at 0 of the line through the points that weighs them by their errors; unknown of one point."""
+    if len(points) < 2:
+        return Estimate()
+    where, values, errors = zip(*((x, number.value, number.error) for x, number in points))
+    line, covariance = np.polyfit(where, values, 1, w=1 / np.array(errors), cov="unscaled")
+    return Estimate(line[1], math.sqrt(covariance[1, 1]))
 
 
 def images(evidence: Evidence, figures: Iterable[Figure], folder: str) -> list[str]:
@@ -143,7 +234,7 @@ def sections(evidence: Evidence, folder: str = "figures", pages: str = "validati
             "strip": lambda: strip(evidence), "time step": lambda: differences(evidence),
             "price of errors": lambda: prices(evidence), "next runs": lambda: open_questions(evidence),
             "open": lambda: open_statements(evidence, found()),
-            "other program": lambda: tables(data / "other-program.json"),
+            "other program": lambda: other_program(data / "other-program.json"),
             **{name: lambda make=make: make(evidence) for name, make in SECTIONS.items()}}
 
 

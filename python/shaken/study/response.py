@@ -51,8 +51,6 @@ def _way(run: Run, degrees: float) -> tuple[np.ndarray, np.ndarray]:
 
 def later_over_earlier(run: Run) -> Estimate:
     """The velocity down the slope over the later half of the time, over that of the earlier half."""
-    if "/drift/x_mm" not in run:
-        return Estimate(reason="not measured")
     _, way = _way(run, slope(run))
     middle = len(way) // 2
     return Estimate((way[-1] - way[-1 - middle]) / (way[middle] - way[0]), steady=True)
@@ -61,8 +59,6 @@ def later_over_earlier(run: Run) -> Estimate:
 def wandering(run: Run) -> Estimate:
     """N D_c [mm2/s] across the slope, where nothing pulls: half the slope of the mean square way about the mean
     velocity, over `LAGS`. The error is from ten stretches of the time."""
-    if "/drift/x_mm" not in run:
-        return Estimate(reason="not measured")
     time, way = _way(run, slope(run) + 90)
     total = time[-1] - time[0]
     if total < 10 * LAGS[1]:

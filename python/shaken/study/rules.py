@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import Iterable, Sequence
+from typing import Iterable, Sequence, Sized, TypeVar
 
 from scipy import stats
 
@@ -19,6 +19,20 @@ AGREES, IN_PART, DISAGREES = "agrees", "in part", "disagrees"
 CONSISTENT = "consistent"               # refuted nowhere: it could only have been, or it holds where it is decided
 CONTRADICTS = "contradicts itself"      # the sentence, not the runs
 OPEN, NO_DATA = "open", "no data"
+
+
+_Some = TypeVar("_Some", bound=Sized)
+
+
+class NoRuns(Exception):
+    """The runs that a statement is asked of are not there."""
+
+
+def needed(found: _Some, n: int = 1) -> _Some:
+    """The same, of which there are so many at least. Raises NoRuns where there are not."""
+    if len(found) < n:
+        raise NoRuns
+    return found
 
 
 @dataclass(frozen=True)
@@ -231,3 +245,9 @@ def text(estimate: Estimate, digits: int | None = None) -> str:
 def listed(points: Sequence[tuple[float, Estimate]], symbol: str, unit: str = "") -> str:
     """Points in words: "0.90 ± 0.01 at φ = 0.75; ..."."""
     return "; ".join(f"{text(estimate)}{unit} at {symbol} = {value:g}" for value, estimate in points)
+
+
+def markdown(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """A table of Markdown."""
+    lines = ["|" + "|".join(f" {cell} " if cell else " " for cell in cells) + "|" for cells in (head, *rows)]
+    return "\n".join([lines[0], "|---" * len(head) + "|", *lines[1:]]) + "\n"

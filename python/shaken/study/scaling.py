@@ -59,8 +59,6 @@ def predicted(runs: Runs) -> Estimate:
 
 def half_power_of_g2(run: Run) -> Estimate:
     """Half the power of r with which G2 falls: x, if S and G2 fall by the same waves."""
-    if "/g2/g2" not in run:
-        return Estimate(reason="not measured")
     g2 = run["/g2/g2"]
     r, values, errors = np.asarray(g2.axis), np.asarray(g2), np.asarray(g2.error)
     far = (r >= FROM) & (r <= UP_TO * key_of(run, SIDE)) & (values > 0)

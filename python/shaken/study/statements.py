@@ -12,7 +12,7 @@ from typing import Any, Callable, Iterable
 
 from . import layer_checks, motion_checks, order_checks, structure_checks
 from .evidence import Evidence, Read, box_of, box_text, reads
-from .rules import NO_DATA, Finding
+from .rules import NO_DATA, Finding, NoRuns
 
 
 @dataclass(frozen=True)
@@ -22,7 +22,7 @@ class Statement:
     id:     its name, "steady-state"
     figure: the paper's number, or the name of a figure beyond them
     says:   the sentence, in short
-    check:  what the runs say to it
+    ask:    what the runs say to it; it may raise NoRuns
     note:   how it is read, or why it can only be refuted
     role:   how far its verdict is evidence: CALIBRATES the model, and so stands outside of the tally, or HARDLY_FAILS;
             empty where it is evidence as all others are
@@ -31,9 +31,16 @@ class Statement:
     id: str
     figure: str
     says: str
-    check: Callable[[Evidence], Finding]
+    ask: Callable[[Evidence], Finding]
     note: str = ""
     role: str = ""
+
+    def check(self, evidence: Evidence) -> Finding:
+        """What the runs say to it."""
+        try:
+            return self.ask(evidence)
+        except NoRuns:
+            return Finding()
 
 
 #: The model was chosen so that it holds.
@@ -103,17 +110,20 @@ STATEMENTS: tuple[Statement, ...] = (
               "asked of θ_m: whether it is the same part of the angle between two tapered flanks at every length"),
     Statement("crystal", "gap", "At a gap of 0.9 mm a crystal, without layers", layer_checks.crystal_at_a_narrow_gap,
               "all runs start as a crystal: one that melts would refute it"),
-    Statement("angle-packing", "layer-trends", "θ_m grows with packing", layer_checks.angle_grows_with_packing),
-    Statement("angle-length", "layer-trends", "θ_m falls with rod length", layer_checks.angle_falls_with_length),
-    Statement("angle-end", "layer-trends", "θ_m falls with the end radius", layer_checks.angle_falls_with_end),
+    Statement("angle-packing", "layer-trends", "θ_m grows with packing",
+              layer_checks.angle_trend(layer_checks.by_packing, rising=True)),
+    Statement("angle-length", "layer-trends", "θ_m falls with rod length",
+              layer_checks.angle_trend(layer_checks.by_length, rising=False)),
+    Statement("angle-end", "layer-trends", "θ_m falls with the end radius",
+              layer_checks.angle_trend(layer_checks.by_end, rising=False)),
     Statement("peaks-end", "layer-trends", "P(θ) has two peaks at every end radius",
               layer_checks.two_peaks_at_every_end),
     Statement("wavelength-packing", "layer-trends", "The wavelength grows from 0.85 to 0.80",
-              layer_checks.wavelength_falls_with_packing),
+              layer_checks.wavelength_trend(layer_checks.by_packing, rising=False)),
     Statement("wavelength-length", "layer-trends", "The wavelength grows with rod length",
-              layer_checks.wavelength_grows_with_length),
+              layer_checks.wavelength_trend(layer_checks.by_length, rising=True)),
     Statement("wavelength-end", "layer-trends", "The wavelength grows with the end radius",
-              layer_checks.wavelength_grows_with_end),
+              layer_checks.wavelength_trend(layer_checks.by_end, rising=True)),
     Statement("larger-box", "larger-box", "In a larger box the wavelength is larger and θ_m smaller",
               layer_checks.larger_box),
     Statement("tilt", "10", "Rods swim against their tilt, fastest near n_z = ±0.2", motion_checks.tilt_and_velocity),

@@ -10,7 +10,7 @@ import numpy as np
 from ..estimate import Estimate, derived
 from ..run import Run
 from .evidence import LENGTH, PACKING, PAPERS_BOX, SIDE, Evidence, Runs, key_of, mean_of_places
-from .rules import (CONTRADICTS, NOT_RUN, Finding, above, close_to, conclude, larger, listed, text, unknown)
+from .rules import (CONTRADICTS, NOT_RUN, Finding, above, close_to, conclude, larger, listed, needed, text, unknown)
 
 #: G2 that counts as none at half a box.
 NO_CORRELATION = 0.05
@@ -27,8 +27,6 @@ SAME_LENGTH = 0.05
 def far_g2(runs: Runs) -> Estimate:
     """G2 far away: its mean over the last quarter of the distances, up to half the box."""
     def of(run: Run) -> Estimate:
-        if "/g2/g2" not in run:
-            return Estimate(reason="not measured")
         g2 = run["/g2/g2"]
         first = 3 * len(g2) // 4
         return mean_of_places(np.asarray(g2)[first:], np.asarray(g2.error)[first:], run)
@@ -39,8 +37,6 @@ def far_g2(runs: Runs) -> Estimate:
 def far_anisotropy(runs: Runs) -> Estimate:
     """G2 along less G2 across the director, in the farther half of the cuts through the map."""
     def of(run: Run) -> Estimate:
-        if "/pairs/cut/g2_along" not in run:
-            return Estimate(reason="not measured")
         along, across = run["/pairs/cut/g2_along"], run["/pairs/cut/g2_across"]
         first = len(along) // 2
         return mean_of_places(np.asarray(along - across)[first:], np.hypot(along.error, across.error)[first:], run)
@@ -50,8 +46,6 @@ def far_anisotropy(runs: Runs) -> Estimate:
 
 def contour_ratio(run: Run) -> Estimate:
     """How far G2 reaches along the director over how far it does so across it: to where it falls to CONTOUR."""
-    if "/pairs/cut/g2_along" not in run:
-        return Estimate(reason="not measured")
     reach, error = [], []
     for name in ("g2_along", "g2_across"):
         g2 = run[f"/pairs/cut/{name}"]
@@ -69,8 +63,6 @@ def contour_ratio(run: Run) -> Estimate:
 def unevenness(runs: Runs, cut: str) -> Estimate:
     """Mean of (g - 1)^2 from one rod's length on, less what its errors put there."""
     def of(run: Run) -> Estimate:
-        if f"/pairs/cut/{cut}" not in run:
-            return Estimate(reason="not measured")
         g = run[f"/pairs/cut/{cut}"]
         away, error = np.asarray(g) - 1, np.asarray(g.error)
         far = np.asarray(g.axis) >= key_of(run, LENGTH)
@@ -123,17 +115,13 @@ def g2_isotropic_when_dilute(evidence: Evidence) -> Finding:
 
 
 def g2_anisotropic(evidence: Evidence) -> Finding:
-    runs = evidence["layers"].at(packing=0.75)
-    if not runs:
-        return Finding()
+    runs = needed(evidence["layers"].at(packing=0.75))
     difference = far_anisotropy(runs)
     return conclude([above(difference, 0)], f"along − across, far out at φ = 0.75: {text(difference)}")
 
 
 def g_flattens(evidence: Evidence) -> Finding:
-    runs = evidence["layers"].at(packing=0.75)
-    if not runs:
-        return Finding()
+    runs = needed(evidence["layers"].at(packing=0.75))
     along, across = unevenness(runs, "g_along"), unevenness(runs, "g_across")
     sooner = {True: "along", False: "across", None: "neither, within the errors"}[larger(across, along).word]
     return Finding(CONTRADICTS, f"mean (g − 1)² from one rod length on, φ = 0.75: {text(along)} along, {text(across)} "
@@ -154,8 +142,7 @@ class OppositeWaves:
     @property
     def ratio(self) -> Estimate:
         """Power of splay over that of bend."""
-        value = self.splay.value / self.bend.value
-        return derived(value, [(1 / self.bend.value, self.splay), (-value / self.bend.value, self.bend)])
+        return self.splay / self.bend
 
     def with_noise(self, level: float) -> "OppositeWaves":
         """The powers as they were measured: with the noise level of uncorrelated rods [mm2] in both."""

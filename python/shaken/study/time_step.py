@@ -13,9 +13,12 @@ from typing import Any, Callable
 from ..estimate import NAN, Estimate, derived
 from ..run import Run
 from .evidence import BEADS, END, FREQUENCY, GAMMA, GAP, LENGTH, PACKING, SIDE, Evidence, Runs, key_of, number_of
-from .rules import judged_error, text
+from .rules import judged_error, markdown, text
 
 _SCENE = (LENGTH, PACKING, SIDE, END, GAP, GAMMA, FREQUENCY, BEADS, "plates.inclination")
+
+
+_WHERE = ("ℓ", "φ", "box", "gap", "Γ", "runs")
 
 
 @dataclass(frozen=True)
@@ -26,12 +29,11 @@ class Pair:
     paper: Runs
 
     @property
-    def where(self) -> str:
-        """The scene, as cells of a table: length, area fraction, side of the box, gap, strength of shaking."""
+    def where(self) -> list[str]:
+        """The scene, as cells of a table: length, area fraction, side of the box, gap, strength of shaking; runs."""
         run = self.desk[0]
-        return (f"{run.key(LENGTH):g} mm | {key_of(run, PACKING):.3g} | {run.key(SIDE):g} mm | "
-                f"{key_of(run, GAP):g} mm | {run.key(GAMMA):g} | "
-                f"{len(self.desk)} + {len(self.paper)}")
+        return [f"{run.key(LENGTH):g} mm", f"{key_of(run, PACKING):.3g}", f"{run.key(SIDE):g} mm",
+                f"{key_of(run, GAP):g} mm", f"{run.key(GAMMA):g}", f"{len(self.desk)} + {len(self.paper)}"]
 
 
 def pairs(evidence: Evidence) -> list[Pair]:
@@ -102,11 +104,8 @@ def differences(evidence: Evidence) -> str:
     S stands as it is, all others in per cent of the magnitude at 4 us. The errors are those of both
     together; where a control knows no error, that of the runs at 16 us is taken for it, for as many seconds.
     """
-    lines = ["| ℓ | φ | box | gap | Γ | runs | " + " | ".join(q.heading for q in COMPARED) + " |",
-             "|---" * (6 + len(COMPARED)) + "|"]
-    for pair in pairs(evidence):
-        lines.append(f"| {pair.where} | " + " | ".join(_difference(pair, q) for q in COMPARED) + " |")
-    return "\n".join(lines) + "\n"
+    return markdown([*_WHERE, *(q.heading for q in COMPARED)],
+                    [[*pair.where, *(_difference(pair, q) for q in COMPARED)] for pair in pairs(evidence)])
 
 
 def _difference(pair: Pair, quantity: Quantity) -> str:
@@ -128,13 +127,11 @@ def prices(evidence: Evidence) -> str:
     table of Markdown. The square of an error falls with the length of a run; what a run did not get so far is
     extrapolated from the errors that it had."""
     heads = [f"{q.heading} {q.goal}: {step}" for q in PRICED for step in ("16 us", "4 us")]
-    lines = ["| ℓ | φ | box | gap | Γ | runs | " + " | ".join(heads) + " |", "|---" * (6 + len(heads)) + "|"]
     of_pairs = pairs(evidence)
     compared = {_scene(pair.desk[0]) for pair in of_pairs}
-    for pair in [*of_pairs, *(one for one in layered(evidence) if _scene(one.desk[0]) not in compared)]:
-        cells = [_hours(runs, q) for q in PRICED for runs in (pair.desk, pair.paper)]
-        lines.append(f"| {pair.where} | " + " | ".join(cells) + " |")
-    return "\n".join(lines) + "\n"
+    of_pairs += [one for one in layered(evidence) if _scene(one.desk[0]) not in compared]
+    return markdown([*_WHERE, *heads], [[*pair.where, *(_hours(runs, q) for q in PRICED
+                                                        for runs in (pair.desk, pair.paper))] for pair in of_pairs])
 
 
 def _hours(runs: Runs, quantity: Quantity) -> str:

@@ -6,16 +6,14 @@ shell and the inset of pictures have no help."""
 from __future__ import annotations
 
 import argparse
-import io
-import os
-import sys
 from typing import Sequence
 
 from ..errors import ShakenError
-from ..needed import not_installed
-from ..options import Options, failed
+from ..program import FAILED, Options, not_installed, run
 
-OK, FAILED = 0, 1
+
+class _Misunderstood(ShakenError):
+    exit_code = FAILED
 
 
 def _options(words: Sequence[str]) -> argparse.Namespace:
@@ -33,30 +31,23 @@ def _options(words: Sequence[str]) -> argparse.Namespace:
 
 def _run(verb: str, options: argparse.Namespace) -> None:
     if verb == "plot":
-        missing = not_installed()
-        if missing:
+        if missing := not_installed("matplotlib", "numpy", "h5py"):
             raise ShakenError(missing)
         from .plot import plot
         plot(options)
         return
-    from . import inset, results
-    verbs = {"results": results.results, "fields": results.fields, "inset": inset.inset}
+    from . import results
+    verbs = {"results": results.results, "fields": results.fields, "inset": results.inset}
     verbs[verb](options)
 
 
 def main(words: Sequence[str]) -> int:
-    options, message, code = _options(words), "", OK
-    for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, io.TextIOWrapper):
-            stream.reconfigure(errors="surrogateescape")  # names of files, whatever their bytes
-    try:
-        _run(words[0], options)
-        sys.stdout.flush()
-    except ShakenError as problem:
-        message, code = str(problem), problem.exit_code
-    except (AttributeError, KeyError, TypeError) as error:
-        message, code = f"an answer of the daemon is not as expected ({error!r}): is it of another version?", FAILED
-    except OSError as error:  # a full disk; or whoever read has gone, as `head` does
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        message, code = "" if isinstance(error, BrokenPipeError) else str(error), FAILED
-    return failed(message, code, options.json) if message else code
+    def work(options: argparse.Namespace) -> None:
+        try:
+            _run(words[0], options)
+        except (AttributeError, KeyError, TypeError) as error:
+            raise _Misunderstood(f"an answer of the daemon is not as expected ({error!r}): is it of another version?"
+                                 ) from None
+
+    options = _options(words)
+    return run(work, options, options.json)

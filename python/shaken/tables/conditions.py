@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import operator
 import re
+import sys
 from dataclasses import dataclass
 from typing import Any, Callable, Iterator, NamedTuple, Sequence
 
 from ..catalogue import KEYS, UNITS
 from ..errors import ShakenError, nearest
-from ..quantities import NUMBER, quantity
-from .rows import Row, field_named, field_names
+from ..units import NUMBER, quantity
+from .rows import Row, Target, add_from_scenes, aggregated, field_named, field_names
 from .text import printable, value_text
 
 _COMPARE: dict[str, Callable[[Any, Any], bool]] = {
@@ -280,3 +281,17 @@ def matching(rows: Sequence[Row], conditions: Sequence[Condition], all_known: bo
     lacking = {name: sum(name not in row.fields for row in rows) for name in compared}
     return ([row for row in rows if all(condition(row) for condition in conditions)],
             {name: n for name, n in lacking.items() if n})
+
+
+def selected(target: Target, conditions: Sequence[Condition], aggregate: bool) -> list[Row]:
+    """The runs or the points for which the conditions hold. Conditions are on what is shown: with `aggregate` on
+    means."""
+    add_from_scenes(target, names_in(conditions))
+    rows = aggregated(target.rows) if aggregate else target.rows
+    # without any summary nobody knows which numbers there will be
+    all_known = any(row.source.get("summary") for row in target.rows)
+    kept, lacking = matching(rows, conditions, all_known)
+    for name, n in lacking.items():
+        print(f"{n} of {len(rows)} {'points' if aggregate else 'runs'} lack {printable(name)}: comparisons with it are "
+              "false for them", file=sys.stderr)
+    return kept

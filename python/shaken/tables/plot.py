@@ -12,12 +12,10 @@ from typing import Any, Mapping, Sequence
 from .. import __version__
 from ..daemon import Daemon
 from ..errors import ShakenError
-from ..plots import pictures, runs, sweeps
+from ..plots import runs, sweeps
 from ..plots.save import origin_list
-from ..summary import version_text
-from .conditions import read
-from .rows import Row, Target, aggregated, axes_of, error_field, resolved, target_of
-from .selected import selected
+from .conditions import read, selected
+from .rows import Row, Target, aggregated, axes_of, error_field, resolved, target_of, version_text
 
 _FORMATS, _WIDTHS = ("png", "pdf", "svg"), ("89mm", "120mm", "183mm")
 
@@ -102,7 +100,7 @@ def _say_left_out(reasons: Sequence[str]) -> None:
 def _map(jobs: Sequence[Mapping[str, Any]], rows: Sequence[Row], options: argparse.Namespace) -> list[tuple[str, Any]]:
     """(name, sheet) of the last frames of runs."""
     renderer = Path(os.environ["SHAKEN_PROGRAM"]).with_name("shaken-render")
-    sheet, missing = pictures.picture_map([(job["directory"], job["parameters"]) for job in jobs],
+    sheet, missing = sweeps.picture_map([(job["directory"], job["parameters"]) for job in jobs],
                                           axes_of(rows), str(renderer), options.width or None)
     if not any(panel.has_picture for panel in sheet):
         raise Nothing(missing[0])

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import argparse
+import json
+import math
 import sys
 from typing import Sequence
 
 from ..daemon import Daemon
 from ..errors import ShakenError
 from ..estimate import MARKS
-from .conditions import read
-from .rows import Row, field_names, has_several_versions, resolved, short_name, swept, target_of
-from .selected import selected
+from .conditions import read, selected
+from .rows import Row, aggregated, axes_of, field_names, has_several_versions, resolved, short_name, swept, target_of
 from .text import Column, in_yellow, json_text, number_text, printable, table, terminal_width, value_text
 
 #: Title, field and rank of what the table on a terminal shows of a summary, or of replicas.
@@ -117,3 +118,23 @@ def fields(options: argparse.Namespace) -> None:
     """What the shell may offer where a field is wanted: those of the newest sweep."""
     for name in field_names(target_of(Daemon(options.root), "").rows):
         print(short_name(printable(name)))
+
+
+def inset(options: argparse.Namespace) -> None:
+    """Prints {x, y, points: [[x, y, S]], here: [[x, y]]} by the first two numbers that are swept, for shaken-render; y
+    is empty where there is one, and null what is not known."""
+    rows = target_of(Daemon(options.root), options.id).rows
+    axes = axes_of(rows)
+
+    def place(row: Row, *more: str) -> list[float | None]:
+        found = [row.number(name) for name in (*axes, *more)]
+        known = [value if math.isfinite(value) else None for value in found]
+        return known if len(axes) > 1 else [known[0], None, *known[1:]]
+
+    of_jobs = {row.fields["job"]: row for row in rows}
+    foreign = [job[:8] for job in options.job if job not in of_jobs]
+    if foreign:
+        raise ShakenError(f"job {foreign[0]} does not belong to sweep {options.id}")
+    print(json.dumps({"x": axes[0], "y": axes[1] if len(axes) > 1 else "",
+                      "points": [place(point, "order.mean") for point in aggregated(rows)],
+                      "here": [place(of_jobs[job]) for job in options.job]}))

@@ -7,20 +7,33 @@ import math
 import re
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Iterable, Iterator, Mapping, Sequence
+from typing import Any, Iterable, Iterator, Mapping, Protocol, Sequence
 
 from ..catalogue import KEYS
 from ..daemon import Daemon, quoted
 from ..errors import NotFound, ShakenError, nearest
 from ..estimate import NAN, Estimate, replica_mean
-from ..quantities import NUMBER
-from ..summary import has_results
+from ..units import NUMBER
 
 Fields = dict[str, Any]
 _VERSIONS = ("versions.shaken", "versions.physics")
 #: Fields that name a row rather than measure something; never averaged.
 _NAMES = {"job", "sweep", "state", "label", "replica", "directory", *_VERSIONS}
 _MEASURED = re.compile(r"measured\.(.*)\.value")
+
+
+def version_text(versions: Any) -> str:
+    """"shaken 0.1.0, physics 3" of the member `versions`; empty where it is not known."""
+    if not isinstance(versions, Mapping):
+        return ""
+    words = [f"{what} {versions[what]}" for what in ("shaken", "physics") if versions.get(what) is not None]
+    return ", ".join(words)
+
+
+def has_results(state: str, summary: Mapping[str, Any] | None) -> bool:
+    """Whether a run is done, or was before it went on for longer. state: of its job"""
+    ended = (summary or {}).get("exit") or {}
+    return state == "done" or ended.get("state") == "done" or "done_before_s" in ended
 
 
 @dataclass
@@ -160,7 +173,14 @@ def short_name(name: str) -> str:
     return found[1] if found else name
 
 
-def swept(rows: Iterable[Row]) -> list[str]:
+class _Point(Protocol):
+    """A row, or what else has parameters."""
+
+    @property
+    def parameters(self) -> Mapping[str, Any]: ...
+
+
+def swept(rows: Iterable[_Point]) -> list[str]:
     """Parameters that differ between rows."""
     values: dict[str, set[str]] = {}
     for row in rows:

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""Programs and folders that do not outlive this process, however it ends."""
+"""Programs and folders that do not outlive this process, however it ends; files that are whole or not there."""
 from __future__ import annotations
 
 import contextlib
 import ctypes
+import os
+import secrets
 import signal
 import subprocess
 import tempfile
@@ -30,3 +32,23 @@ def scratch_folder(prefix: str) -> Iterator[Path]:
         yield Path(folder)
     finally:
         remover.communicate()
+
+
+def write_whole(path: Path, content: bytes, sync: bool = False) -> None:
+    """A reader never finds half a file, and writers do not disturb each other. With `sync` it is on the disk then."""
+    beside = path.with_name(f".{path.name[:200]}.{secrets.token_hex(6)}.tmp")
+    try:
+        with beside.open("xb") as file:
+            file.write(content)
+            if sync:
+                file.flush()
+                os.fsync(file.fileno())
+        os.replace(beside, path)
+    finally:
+        beside.unlink(missing_ok=True)
+    if sync:
+        folder = os.open(path.parent, os.O_RDONLY)
+        try:
+            os.fsync(folder)
+        finally:
+            os.close(folder)
