@@ -10,7 +10,9 @@ import signal
 import subprocess
 import tempfile
 from pathlib import Path
-from typing import Iterator
+from typing import Iterator, Sequence
+
+from .errors import ShakenError
 
 _PR_SET_PDEATHSIG = 1
 _libc = ctypes.CDLL(None)
@@ -19,6 +21,16 @@ _libc = ctypes.CDLL(None)
 def ends_with_us() -> None:
     """For `preexec_fn` of subprocess: the program gets SIGTERM when the thread that started it ends."""
     _libc.prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
+
+
+def output_of(command: Sequence[str], whose: str) -> str:
+    """What a program prints, which goes with us. Raises ShakenError with its words where it fails; `whose`: before
+    these."""
+    done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False,
+                          preexec_fn=ends_with_us)
+    if done.returncode != 0:
+        raise ShakenError(f"{whose}: {done.stderr.strip() or done.stdout.strip()}")
+    return done.stdout
 
 
 @contextlib.contextmanager

@@ -5,7 +5,6 @@ from __future__ import annotations
 import copy
 import json
 import math
-import subprocess
 import time
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -14,7 +13,7 @@ from typing import Any, Callable, Mapping
 
 import numpy as np
 
-from ..system import ends_with_us, scratch_folder
+from ..system import output_of, scratch_folder
 from ..errors import ShakenError
 from ..run import open_run
 from .diffusion import BEYOND, Diffusion, diffusion, exponent
@@ -200,11 +199,8 @@ class Measuring:
         scene = scene_of(self.species, noise, self.area_fraction, self.rods, run, length, self.every)
         file, out = folder / f"{run}.json", folder / str(run)
         file.write_text(json.dumps(scene))
-        done = subprocess.run([self.program, "run", str(file), "--out", str(out)], capture_output=True, text=True,
-                              check=False, stdin=subprocess.DEVNULL, preexec_fn=ends_with_us)
-        if done.returncode != 0:
-            raise ShakenError(f"{self.species.name}, noise {noise:.3g} rad/mm: " +
-                              (done.stderr.strip() or done.stdout.strip()))
+        output_of([self.program, "run", str(file), "--out", str(out)],
+                  f"{self.species.name}, noise {noise:.3g} rad/mm")
         found = open_run(out)
         return (np.asarray(found.arrays["/rotation/lag_s"]), np.asarray(found.arrays["/rotation/msad_rad2"]),
                 int(found.summary["collisions"]["rod_rod"]), found.numbers["large_turns"].value)

@@ -16,8 +16,8 @@ from .evidence import (BEADS, END, FREQUENCY, GAMMA, LENGTH, PACKING, SIDE, Evid
 from .late_lags import long_time_diffusion
 from .layer_checks import layered, theta_m
 from .layer_wavelength import mean_wavelength
-from .motion_checks import (PAPERS_PARABOLA, late_velocity_correlation, long_rods, papers_diffusion, short_rods,
-                            speed_between)
+from .motion_checks import (PAPERS_PARABOLA, beyond_reversal, late_velocity_correlation, long_rods, papers_diffusion,
+                            short_rods)
 from .rules import markdown, text
 from .structure_checks import mean_waves, ordered_in_large_boxes
 
@@ -55,11 +55,6 @@ STEP = "time.step"
 def rods_per_area(runs: Runs) -> float:
     """Number of rods per area of the box [1/mm2]."""
     return runs[0].summary["n_rods"] / math.prod(box_of(runs[0]))
-
-
-def beyond_reversal(run: Run) -> Estimate:
-    """Mean velocity along the rod at tilts beyond 0.31 [mm/s]: above 0 where it is reversed, as the paper draws it."""
-    return speed_between(run, 0.31, 0.40)
 
 
 def log_interpolated(points: Sequence[tuple[float, Estimate]], x: float) -> Estimate:

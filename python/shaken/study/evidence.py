@@ -180,13 +180,7 @@ class Runs(list[Run]):
 
     def points(self, path: str, name: str | Callable[[Run], Estimate]) -> "list[tuple[float, Estimate]]":
         """(value of a key, number) at each value of the key that has one."""
-        found = []
-        for value in self.values(path):
-            here = self.where(path, value)
-            estimate = here.number(name) if isinstance(name, str) else here.of(name)
-            if estimate.is_known:
-                found.append((value, estimate))
-        return found
+        return points_of(self, path, lambda here: here.number(name) if isinstance(name, str) else here.of(name))
 
     def curve(self, name: str) -> "tuple[np.ndarray, np.ndarray, np.ndarray] | None":
         """(x, mean, error) of an array over these runs, at the places of the longest; None where none has it."""

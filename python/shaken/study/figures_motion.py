@@ -13,12 +13,13 @@ from ..plots.panel import Panel
 from ..plots.sheet import Sheet
 from ..run import Array, Run
 from .beyond_paper import dense_diffusion, more_rods, parabola, swimming_defects
-from .evidence import FREQUENCY, LENGTH, PACKING, SIDE, Evidence, Runs, key_of, number_of, place_on, points_of
+from .evidence import FREQUENCY, LENGTH, PACKING, Evidence, Runs, number_of, place_on, points_of
 from .late_lags import long_time_diffusion
-from .material import Material, angle_bar, draw_against, draw_curves, draw_points, draw_rods, packing_scale
-from .motion_checks import (FREE_OF_THE_WINDOW, VELOCITY_WINDOW, late_c2, late_velocity_correlation, long_rods,
-                            papers_diffusion, short_rods, speed_between)
+from .material import Material, angle_bar, draw_against, draw_curve, draw_curves, draw_points, draw_rods, packing_scale
+from .motion_checks import (FREE_OF_THE_WINDOW, VELOCITY_WINDOW, beyond_reversal, late_c2, late_velocity_correlation,
+                            long_rods, papers_diffusion, short_rods)
 from .order_checks import phase_diagram
+from .time_step import scene_of
 
 
 def tilt(material: Material) -> Sheet:
@@ -28,11 +29,7 @@ def tilt(material: Material) -> Sheet:
     sheet = material.sheet(4, columns=2, height=52)
     for panel, way, statement in ((sheet[0], "along", "tilt"), (sheet[1], "across", "sideways")):
         panel.titles(names.axis_title("/tilt/n_z"), names.axis_title(f"/tilt/v_{way}_mm_s"), f"{way} the rod, φ = 0.6")
-        found = first.curve(f"/tilt/v_{way}_mm_s")
-        if found:
-            n_z, v, error = found
-            seen = error < 3 * np.nanmedian(error)
-            panel.curve(n_z[seen], v[seen], error[seen], look="points")
+        draw_curve(panel, first, f"/tilt/v_{way}_mm_s", look="points", seen=lambda e: e < 3 * np.nanmedian(e))
         panel.zero(x=True)
         material.stamp(panel, statement)
     for place in (-0.2, 0.2):
@@ -229,9 +226,7 @@ def defects(material: Material) -> Sheet:
     panel.scale("log", "linear")
     for k, (name, label) in enumerate((("speed_plus", "+1/2"), ("speed_minus", "−1/2"),
                                        ("speed_plus_along", "+1/2, towards its tail"))):
-        found = runs.curve(f"/defects/tracks/lasting/{name}_mm_s")
-        if found:
-            panel.curve(found[0], found[1], found[2], label=label, colour=k, look="points")
+        draw_curve(panel, runs, f"/defects/tracks/lasting/{name}_mm_s", label, k, "points")
     panel.zero()
     material.stamp(panel, "defects")
     draw_curves(sheet[3], runs, "/g2/g2", None, title="orientation").zero()
@@ -264,18 +259,13 @@ def model(material: Material) -> Sheet:
     sheet = material.sheet(6)
     panel = sheet[0].titles(names.axis_title("/tilt/n_z"), "velocity along the rod (mm/s)", "φ = 0.6, ℓ = 2.5 mm")
     for k, frequency in enumerate((100, 150, 200, 250, 300)):
-        found = shaken.where(FREQUENCY, frequency).curve("/tilt/folded/v_along_mm_s")
-        if found:
-            n_z, v, error = found
-            seen = error < 0.25
-            panel.curve(n_z[seen], v[seen], error[seen], label=names.value_label(FREQUENCY, frequency), colour=k,
-                        look="line")
+        draw_curve(panel, shaken.where(FREQUENCY, frequency), "/tilt/folded/v_along_mm_s",
+                   names.value_label(FREQUENCY, frequency), k, seen=lambda e: e < 0.25)
     panel.zero()
-    panel = sheet[1].titles(names.axis_title(FREQUENCY), "velocity beyond $n_z$ = 0.31 (mm/s)", "reversed where > 0")
-    draw_points(panel, shaken.points(FREQUENCY, lambda run: speed_between(run, 0.31, 0.40)))
-    panel.zero()
-    panel = sheet[2].titles(names.axis_title(FREQUENCY), "D, as MSD/4t (mm²/s)", "φ = 0.6")
-    draw_points(panel, shaken.points(FREQUENCY, "diffusion_mm2_s"), "measured", 0)
+    draw_against(sheet[1], FREQUENCY, beyond_reversal, [(shaken, "")], "reversed where > 0",
+                 "velocity beyond $n_z$ = 0.31 (mm/s)").zero()
+    panel = draw_against(sheet[2], FREQUENCY, "diffusion_mm2_s", [(shaken, "measured")], "φ = 0.6",
+                         "D, as MSD/4t (mm²/s)")
     panel.reference(y=papers_diffusion(0.60), label="the paper's fit, MSD = 4Dt")
     panel.reference(y=papers_diffusion(0.60) / 2, label="the paper's fit, MSD = 2Dt")
     panel.range(y=(0, None))
@@ -331,7 +321,4 @@ def accuracy(material: Material) -> Sheet:
 
 def _twins(runs: Runs, control: Run) -> Runs:
     """The runs at the state point of a control."""
-    found = runs
-    for path in (LENGTH, PACKING, SIDE, "plates.gamma", "box.gap", "rods.end_diameter", FREQUENCY):
-        found = found.where(path, key_of(control, path))
-    return found
+    return Runs(run for run in runs if scene_of(run) == scene_of(control))

@@ -12,7 +12,7 @@ from ..plots.sheet import Sheet
 from .layer_checks import layered, theta_m
 from .layer_wavelength import mean_wavelength
 from .evidence import END, GAP, LENGTH, PACKING, SIDE, Runs, box_text, key_of, points_of
-from .material import Material, angle_bar, draw_against, draw_curves, draw_points, draw_rods, packing_scale
+from .material import Material, angle_bar, draw_against, draw_curve, draw_curves, draw_points, draw_rods, packing_scale
 from .structure_checks import mean_waves, ordered_in_large_boxes
 
 
@@ -54,10 +54,7 @@ def _maps(sheet: Sheet, panels: Sequence[Panel], sets: Sequence[tuple[Runs, str]
 def _cuts(panel: Panel, runs: Runs, name: str, title: str, level: float) -> None:
     panel.titles("distance (mm)", names.axis_title(f"/pairs/{name}"), title)
     for k, way in enumerate(("along", "across")):
-        found = runs.curve(f"/pairs/cut/{name}_{way}")
-        if found:
-            r, values, errors = found
-            panel.curve(r, values, errors, runs.number("S").steady, label=way, colour=k, look="line")
+        draw_curve(panel, runs, f"/pairs/cut/{name}_{way}", way, k, steady=runs.number("S").steady)
     panel.zero() if level == 0 else panel.reference(y=level)
 
 
@@ -174,11 +171,8 @@ def _cuts_across(panel: Panel, runs: Runs, scale: Callable[[float], object] | No
     panel.titles("distance across the director (mm)", names.axis_title("/pairs/g2"), title)
     for k, value in enumerate(runs.values(path)):
         here = runs.where(path, value)
-        found = here.curve("/pairs/cut/g2_across")
-        if found:
-            r, values, errors = found
-            panel.curve(r, values, errors, here.number("S").steady, colour=scale(value) if scale else k, look="line",
-                        label="" if scale else names.value_label(path, value))
+        draw_curve(panel, here, "/pairs/cut/g2_across", "" if scale else names.value_label(path, value),
+                   scale(value) if scale else k, steady=here.number("S").steady)
 
 
 def layer_trends(material: Material) -> Sheet:

@@ -79,6 +79,16 @@ def draw_curves(panel: Panel, runs: Runs, array: str, scale: style.ColourScale |
     return panel
 
 
+def draw_curve(panel: Panel, runs: Runs, array: str, label: str = "", colour: Any = None, look: str = "line",
+               seen: Callable[[np.ndarray], np.ndarray] | None = None, **more: Any) -> None:
+    """An array against its axis, the mean over these runs, if one has it; `seen`: where its errors let it be seen."""
+    found = runs.curve(array)
+    if found is not None:
+        x, y, error = found
+        chosen = seen(error) if seen else slice(None)
+        panel.curve(x[chosen], y[chosen], error[chosen], label=label, colour=colour, look=look, **more)
+
+
 def draw_points(panel: Panel, points: Sequence[tuple[float, Estimate]], label: str = "", colour: Any = None,
                 **more: Any) -> None:
     """Numbers against a key, with their errors; hollow where they are not known to be steady."""

@@ -56,6 +56,11 @@ def speed_between(run: Run, low: float, high: float) -> Estimate:
                     number_of(run, "tilt_fastest_mm_s").steady)
 
 
+def beyond_reversal(run: Run) -> Estimate:
+    """Mean velocity along the rod at tilts beyond 0.31 [mm/s]: above 0 where it is reversed, as the paper draws it."""
+    return speed_between(run, 0.31, 0.40)
+
+
 def tilt_and_velocity(evidence: Evidence) -> Finding:
     runs = needed(evidence["mechanism"].at(packing=0.60))
     speed = runs.number("tilt_fastest_mm_s")
@@ -71,7 +76,7 @@ def tilt_and_velocity(evidence: Evidence) -> Finding:
 
 def velocity_reverses(evidence: Evidence) -> Finding:
     runs = evidence["mechanism"].at(packing=0.60)
-    beyond = runs.of(lambda run: speed_between(run, 0.31, 0.40))
+    beyond = runs.of(beyond_reversal)
     return conclude([above(beyond, 0)] if runs else [], f"{text(beyond)} mm/s along the tilt beyond ±0.31")
 
 

@@ -17,7 +17,7 @@ from typing import Any, Callable, Iterable, Iterator, Mapping
 import numpy as np
 
 from ..archive import add_run, archived_runs
-from ..system import ends_with_us
+from ..system import ends_with_us, output_of
 from ..daemon import Daemon
 from ..errors import ShakenError
 from ..run import Run
@@ -52,10 +52,7 @@ def points_of(shaken: str, sweep: dict[str, Any]) -> list[dict[str, Any]]:
     with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
         json.dump(sweep, file)
         file.flush()
-        done = subprocess.run([shaken, "validate", file.name, "--json"], capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        raise ShakenError(f"{sweep.get('name')}: {done.stderr.strip() or done.stdout.strip()}")
-    return json.loads(done.stdout)["points"]
+        return json.loads(output_of([shaken, "validate", file.name, "--json"], str(sweep.get("name"))))["points"]
 
 
 def speed(runs: Iterable[Run], packing: float) -> float:
@@ -131,15 +128,6 @@ class Plan:
         return "\n".join(lines)
 
 
-def explained(program: str, file: Path, cores: int) -> dict[str, Any]:
-    """What `shaken explain` says of a sweep in Slurm, after a short probe on this machine."""
-    done = subprocess.run([program, "explain", str(file), "--executor", "slurm", "--cores", str(cores), "--json"],
-                          capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        raise ShakenError(f"{file}: {done.stderr.strip() or done.stdout.strip()}")
-    return json.loads(done.stdout)
-
-
 def two_digits(value: float) -> str:
     """A number with two digits: estimates know no more."""
     if value == 0:
@@ -163,7 +151,8 @@ def write_plan(file: Path, program: str, sweeps: Mapping[str, dict[str, Any]], c
         path = folder / f"{name}.json"
         path.write_text(json.dumps(sweep, indent=2) + "\n")
         written.append(path)
-        told = explained(program, path, cores)
+        told = json.loads(output_of([program, "explain", str(path), "--executor", "slurm", "--cores", str(cores),
+                                     "--json"], str(path)))  # after a short probe on this machine
         slurm = told["slurm"]
         runs, tasks = runs + told["n_runs"], tasks + slurm["n_tasks"]
         core_hours += slurm["core_hours"]

@@ -41,7 +41,7 @@ def pairs(evidence: Evidence) -> list[Pair]:
     controls: dict[tuple[Any, ...], Runs] = {}
     for runs in evidence.controls.values():
         for run in runs:
-            controls.setdefault(_scene(run), Runs()).append(run)
+            controls.setdefault(scene_of(run), Runs()).append(run)
     usual = _by_scene(evidence)
     found = []
     for scene, paper in sorted(controls.items()):
@@ -63,11 +63,11 @@ def layered(evidence: Evidence) -> list[Pair]:
 def _by_scene(evidence: Evidence) -> dict[tuple[Any, ...], Runs]:
     found: dict[tuple[Any, ...], Runs] = {}
     for run in evidence.joined(*evidence.sets):
-        found.setdefault(_scene(run), Runs()).append(run)
+        found.setdefault(scene_of(run), Runs()).append(run)
     return found
 
 
-def _scene(run: Run) -> tuple[Any, ...]:
+def scene_of(run: Run) -> tuple[Any, ...]:
     values = [key_of(run, path) for path in _SCENE]
     return (*(round(value, 6) if math.isfinite(value) else 0.0 for value in values),
             run.key("rods.inertia") or "solid")  # keys that older runs have not are at their defaults
@@ -128,8 +128,8 @@ def prices(evidence: Evidence) -> str:
     extrapolated from the errors that it had."""
     heads = [f"{q.heading} {q.goal}: {step}" for q in PRICED for step in ("16 us", "4 us")]
     of_pairs = pairs(evidence)
-    compared = {_scene(pair.desk[0]) for pair in of_pairs}
-    of_pairs += [one for one in layered(evidence) if _scene(one.desk[0]) not in compared]
+    compared = {scene_of(pair.desk[0]) for pair in of_pairs}
+    of_pairs += [one for one in layered(evidence) if scene_of(one.desk[0]) not in compared]
     return markdown([*_WHERE, *heads], [[*pair.where, *(_hours(runs, q) for q in PRICED
                                                         for runs in (pair.desk, pair.paper))] for pair in of_pairs])
 

@@ -6,7 +6,7 @@ import operator
 import re
 import sys
 from dataclasses import dataclass
-from typing import Any, Callable, Iterator, NamedTuple, Sequence
+from typing import Any, Callable, Iterable, Iterator, NamedTuple, Sequence
 
 from ..catalogue import KEYS, UNITS
 from ..errors import ShakenError, nearest
@@ -149,18 +149,17 @@ class Condition:
         return first
 
     def _any(self) -> _Test:
-        parts = [self._all()]
-        while self._next.is_word("or"):
-            self._take()
-            parts.append(self._all())
-        return parts[0] if len(parts) == 1 else lambda row: any(part(row) for part in parts)
+        return self._joined("or", self._all, any)
 
     def _all(self) -> _Test:
-        parts = [self._one()]
-        while self._next.is_word("and"):
+        return self._joined("and", self._one, all)
+
+    def _joined(self, word: str, part: Callable[[], _Test], holds: Callable[[Iterable[bool]], bool]) -> _Test:
+        parts = [part()]
+        while self._next.is_word(word):
             self._take()
-            parts.append(self._one())
-        return parts[0] if len(parts) == 1 else lambda row: all(part(row) for part in parts)
+            parts.append(part())
+        return parts[0] if len(parts) == 1 else lambda row: holds(one(row) for one in parts)
 
     def _one(self) -> _Test:
         is_not = self._next.is_word("not")
