@@ -15,6 +15,7 @@ from figures_whole import assert_whole  # noqa: E402
 
 from shaken.estimate import Estimate, replica_mean  # noqa: E402
 from shaken.plots import names, runs, series, sweeps  # noqa: E402
+from shaken.tables.rows import Row  # noqa: E402
 
 NAN = float("nan")
 TILT = {"/tilt/n_z": [-0.1, 0.1], "/tilt/v_along_mm_s": [1.0, 2.0]}
@@ -200,8 +201,12 @@ def test_angles_are_in_degrees_and_zero_lag_has_no_place() -> None:
     assert np.isnan(found["msd"][0].drawn[0].y[0])
 
 
-def point(length: float, fraction: float, order: float, error: float = 0.02, **more: Any) -> sweeps.PlottedPoint:
-    return sweeps.PlottedPoint({"rods.length": length, "rods.area_fraction": fraction}, order, error, **more)
+def row(parameters: dict[str, Any], order: float, error: float = 0.02, **more: Any) -> Row:
+    return Row(parameters, "done", {"order.mean": order, "order.sem": error, **more})
+
+
+def point(length: float, fraction: float, order: float, error: float = 0.02, **more: Any) -> Row:
+    return row({"rods.length": length, "rods.area_fraction": fraction}, order, error, **more)
 
 
 def test_the_longest_parameter_is_the_axis_and_others_are_curves() -> None:
@@ -218,8 +223,9 @@ def test_the_longest_parameter_is_the_axis_and_others_are_curves() -> None:
 
 
 def test_any_field_against_any_other() -> None:
-    found = sweeps.sweep_figure([point(2.5, 0.5, 8.5, x=0.1), point(2.5, 0.7, 9.5, x=0.3), point(2.5, 0.9, NAN, x=0.5)],
-                                x="order.mean", y="measured.theta_m_deg.value")
+    theta = "measured.theta_m_deg.value"
+    points = [point(2.5, 0.5, 0.1, **{theta: 8.5}), point(2.5, 0.7, 0.3, **{theta: 9.5}), point(2.5, 0.9, 0.5)]
+    found = sweeps.sweep_figure(points, x="order.mean", y=theta)
     assert found is not None and found[0] == "theta_m_deg_order"
     assert [list(drawn.x) for drawn in found[1][0].drawn] == [[0.1], [0.3]]  # a curve for each area fraction
     assert names.plain(found[1][0].y_title) == "tilt of the layers θ_m (°)"
@@ -232,9 +238,9 @@ def test_nothing_swept_nothing_drawn() -> None:
 
 
 def test_the_ways_up_and_down_of_a_protocol_are_curves() -> None:
-    def stage(number: int, fraction: float, gap: float = 1.2) -> sweeps.PlottedPoint:
-        return sweeps.PlottedPoint({"box.gap": gap, "stage": number, "rods.area_fraction": fraction,
-                                    "time.measure": 1 + number}, fraction + 0.01 * number, 0.1)
+    def stage(number: int, fraction: float, gap: float = 1.2) -> Row:
+        return row({"box.gap": gap, "stage": number, "rods.area_fraction": fraction, "time.measure": 1 + number},
+                   fraction + 0.01 * number, 0.1)
 
     fractions = [0.4, 0.5, 0.6, 0.5, 0.5, 0.4]
     points = [stage(number, fraction) for number, fraction in enumerate(fractions, 1)]
@@ -255,8 +261,7 @@ def test_the_ways_up_and_down_of_a_protocol_are_curves() -> None:
 
 
 def test_texts_with_units_are_numbers() -> None:
-    found = sweeps.sweep_figure([sweeps.PlottedPoint({"box.gap": gap}, y, 0.1) for gap, y in
-                                 (("1.2 mm", 0.5), ("0.9 mm", 0.4))])
+    found = sweeps.sweep_figure([row({"box.gap": gap}, y) for gap, y in (("1.2 mm", 0.5), ("0.9 mm", 0.4))])
     assert found is not None and list(found[1][0].drawn[0].x) == [0.9, 1.2]
 
 

@@ -225,6 +225,15 @@ def test_every_mean_has_its_standard_error():
     assert point.fields["cpu_seconds:sem"] == student_factor(2)
 
 
+def test_versions_are_curves_of_their_own():
+    sweeps = pytest.importorskip("shaken.plots.sweeps")
+    made = [answer(length, 1, length / 10, versions={"shaken": "0.1.0", "physics": physics})
+            for physics in (2, 3) for length in (2.5, 4.5)]
+    name, sheet = sweeps.sweep_figure(rows.aggregated(list(map(rows.row_of, made))))
+    assert [(drawn.curve, list(drawn.x)) for drawn in sheet[0].drawn[:2]] == [
+        ("shaken 0.1.0, physics 2", [2.5, 4.5]), ("shaken 0.1.0, physics 3", [2.5, 4.5])]
+
+
 def test_versions_are_never_averaged():
     assert [point.fields["order.mean"] for point in points_of(answer(2.5, 1, 0.25), answer(2.5, 2, 0.75, "0.2.0"))] == [
         0.25, 0.75]

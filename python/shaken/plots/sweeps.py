@@ -4,32 +4,14 @@ from __future__ import annotations
 
 import math
 import subprocess
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Mapping, Sequence
 
 from ..system import scratch_folder
+from ..tables.rows import Row, error_field, has_several_versions
 from . import names, style
 from .series import VERSION, WAY, Arrangement, label_of, number_of
 from .sheet import Sheet
-
-
-@dataclass
-class PlottedPoint:
-    """A state point: its replicas together.
-
-    x, y:  NaN where not known; x is that of the parameter where it is not said
-    error: standard error of y; NaN where not known
-    runs:  ids of what it is made of
-    """
-
-    parameters: Mapping[str, Any]
-    y: float
-    error: float = math.nan
-    steady: bool | None = True
-    x: float = math.nan
-    version: str = ""
-    runs: Sequence[str] = field(default_factory=tuple)
 
 
 #: The parameter that numbers the runs of a protocol, from 1.
@@ -37,7 +19,7 @@ STAGE = "stage"
 _OF_COURSE = {STAGE, "time.steady", "time.measure"}
 
 
-def longest_parameter(points: Sequence[PlottedPoint]) -> str:
+def longest_parameter(points: Sequence[Row]) -> str:
     """The swept key with the most values that are numbers; empty if none has two. The number of a stage and
     how long it lasts come last: what the stages of a protocol change says more."""
     values: dict[str, set[float]] = {}
@@ -49,7 +31,7 @@ def longest_parameter(points: Sequence[PlottedPoint]) -> str:
     return max(several, key=lambda key: (key not in _OF_COURSE, several[key])) if several else ""
 
 
-def set_by_stages(points: Sequence[PlottedPoint]) -> set[str]:
+def set_by_stages(points: Sequence[Row]) -> set[str]:
     """The keys of a protocol: those that are the same in all points of a stage."""
     values: dict[tuple[str, float], set[str]] = {}
     for point in points:
@@ -73,17 +55,17 @@ def file_name(field_name: str) -> str:
     return field_name.replace(".", "_")
 
 
-Group = tuple[dict[str, Any], list[tuple[float, PlottedPoint]]]
+Group = tuple[dict[str, Any], list[tuple[float, Row]]]
 
 
-def _by_way(others: dict[str, Any], group: list[tuple[float, PlottedPoint]]) -> list[Group]:
+def _by_way(others: dict[str, Any], group: list[tuple[float, Row]]) -> list[Group]:
     """The stages of a protocol, in their order, as those on ways up and those on ways down."""
     ways = ways_of([at for at, _ in group])
     return [({**others, WAY: way}, [pair for pair, its in zip(group, ways) if its == way])
             for way in dict.fromkeys(ways)]
 
 
-def sweep_figure(points: Sequence[PlottedPoint], x: str = "", y: str = "order.mean",
+def sweep_figure(points: Sequence[Row], x: str = "", y: str = "order.mean",
                  width: str | None = None, over: Mapping[str, Sequence[float]] = {}) -> tuple[str, Sheet] | None:
     """(name, figure): `y` against `x`, the longest swept parameter if left out; `over`: the times over which they are
     taken, as axis_title has them. Other parameters, and versions, are
@@ -96,15 +78,15 @@ def sweep_figure(points: Sequence[PlottedPoint], x: str = "", y: str = "order.me
     if path != STAGE and any(STAGE in point.parameters for point in points):
         of_protocol = set_by_stages(points) | {STAGE}
         points = sorted(points, key=lambda point: number_of(point.parameters.get(STAGE)))
-    several_versions = len({point.version for point in points if point.version}) > 1
+    several_versions = has_several_versions(points)
     groups: list[Group] = []
     for point in points:
-        at = point.x if x and math.isfinite(point.x) else number_of(point.parameters.get(path))
-        if not math.isfinite(at) or not math.isfinite(point.y):
+        at = point.number(x) if x and math.isfinite(point.number(x)) else number_of(point.parameters.get(path))
+        if not math.isfinite(at) or not math.isfinite(point.number(y)):
             continue
         others = {key: value for key, value in point.parameters.items() if key != path and key not in of_protocol}
-        if several_versions and point.version:
-            others[VERSION] = point.version
+        if several_versions and point.made_by:
+            others[VERSION] = point.made_by
         group = next((found for known, found in groups if known == others), None)
         if group is None:
             group = []
@@ -117,12 +99,13 @@ def sweep_figure(points: Sequence[PlottedPoint], x: str = "", y: str = "order.me
     arrangement = Arrangement([others for others, _ in groups])
     sheet = arrangement.sheet(width, names.axis_title(path, over=over.get("x", ())),
                               names.axis_title(y, over=over.get("y", ())))
-    any_error = any(math.isfinite(point.error) for _, group in groups for _, point in group)
+    error = error_field(y)
+    any_error = any(math.isfinite(point.number(error)) for _, group in groups for _, point in group)
     for panel, k in arrangement.each(sheet):
         group = sorted(groups[k][1], key=lambda pair: pair[0])
-        panel.curve([at for at, _ in group], [point.y for _, point in group],
-                    [point.error for _, point in group] if any_error else None,
-                    [point.steady for _, point in group], look="points", name=arrangement.label(k),
+        panel.curve([at for at, _ in group], [point.number(y) for _, point in group],
+                    [point.number(error) for _, point in group] if any_error else None,
+                    [point.steady(y) for _, point in group], look="points", name=arrangement.label(k),
                     **arrangement.look(k))
     for panel, _ in arrangement.panels_of(sheet):
         if y == "order.mean":

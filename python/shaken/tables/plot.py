@@ -15,7 +15,7 @@ from ..errors import ShakenError
 from ..plots import runs, sweeps
 from ..plots.save import origin_list
 from .conditions import read, selected
-from .rows import Row, Target, aggregated, axes_of, error_field, resolved, target_of, version_text
+from .rows import Row, Target, aggregated, axes_of, resolved, target_of
 
 _FORMATS, _WIDTHS = ("png", "pdf", "svg"), ("89mm", "120mm", "183mm")
 
@@ -51,10 +51,6 @@ def _picture(options: argparse.Namespace) -> Path | None:
     return Path(options.out) if is_picture else None
 
 
-def _version(row: Row) -> str:
-    return version_text((row.source.get("summary") or {}).get("versions"))
-
-
 def _times_over(points: Sequence[Row], name: str) -> list[float]:
     """The times over which a number is taken in the points [s]; none if it depends on none."""
     over = name[:-len("value")] + "over_s"
@@ -62,18 +58,12 @@ def _times_over(points: Sequence[Row], name: str) -> list[float]:
     return sorted(time for time in times if time == time)
 
 
-def _plotted(point: Row, x: str, y: str) -> sweeps.PlottedPoint:
-    return sweeps.PlottedPoint(point.parameters, point.number(y), point.number(error_field(y)), point.steady(y),
-                               point.number(x), _version(point))
-
-
 def _sweep_figure(points: Sequence[Row], options: argparse.Namespace) -> list[tuple[str, Any]]:
     """(name, sheet) of a number against a parameter, if there is one to draw."""
-    plotted = [_plotted(point, options.x, options.y) for point in points]
-    figure = sweeps.sweep_figure(plotted, options.x, options.y, options.width or None,
+    figure = sweeps.sweep_figure(points, options.x, options.y, options.width or None,
                                  {"x": _times_over(points, options.x), "y": _times_over(points, options.y)})
     if figure is None and options.is_one:
-        path = options.x or sweeps.longest_parameter(plotted)
+        path = options.x or sweeps.longest_parameter(points)
         raise Nothing(f"no point has both {path} and {options.y} as numbers" if path else
                       "no numeric parameter is swept: --x names a field to plot against")
     return [figure] if figure else []
@@ -142,7 +132,7 @@ def plot(options: argparse.Namespace) -> None:
         if not options.is_one:
             drawn = _runs([(Path(job["directory"]), job["parameters"], job["state"]) for job in jobs
                            if job["state"] != "queued"])
-    for name, of in (("Computed by", {run.version for run in drawn} | {_version(row) for row in rows}),
+    for name, of in (("Computed by", {run.version for run in drawn} | {row.made_by for row in rows}),
                      ("Runs", {run.id for run in drawn} | {row.fields["job"] for row in rows})):
         if of - {""}:
             origin[name] = origin_list(sorted(of - {""}))

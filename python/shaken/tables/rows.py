@@ -64,6 +64,11 @@ class Row:
         return str(self.fields.get(_VERSIONS[0]) or ""), int(self.fields.get(_VERSIONS[1]) or 0)
 
     @property
+    def made_by(self) -> str:
+        """The same in words, "shaken 0.1.0, physics 3"; "" where it is not known."""
+        return version_text(dict(zip(("shaken", "physics"), self.version))) if any(self.version) else ""
+
+    @property
     def key(self) -> str:
         """Its parameters, as text."""
         return json.dumps(self.parameters)
