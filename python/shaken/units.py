@@ -70,6 +70,14 @@ def number_of(value: Any) -> Any:
     return float(match[1]) * (UNITS[match[2]]["scale"] if match[2] else 1.0)
 
 
+def leading_number(value: Any) -> float:
+    """A number, or the one at the beginning of a text ("4.5 mm"); NaN if there is none."""
+    if isinstance(value, str):
+        match = NUMBER.match(value)
+        return float(match[0]) if match else math.nan
+    return float(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else math.nan
+
+
 def quantity(text: str, dimension: str) -> float:
     """A text of a number in the default unit of what it measures: "length", "time", ..., or "plain number", which takes
     no unit. Raises ShakenError with what is wrong with it."""

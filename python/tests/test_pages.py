@@ -8,8 +8,7 @@ from shaken.run import Numbers
 from shaken.study.evidence import LENGTH, PACKING, Evidence, key_of
 from shaken.study.figures import FIGURES
 from shaken.study.next_runs import DECIDING
-from shaken.study.report import PAGES, content, index, page_of
-from shaken.study.report import write_report
+from shaken.study.report import PAGES, content, index, page_of, write_report
 from shaken.study.statements import STATEMENTS, judged
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"

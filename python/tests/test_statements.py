@@ -403,7 +403,7 @@ def test_a_sentence_that_contradicts_itself_is_called_so():
 
 
 def test_where_a_few_places_are_open_the_runs_are_consistent():
-    answers = [rules.yes()] * 8 + [rules.unknown("a run still relaxes").placed("0.85")]
+    answers = [rules.YES] * 8 + [rules.unknown("a run still relaxes").placed("0.85")]
     found = rules.conclude(answers, "")
     assert found.verdict == rules.CONSISTENT and found.why == "at 8 of 9; open: 0.85 (a run still relaxes)"
     assert rules.conclude(answers[4:], "").verdict == rules.CONSISTENT
@@ -649,10 +649,10 @@ def test_a_trend_may_step_back_by_chance_but_not_more():
 
 
 def test_some_of_both_is_in_part_and_says_where():
-    found = rules.conclude([rules.yes().placed("0.75"), rules.no().placed("0.80"),
+    found = rules.conclude([rules.YES.placed("0.75"), rules.NO.placed("0.80"),
                             rules.unknown("no error").placed("0.85")], "x")
     assert found.verdict == rules.IN_PART and found.why == "holds: 0.75; not: 0.80; open: 0.85 (no error)"
-    assert rules.conclude([rules.yes(), rules.no()], "x", everywhere=True).verdict == rules.DISAGREES
+    assert rules.conclude([rules.YES, rules.NO], "x", everywhere=True).verdict == rules.DISAGREES
 
 
 def test_layers_are_asked_for_in_the_widest_box():

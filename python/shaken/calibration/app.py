@@ -11,11 +11,12 @@ from pathlib import Path
 from typing import Any, Sequence
 
 from ..errors import ShakenError
+from ..plots.save import SUFFIXES
 from ..program import BAD_INPUT, FAILED, OK, Options, failed, run
+from ..tables import text as texts
 from .rods import Level, Measuring, NotDiffusive, Species, Unmet
 from .search import Calibrated, noise_for
 
-_PICTURES = (".png", ".pdf", ".svg")
 
 
 def parser() -> argparse.ArgumentParser:
@@ -69,7 +70,7 @@ def problems_of(options: argparse.Namespace, species: Sequence[Species]) -> list
         found.append(f"--precision takes a number from 0.005 to 0.3, not {options.precision:g}")
     if not 1 <= options.threads <= 256:
         found.append(f"--threads takes a number from 1 to 256, not {options.threads}")
-    if options.plot is not None and options.plot.suffix not in _PICTURES:
+    if options.plot is not None and options.plot.suffix not in SUFFIXES:
         found.append(f"--plot {options.plot}: a plot is a .png, .pdf or .svg")
     return found
 
@@ -99,13 +100,13 @@ def key_of(one: Species, found: Calibrated) -> str:
 
 def table(rows: Sequence[tuple[Species, Calibrated]]) -> str:
     """Of every species and wanted D_r the noise, D_r as measured with it and without noise, and the key to set."""
-    cells = [["SPECIES", "WANTED rad^2/s", "D_r rad^2/s", "WITHOUT NOISE", "NOISE rad/mm", "KEY"]]
+    lines = []
     for one, found in rows:
         digits = max(0, 1 - math.floor(math.log10(found.error))) if found.error > 0 else 4
-        cells.append([one.name, f"{found.wanted:g}", number(found.level), number(found.own) if found.own else "-",
+        lines.append([one.name, f"{found.wanted:g}", number(found.level), number(found.own) if found.own else "-",
                       f"{found.noise:g} ± {found.error:.{digits}f}", key_of(one, found)])
-    widths = [max(len(row[k]) for row in cells) for k in range(len(cells[0]))]
-    return "\n".join("  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip() for row in cells)
+    titles = ("SPECIES", "WANTED rad^2/s", "D_r rad^2/s", "WITHOUT NOISE", "NOISE rad/mm", "KEY")
+    return texts.table([texts.Column(title, list(cells)) for title, cells in zip(titles, zip(*lines))], 0)[0]
 
 
 def number(level: Level) -> str:
@@ -148,7 +149,7 @@ def _run(options: argparse.Namespace, species: Sequence[Species]) -> int:
     if options.json:
         print(json.dumps(_as_json(options, every, refused), indent=2, ensure_ascii=False))
     elif rows:
-        print(table(rows))
+        print(table(rows), end="")
     for one, each in rows:
         if not each.is_met:
             print(f"{one.name}: D_r = {each.wanted:g} rad^2/s was not met, or is not known within "

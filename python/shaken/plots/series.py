@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import json
-import re
 from typing import Any, Mapping, Sequence
 
 import numpy as np
 
 from ..estimate import Estimate, replica_mean
+from ..units import leading_number
 from . import names, style
 from .panel import Panel
 from .sheet import Sheet
@@ -18,16 +18,6 @@ VERSION = ""
 #: A key under which a curve carries which way a protocol goes along it: {"way": "up"}.
 WAY = "way"
 _MOST_NAMED = len(style.PALETTE)
-
-
-def number_of(value: Any) -> float:
-    """A number, or the one at the beginning of a text ("4.5 mm"); NaN if there is none."""
-    if isinstance(value, bool) or value is None:
-        return float("nan")
-    if isinstance(value, (int, float)):
-        return float(value)
-    match = re.match(r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", str(value))
-    return float(match[0]) if match else float("nan")
 
 
 def label_of(parameters: Mapping[str, Any]) -> str:
@@ -69,19 +59,19 @@ class Arrangement:
         def count(key: str) -> int:
             return len({_text(point.get(key)) for point in self.points})
 
-        numeric = [key for key in swept if all(np.isfinite(number_of(point.get(key))) for point in self.points)]
+        numeric = [key for key in swept if all(np.isfinite(leading_number(point.get(key))) for point in self.points)]
         return max(numeric or swept, key=count)
 
     def _colour_by(self, key: str) -> None:
         values = [point.get(key) for point in self.points]
         distinct = sorted({_text(value): value for value in values}.values(),
-                          key=lambda value: (number_of(value), _text(value)))
+                          key=lambda value: (leading_number(value), _text(value)))
         rank = {_text(value): k for k, value in enumerate(distinct)}
         if len(distinct) <= _MOST_NAMED:
             self._labels = [label_of({key: value}) for value in values]
             self._colours = [rank[_text(value)] for value in values]
             return
-        numbers = [number_of(value) for value in values]
+        numbers = [leading_number(value) for value in values]
         if not np.all(np.isfinite(numbers)):
             numbers = [float(rank[_text(value)]) for value in values]
         log = min(numbers) > 0 and max(numbers) / min(numbers) >= 30

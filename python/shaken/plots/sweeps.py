@@ -9,8 +9,9 @@ from typing import Any, Mapping, Sequence
 
 from ..system import scratch_folder
 from ..tables.rows import Row, error_field, has_several_versions
+from ..units import leading_number
 from . import names, style
-from .series import VERSION, WAY, Arrangement, label_of, number_of
+from .series import VERSION, WAY, Arrangement, label_of
 from .sheet import Sheet
 
 
@@ -25,8 +26,8 @@ def longest_parameter(points: Sequence[Row]) -> str:
     values: dict[str, set[float]] = {}
     for point in points:
         for key, value in point.parameters.items():
-            if math.isfinite(number_of(value)):
-                values.setdefault(key, set()).add(number_of(value))
+            if math.isfinite(leading_number(value)):
+                values.setdefault(key, set()).add(leading_number(value))
     several = {key: len(found) for key, found in values.items() if len(found) > 1}
     return max(several, key=lambda key: (key not in _OF_COURSE, several[key])) if several else ""
 
@@ -36,7 +37,7 @@ def set_by_stages(points: Sequence[Row]) -> set[str]:
     values: dict[tuple[str, float], set[str]] = {}
     for point in points:
         for key, value in point.parameters.items():
-            values.setdefault((key, number_of(point.parameters.get(STAGE))), set()).add(repr(value))
+            values.setdefault((key, leading_number(point.parameters.get(STAGE))), set()).add(repr(value))
     keys = {key for key, _ in values}
     return {key for key in keys if all(len(found) == 1 for (name, _), found in values.items() if name == key)}
 
@@ -77,11 +78,11 @@ def sweep_figure(points: Sequence[Row], x: str = "", y: str = "order.mean",
     of_protocol: set[str] = set()
     if path != STAGE and any(STAGE in point.parameters for point in points):
         of_protocol = set_by_stages(points) | {STAGE}
-        points = sorted(points, key=lambda point: number_of(point.parameters.get(STAGE)))
+        points = sorted(points, key=lambda point: leading_number(point.parameters.get(STAGE)))
     several_versions = has_several_versions(points)
     groups: list[Group] = []
     for point in points:
-        at = point.number(x) if x and math.isfinite(point.number(x)) else number_of(point.parameters.get(path))
+        at = point.number(x) if x and math.isfinite(point.number(x)) else leading_number(point.parameters.get(path))
         if not math.isfinite(at) or not math.isfinite(point.number(y)):
             continue
         others = {key: value for key, value in point.parameters.items() if key != path and key not in of_protocol}
@@ -123,7 +124,7 @@ def picture_map(runs: Sequence[tuple[str, Mapping[str, Any]]], axes: Sequence[st
     renderer: the program shaken-render
     """
     from matplotlib.image import imread
-    x, y = ([number_of(parameters[key]) if key else 0.0 for _, parameters in runs] for key in (*axes, "")[:2])
+    x, y = ([leading_number(parameters[key]) if key else 0.0 for _, parameters in runs] for key in (*axes, "")[:2])
     across, up = sorted(set(x)), sorted(set(y), reverse=True)
     size = style.inches(width or "183mm") * 25.4 / len(across)
     sheet = style.sheet(width or "183mm", len(up), len(across), size + 4, letters=False)

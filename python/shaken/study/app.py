@@ -65,14 +65,11 @@ def configs_folder(given: Path | None) -> Path:
         if not any(folder.glob("*.json")):
             raise ShakenError(f"{given} has no sweeps of the figures: give the folder that has configs/figures/desk")
         return folder
-    places = [Path(__file__).resolve().parents[3] / "configs", Path("/usr/share/shaken/configs"),
-              Path("/usr/local/share/shaken/configs")]
-    if os.environ.get("SHAKEN_CONFIGS"):
-        places.insert(0, Path(os.environ["SHAKEN_CONFIGS"]))
-    for place in places:
-        if (place / "figures" / "desk").is_dir():
-            return place / "figures" / "desk"
-    raise ShakenError(f"the sweeps of the figures are not here ({places[0]}): name their folder with --configs")
+    # `shaken` says where they are; without it they are those of the sources
+    place = Path(os.environ.get("SHAKEN_CONFIGS") or Path(__file__).resolve().parents[3] / "configs")
+    if not (place / "figures" / "desk").is_dir():
+        raise ShakenError(f"the sweeps of the figures are not here ({place}): name their folder with --configs")
+    return place / "figures" / "desk"
 
 
 def problems_of(options: argparse.Namespace) -> list[str]:

@@ -152,7 +152,7 @@ def scaling_with_size(material: Material) -> Sheet:
         here, label = runs.at(packing=packing), names.value_label(PACKING, packing)
         order = here.points(SIDE, "S")
         draw_points(panel, order, label, k)
-        draw_points(far, points_of(here, SIDE, far_g2), label, k)
+        draw_points(far, here.points(SIDE, far_g2), label, k)
         if packing < 0.54:
             continue  # no director
         draw_points(stiff, points_of(here, SIDE, scaling.stiffness), label, k)

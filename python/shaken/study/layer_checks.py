@@ -16,8 +16,8 @@ from .evidence import (END, GAP, LENGTH, PACKING, SIDE, Evidence, Runs, box_text
                        number_of, place_on, points_of)
 from .layer_wavelength import TWO_PEAKS, mean_wavelength, wavelength
 from .order_checks import ORDERED
-from .rules import (AGREES, CONSISTENT, NOT_RUN, Answer, Finding, above, all_of, below, close_to, conclude, larger,
-                   listed, needed, no, refutable, text, trend, unknown, yes)
+from .rules import (AGREES, CONSISTENT, NO, NOT_RUN, YES, Answer, Finding, above, all_of, below, close_to, conclude,
+                   larger, listed, needed, refutable, text, trend, unknown)
 
 #: Change of the dip from one half of the time to the other below which layers count as formed.
 STILL = 0.1
@@ -221,7 +221,7 @@ def taper_makes_layers(evidence: Evidence) -> Finding:
         found += (f"; rods without a taper at {key_of(plain[0], PACKING):g}: S = {text(plain.number('S'))}, "
                   f"dip to {text(dip(plain))}")
     words = [_two_peaks_in_order(plain).word for plain in untapered]
-    answers += [no()] if True in words else []
+    answers += [NO] if True in words else []
     if untapered:
         how += ("; rods without one have layers" if True in words else "; rods without one have no layers"
                 if False in words else "; rods without one have no nematic in which layers could be missing")
@@ -233,11 +233,11 @@ def crystal_at_a_narrow_gap(evidence: Evidence) -> Finding:
     found = f"{_gap_text(reference)}; {_gap_text(narrow)}"
     more = larger(narrow.number("bragg_peak"), reference.number("bragg_peak"))
     if two_peaks(narrow).word or more.word is False:
-        return refutable(no(), found, "")
+        return refutable(NO, found, "")
     if more.word is None:
         return refutable(more, found, "")
     ratio = narrow.number("bragg_peak").value / reference.number("bragg_peak").value
-    return refutable(yes(), found, f"its Bragg peak is {ratio:.1f} times that of the layers, and P(θ) has one peak")
+    return refutable(YES, found, f"its Bragg peak is {ratio:.1f} times that of the layers, and P(θ) has one peak")
 
 
 def _goes_far(runs: Runs) -> bool:

@@ -11,8 +11,8 @@ from ..run import Run
 from . import late_lags
 from .evidence import LENGTH, PACKING, SIDE, Evidence, Runs, by, key_of, mean_of_places, number_of, points_of
 from .late_lags import long_time_diffusion
-from .rules import (Answer, Finding, above, below, close_to, conclude, doubt, larger, listed, needed, no, text, trend,
-                   unknown, yes)
+from .rules import (NO, YES, Answer, Finding, above, below, close_to, conclude, doubt, larger, listed, needed, text,
+                   trend, unknown)
 
 #: Change of the slope of the MSD from one octave of lags to the next, as a part of it, below which motion is diffusive.
 SAME_SLOPE = 0.1
@@ -106,9 +106,9 @@ def no_motion_sideways(evidence: Evidence) -> Finding:
     excess = Estimate(chi2 / n, math.sqrt(2 / n), True)  # chi2 of n independent bins at zero is n +- sqrt(2 n)
     error, speed = math.sqrt(noise / n), abs(runs.number("tilt_fastest_mm_s").value)
     if above(excess, 1).word:
-        answer = no()
+        answer = NO
     else:
-        answer = yes() if error < 0.2 * speed else unknown("the errors are too large")
+        answer = YES if error < 0.2 * speed else unknown("the errors are too large")
     return conclude([answer], f"χ² per bin {text(excess)} about 0, errors of {error:.2f} mm/s; fastest along the rod "
                               f"{speed:.2f} mm/s")
 
@@ -385,5 +385,5 @@ def defects_move(evidence: Evidence) -> Finding:
     either_way = along if along.value >= 0 else along * -1
     moves = above(either_way, 0)
     if not moves.word and below(either_way, 0.1 * minus.value).word:
-        return conclude([no()], found)
+        return conclude([NO], found)
     return conclude([moves], found)

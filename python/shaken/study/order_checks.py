@@ -13,8 +13,8 @@ from . import scaling
 from .evidence import (GAMMA, LENGTH, PACKING, PAPERS_BOX, SIDE, SMALL_DRIFT, Evidence, Runs, crossing, key_of,
                        points_of)
 from .late_lags import long_time_diffusion
-from .rules import (NOT_RUN, Answer, Finding, above, all_of, below, close_to, conclude, doubt, larger, listed, needed,
-                   no, refutable, text, trend, unknown, yes)
+from .rules import (NO, NOT_RUN, YES, Answer, Finding, above, all_of, below, close_to, conclude, doubt, larger, listed,
+                   needed, refutable, text, trend, unknown)
 from .structure_checks import far_g2
 
 #: <S> above which a state counts as ordered, as the paper draws the line.
@@ -45,15 +45,15 @@ def steady_after_the_start(evidence: Evidence) -> Finding:
         s = here.number("S")
         start = max(float(run.summary.get("t_steady_s") or 0) for run in here)
         if not aligned:
-            answer = no()
+            answer = NO
         elif s.steady and abs(s.drift) + 2 * s.drift_error < SMALL_DRIFT:
-            answer = yes() if start <= longest_wait else no()
+            answer = YES if start <= longest_wait else NO
             steady, wait = steady + 1, max(wait, start)
         elif s.steady:
             answer = unknown(f"a drift of {SMALL_DRIFT:g} cannot be excluded")
         else:
             followed = max(float(run.summary["sim_seconds"]) for run in here)
-            answer = no() if followed > 1000 and s.steady is False else unknown("a run still relaxes")
+            answer = NO if followed > 1000 and s.steady is False else unknown("a run still relaxes")
         answers.append(answer.placed(f"{packing:g}"))
     return conclude(answers, f"S(0) = 1; no drift of S by {SMALL_DRIFT:g} or more from the first half of what was "
                     f"measured to the second at {steady} of {len(answers)} packings; measured from {wait:.0f} s on at "
@@ -69,7 +69,7 @@ def ordered_when_dense(evidence: Evidence) -> Finding:
 def disordered_when_dilute(evidence: Evidence) -> Finding:
     everywhere = evidence.joined("long-rods", "dilute").at(length=4.5, packing=0.45)
     runs = needed(everywhere.largest(SIDE))
-    s, far, power = runs.number("S"), far_g2(runs), scaling.power(everywhere)
+    s, far, power = runs.number("S"), runs.of(far_g2), scaling.power(everywhere)
     # Whatever its correlations, a disordered state of N >> 1 independent regions has S ~ 1/sqrt(N), that is 1/L; an
     # ordered one has the same S in every box.
     larger = below(power, -0.5) if len(everywhere.values(SIDE)) > 1 else unknown(NOT_RUN)
@@ -163,7 +163,7 @@ def long_range(evidence: Evidence) -> Finding:
         falls, stays = below(power, 0), larger(power, predicted)
         # over one octave a fall that ends looks like one that goes on
         too_few = "" if sides[-1] > 3.9 * sides[0] else "boxes of one octave only"
-        answers.append((unknown(too_few) if too_few else no() if falls.word else yes() if stays.word else unknown(
+        answers.append((unknown(too_few) if too_few else NO if falls.word else YES if stays.word else unknown(
             doubt(power) or "the errors are too large")).placed(f"{packing:g}"))
         found.append(f"x = {text(power)} at φ = {packing:g}, {sides[0]:.0f} to {sides[-1]:.0f} mm (by the waves: "
                      f"{text(predicted)})")
@@ -220,7 +220,7 @@ def one_peak(evidence: Evidence) -> Finding:
         elif samples < 50:
             answer = unknown("too few independent samples for the shape of P[S]")
         else:
-            answer = yes() if n_peaks(density) == 1 else no()
+            answer = YES if n_peaks(density) == 1 else NO
         answers.append(answer.placed(f"{packing:g}"))
         found.append(f"{n_peaks(density)} ({samples:.0f}) at {packing:g}")
     return conclude(answers, "peaks (independent samples): " + ", ".join(found), everywhere=True)
@@ -285,7 +285,7 @@ def activity(evidence: Evidence) -> Finding:
         answers.append(unknown(NOT_RUN).placed("Γ = 0"))
     else:
         energy = still[0].summary["energy_pJ"]
-        answers.append((yes() if energy["given_by_plates"] == 0 and energy["left"] < energy["start"] else no())
+        answers.append((YES if energy["given_by_plates"] == 0 and energy["left"] < energy["start"] else NO)
                        .placed("Γ = 0"))
         found += (f"; at Γ = 0 the plates give {energy['given_by_plates']:g} pJ, and "
                   f"{100 * energy['left'] / energy['start']:.2g} % of the energy of the start is left")

@@ -50,12 +50,7 @@ class Answer:
         return Answer(None if self.word is None else not self.word, self.why, self.at)
 
 
-def yes() -> Answer:
-    return Answer(True)
-
-
-def no() -> Answer:
-    return Answer(False)
+YES, NO = Answer(True), Answer(False)
 
 
 def unknown(why: str) -> Answer:
@@ -115,9 +110,9 @@ def larger(a: Estimate, b: Estimate, apart: float | None = None) -> Answer:
     apart = margin(a, b) if apart is None else apart
     differences = [x - y for x in _values(a) for y in _values(b)]
     if min(differences) > apart:
-        return yes()
+        return YES
     if max(differences) < -apart:
-        return no()
+        return NO
     return unknown("a run still relaxes" if abs(a.value - b.value) > apart else "the errors are too large")
 
 
@@ -135,9 +130,9 @@ def close_to(estimate: Estimate, target: float, tolerance: float) -> Answer:
         return unknown(why)
     aways, spare = [value - target for value in _values(estimate)], margin(estimate)
     if max(map(abs, aways)) + spare <= tolerance:
-        return yes()
+        return YES
     is_off = min(aways) - spare > tolerance or max(aways) + spare < -tolerance
-    return no() if is_off else unknown("the errors are too large")
+    return NO if is_off else unknown("the errors are too large")
 
 
 def trend(points: Sequence[tuple[float, Estimate]], rising: bool) -> Answer:
@@ -151,7 +146,7 @@ def trend(points: Sequence[tuple[float, Estimate]], rising: bool) -> Answer:
         deciding.reverse()
     for before, after in zip(deciding, deciding[1:]):
         if larger(before, after, STEP_BACK * math.hypot(judged_error(before), judged_error(after))).word:
-            return no()
+            return NO
     return larger(deciding[-1], deciding[0])
 
 

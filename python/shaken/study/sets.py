@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, Iterator
 
 from ..errors import ShakenError
+from ..units import leading_number
 
 #: Every set, those first that decide most for their price. The letters are those of docs/validation.md.
 ORDER: tuple[tuple[str, str], ...] = (
@@ -71,7 +72,7 @@ def scaled(sweep: dict[str, Any], scale: Scale) -> dict[str, Any]:
     box = scene.get("box", {})
     aspect = box.get("aspect", 1.0)
     side = box.get("side", SIDE_OF_COUNTS)
-    area = (_number(_side(side, scale, aspect)) / _number(side)) ** 2
+    area = (leading_number(_side(side, scale, aspect)) / leading_number(side)) ** 2
     if "side" in box:
         box["side"] = _side(side, scale, aspect)
     if scale.name == "tiny" and "movie" in scene:
@@ -112,18 +113,14 @@ def _scaled_values(key: str, values: list[Any], scale: Scale, aspect: float, are
     return [round(value * area) for value in values] if key == "rods.count" else values
 
 
-def _number(value: str | float) -> float:
-    return float(str(value).split()[0])
-
-
 def _side(value: str | float, scale: Scale, aspect: float) -> str:
     """The side along x of a box whose other side is `aspect` times as long."""
     least = max(scale.least_side, scale.least_square / math.sqrt(aspect))
-    return f"{max(_number(value) * scale.side, least):g} mm"
+    return f"{max(leading_number(value) * scale.side, least):g} mm"
 
 
 def _time(value: str | float, scale: Scale) -> str:
-    return f"{_number(value) * scale.time:g} s"
+    return f"{leading_number(value) * scale.time:g} s"
 
 
 def sweeps(folder: Path, scale: Scale, names: list[str] | None = None) -> Iterator[tuple[str, dict[str, Any]]]:

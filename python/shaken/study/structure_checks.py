@@ -24,24 +24,18 @@ OBLIQUE = 0.15
 SAME_LENGTH = 0.05
 
 
-def far_g2(runs: Runs) -> Estimate:
+def far_g2(run: Run) -> Estimate:
     """G2 far away: its mean over the last quarter of the distances, up to half the box."""
-    def of(run: Run) -> Estimate:
-        g2 = run["/g2/g2"]
-        first = 3 * len(g2) // 4
-        return mean_of_places(np.asarray(g2)[first:], np.asarray(g2.error)[first:], run)
-
-    return runs.of(of)
+    g2 = run["/g2/g2"]
+    first = 3 * len(g2) // 4
+    return mean_of_places(np.asarray(g2)[first:], np.asarray(g2.error)[first:], run)
 
 
-def far_anisotropy(runs: Runs) -> Estimate:
+def far_anisotropy(run: Run) -> Estimate:
     """G2 along less G2 across the director, in the farther half of the cuts through the map."""
-    def of(run: Run) -> Estimate:
-        along, across = run["/pairs/cut/g2_along"], run["/pairs/cut/g2_across"]
-        first = len(along) // 2
-        return mean_of_places(np.asarray(along - across)[first:], np.hypot(along.error, across.error)[first:], run)
-
-    return runs.of(of)
+    along, across = run["/pairs/cut/g2_along"], run["/pairs/cut/g2_across"]
+    first = len(along) // 2
+    return mean_of_places(np.asarray(along - across)[first:], np.hypot(along.error, across.error)[first:], run)
 
 
 def contour_ratio(run: Run) -> Estimate:
@@ -60,15 +54,12 @@ def contour_ratio(run: Run) -> Estimate:
     return Estimate(reach[0] / reach[1], reach[0] / reach[1] * math.hypot(*error), run["S"].steady)
 
 
-def unevenness(runs: Runs, cut: str) -> Estimate:
+def unevenness(run: Run, cut: str) -> Estimate:
     """Mean of (g - 1)^2 from one rod's length on, less what its errors put there."""
-    def of(run: Run) -> Estimate:
-        g = run[f"/pairs/cut/{cut}"]
-        away, error = np.asarray(g) - 1, np.asarray(g.error)
-        far = np.asarray(g.axis) >= key_of(run, LENGTH)
-        return mean_of_places((away**2 - np.nan_to_num(error)**2)[far], (2 * abs(away) * error)[far], run)
-
-    return runs.of(of)
+    g = run[f"/pairs/cut/{cut}"]
+    away, error = np.asarray(g) - 1, np.asarray(g.error)
+    far = np.asarray(g.axis) >= key_of(run, LENGTH)
+    return mean_of_places((away**2 - np.nan_to_num(error)**2)[far], (2 * abs(away) * error)[far], run)
 
 
 def g2_decays_or_levels(evidence: Evidence) -> Finding:
@@ -83,7 +74,7 @@ def g2_decays_or_levels(evidence: Evidence) -> Finding:
             if packing < dense:
                 continue
             here = runs.at(packing=packing).largest(SIDE)
-            far = far_g2(here)
+            far = here.of(far_g2)
             answer = above(far, PLATEAU) if dense else close_to(far, 0, NO_CORRELATION)
             if not dense and answer.word is False and key_of(here[0], SIDE) < PAPERS_BOX:
                 answer = unknown("half the box is less far than the paper's")
@@ -116,13 +107,13 @@ def g2_isotropic_when_dilute(evidence: Evidence) -> Finding:
 
 def g2_anisotropic(evidence: Evidence) -> Finding:
     runs = needed(evidence["layers"].at(packing=0.75))
-    difference = far_anisotropy(runs)
+    difference = runs.of(far_anisotropy)
     return conclude([above(difference, 0)], f"along − across, far out at φ = 0.75: {text(difference)}")
 
 
 def g_flattens(evidence: Evidence) -> Finding:
     runs = needed(evidence["layers"].at(packing=0.75))
-    along, across = unevenness(runs, "g_along"), unevenness(runs, "g_across")
+    along, across = (runs.of(lambda run, cut=cut: unevenness(run, cut)) for cut in ("g_along", "g_across"))
     sooner = {True: "along", False: "across", None: "neither, within the errors"}[larger(across, along).word]
     return Finding(CONTRADICTS, f"mean (g − 1)² from one rod length on, φ = 0.75: {text(along)} along, {text(across)} "
                                 f"across", f"here it flattens sooner {sooner}")

@@ -13,6 +13,8 @@ from ..program import FAILED, Options, not_installed, run
 
 
 class _Misunderstood(ShakenError):
+    """The daemon says what this package does not know."""
+
     exit_code = FAILED
 
 

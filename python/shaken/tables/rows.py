@@ -12,8 +12,8 @@ from typing import Any, Iterable, Iterator, Mapping, Protocol, Sequence
 from ..catalogue import KEYS
 from ..daemon import Daemon, quoted
 from ..errors import NotFound, ShakenError, nearest
-from ..estimate import NAN, Estimate, replica_mean
-from ..units import NUMBER
+from ..estimate import Estimate, replica_mean
+from ..units import leading_number
 
 Fields = dict[str, Any]
 _VERSIONS = ("versions.shaken", "versions.physics")
@@ -52,11 +52,7 @@ class Row:
 
     def number(self, name: str) -> float:
         """A number, or one at the beginning of a text ("4.5 mm"); NaN if there is none."""
-        value = self.fields.get(name)
-        if isinstance(value, str):
-            found = NUMBER.match(value)
-            return float(found[0]) if found else NAN
-        return float(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else NAN
+        return leading_number(self.fields.get(name))
 
     @property
     def version(self) -> tuple[str, int]:
