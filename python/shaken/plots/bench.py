@@ -34,6 +34,13 @@ def _dots_height(n: int, n_series: int = 1) -> float:
     return 16 + n * (3.6 + 1.2 * n_series)
 
 
+def _dots(width: str | None, title: str, n: int, n_series: int = 1) -> Sheet:
+    """An empty figure of so many categories, on a logarithmic axis with this title."""
+    sheet = style.sheet(width or "120mm", panel_height=_dots_height(n, n_series))
+    sheet[0].titles(x=title).scale(x="log")
+    return sheet
+
+
 def _shares_of(rows: Sequence[Row]) -> dict[str, np.ndarray]:
     """Shares of the phases in percent: the six that take most by name, the others together."""
     phases = [name for name in rows[0].get("phase_shares", {}) if name != "other"]
@@ -81,8 +88,7 @@ def hard(report: Row, width: str | None) -> Figures:
             least[row["case"]] = row
     if not least:
         return
-    sheet = style.sheet(width or "120mm", panel_height=_dots_height(len(least)))
-    sheet[0].titles(x="smallest margin: limit over the worst value seen").scale(x="log")
+    sheet = _dots(width, "smallest margin: limit over the worst value seen", len(least))
     sheet[0].dots(list(least), [row["margin"] for row in least.values()], digits=2).reference(x=1.0)
     yield "hard", sheet
 
@@ -105,12 +111,11 @@ def hard_history(report: Row, width: str | None) -> Figures:
 
 def effects(report: Row, width: str | None) -> Figures:
     rows = report["rows"]
-    sheet = style.sheet(width or "120mm", panel_height=_dots_height(len(rows), 2))
-    panel = sheet[0].titles(x="CPU time without the effect (% of everything on)").scale(x="log")
+    sheet = _dots(width, "CPU time without the effect (% of everything on)", len(rows), 2)
     for k, (label, of) in enumerate((("from the same state", "same_state"), ("from its own state", "own_state"))):
-        panel.dots([row["without"].replace("_", " ") for row in rows], column(rows, f"{of}/cpu_ratio", 100),
-                   column(rows, f"{of}/cpu_ratio_error", 100), label=label, colour=k, shift=0.18 - 0.36 * k)
-    panel.reference(x=100.0)
+        sheet[0].dots([row["without"].replace("_", " ") for row in rows], column(rows, f"{of}/cpu_ratio", 100),
+                      column(rows, f"{of}/cpu_ratio_error", 100), label=label, colour=k, shift=0.18 - 0.36 * k)
+    sheet[0].reference(x=100.0)
     yield "effects", sheet
 
 
@@ -172,10 +177,9 @@ def convergence(report: Row, width: str | None) -> Figures:
 
 def peers(report: Row, width: str | None) -> Figures:
     rows = [row for row in report["rows"] if row["rod_s_per_cpu_s_best"]]
-    sheet = style.sheet(width or "120mm", panel_height=_dots_height(len(rows)))
-    categories = [f"{row['program']}, {row['dt_us']} µs" for row in rows]
-    sheet[0].titles(x=f"{_RATE}, one thread").scale(x="log")
-    sheet[0].dots(categories, [float(row["rod_s_per_cpu_s_best"]) for row in rows])
+    sheet = _dots(width, f"{_RATE}, one thread", len(rows))
+    sheet[0].dots([f"{row['program']}, {row['dt_us']} µs" for row in rows],
+                  [float(row["rod_s_per_cpu_s_best"]) for row in rows])
     yield "peers", sheet
 
 

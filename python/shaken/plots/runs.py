@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Iterator, Mapping, Sequence
 
@@ -130,7 +130,6 @@ class PlottedRun:
     steady: bool | None = None
     version: str = ""
     id: str = ""
-    point: dict[str, Any] = field(default_factory=dict)
 
 
 class Unreadable(Exception):
@@ -166,16 +165,6 @@ def read_run(directory: str | Path, parameters: Mapping[str, Any], state: str = 
     steady = summary.get("steady")
     return PlottedRun(parameters, arrays, steady if isinstance(steady, bool) else None,
                       version_text(summary.get("versions")), str(summary.get("run_id") or ""))
-
-
-def name_points(runs: Sequence[PlottedRun]) -> None:
-    """What different versions computed are different points, which say so; a run that is not done yet is of the newest.
-    """
-    versions = sorted({run.version for run in runs if run.version})
-    for run in runs:
-        run.point = dict(run.parameters)
-        if len(versions) > 1:
-            run.point[VERSION] = run.version or versions[-1]
 
 
 @dataclass
@@ -244,14 +233,16 @@ def run_figures(runs: Sequence[PlottedRun], width: str | None = None) -> Iterato
     """(name, figure) of each observable that at least one run has, and of the maps of each point. Of replicas by one
     version the mean is drawn, with the standard error of replica_mean; what differs in parameters or version are
     different curves."""
-    name_points(runs)
+    versions = sorted({run.version for run in runs if run.version})
     points: list[dict[str, Any]] = []
     of_point: list[list[PlottedRun]] = []
     for run in runs:
-        if run.point not in points:
-            points.append(run.point)
+        # what different versions computed are different points; a run that is not done yet is of the newest
+        point = {**run.parameters, **({VERSION: run.version or versions[-1]} if len(versions) > 1 else {})}
+        if point not in points:
+            points.append(point)
             of_point.append([])
-        of_point[points.index(run.point)].append(run)
+        of_point[points.index(point)].append(run)
     for of in OF_EVERY_SPECIES:
         curves = [[curve for run in of_one if (curve := _curve_of(run, of)) is not None] for of_one in of_point]
         known = [k for k, found in enumerate(curves) if found]

@@ -231,7 +231,7 @@ class Sheet:
                 for loc in _CORNERS:
                     made, extent = legend(loc, n)
                     if not _covers(extent, obstacles, 3 * dpi / 72):
-                        return made, 0.0, False, False
+                        return made, 0.0, False
             if one.can_grow:
                 n = len(texts)
                 while n > 1 and legend("upper center", n)[1].width > 0.97 * box.width:
@@ -308,27 +308,24 @@ def _letter(k: int) -> str:
 
 
 def _explanations(said: set[Any]) -> list[tuple[Any, str]]:
+    """A handle and words for all that has been said of marks (Panel.explained)."""
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
-    found: list[tuple[Any, str]] = []
-    bar = Line2D([], [], color=DARK_GREY, marker="|", linestyle="none", markersize=6, markeredgewidth=0.8)
-    band = Patch(color=DARK_GREY, alpha=0.25, linewidth=0)
-    found += [(shape, words) for what, shape, words in (("bars", bar, panels_of.BARS), ("bands", band, panels_of.BANDS))
-              if what in said]
-    if panels_of.HOLLOW in said:
-        found.append((Line2D([], [], color=DARK_GREY, marker="o", markerfacecolor="white", linestyle="none"),
-                      panels_of.HOLLOW))
-    if panels_of.DASHED in said:
-        found.append((Line2D([], [], color=DARK_GREY, linestyle=panels_of._FINE_DASHES), panels_of.DASHED))
-    if panels_of.NO_ERROR in said:
-        mark, cross = (Line2D([], [], color=DARK_GREY, marker=marker, linestyle="none", markersize=size,
-                              markeredgewidth=0.7) for marker, size in (("o", 3.6), ("x", 5.5)))
-        found.append(((mark, cross), panels_of.NO_ERROR))
-    shapes = {"grey": Patch(color="#ececec", linewidth=0), "band": band, "bar": bar,
-              "line": Line2D([], [], color=DARK_GREY, linewidth=0.8)}
-    for kind, words in sorted(one for one in said if isinstance(one, tuple)):
-        found.append((shapes[kind], words))
-    return found
+
+    def drawn(**look: Any) -> Any:
+        return Line2D([], [], color=DARK_GREY, **look)
+
+    bar, line = drawn(marker="|", linestyle="none", markersize=6, markeredgewidth=0.8), drawn(linewidth=0.8)
+    band, grey = Patch(color=DARK_GREY, alpha=0.25, linewidth=0), Patch(color="#ececec", linewidth=0)
+    crossed = tuple(drawn(marker=marker, linestyle="none", markersize=size, markeredgewidth=0.7)
+                    for marker, size in (("o", 3.6), ("x", 5.5)))
+    known = {"bars": (bar, panels_of.BARS), "bands": (band, panels_of.BANDS),
+             panels_of.HOLLOW: (drawn(marker="o", markerfacecolor="white", linestyle="none"), panels_of.HOLLOW),
+             panels_of.DASHED: (drawn(linestyle=panels_of._FINE_DASHES), panels_of.DASHED),
+             panels_of.NO_ERROR: (crossed, panels_of.NO_ERROR)}
+    shapes = {"grey": grey, "band": band, "bar": bar, "line": line}
+    return [found for what, found in known.items() if what in said] + [
+        (shapes[kind], words) for kind, words in sorted(one for one in said if isinstance(one, tuple))]
 
 
 def _covers(extent: Any, places: np.ndarray, pad: float) -> bool:

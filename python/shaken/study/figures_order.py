@@ -72,8 +72,7 @@ def order(material: Material) -> Sheet:
 
 def order_statistics(material: Material) -> Sheet:
     """4: the distribution of S, its width, the Binder cumulant."""
-    runs, short = material.evidence["long-rods"], material.evidence["short-rods"]
-    both = ((runs, "ℓ = 4.5 mm"), (short, "ℓ = 2.5 mm"))
+    runs, both = material.evidence["long-rods"], material.both[::-1]
     scale = packing_scale(runs)
     sheet = material.sheet(3)
     panel = sheet[0].titles(names.axis_title("/order/pdf/order"), "P[S] / max P[S]", "distribution")

@@ -19,10 +19,8 @@ from .structure_checks import mean_waves, ordered_in_large_boxes
 def g2(material: Material) -> Sheet:
     """5: G2(r) on logarithmic axes."""
     sheet = material.sheet(2, height=58, columns=2)
-    evidence = material.evidence
-    sets = ((evidence["short-rods"], "ℓ = 2.5 mm"), (evidence["long-rods"], "ℓ = 4.5 mm"))
-    scale = packing_scale(*(runs for runs, _ in sets))
-    for panel, (runs, title) in zip(sheet, sets):
+    scale = packing_scale(*(runs for runs, _ in material.both))
+    for panel, (runs, title) in zip(sheet, material.both):
         draw_curves(panel.scale("log", "log"), runs, "/g2/g2", scale, keep=lambda r, g: r > 0.5, title=title)
         panel.range(y=(3e-3, 1.1), exactly=True)
     sheet.colourbar(scale)
@@ -84,9 +82,8 @@ def distances(material: Material) -> Sheet:
     """7: the pair correlation g, and g along and across the director."""
     evidence = material.evidence
     sheet = material.sheet(6)
-    sets = ((evidence["short-rods"], "ℓ = 2.5 mm"), (evidence["long-rods"], "ℓ = 4.5 mm"))
-    scale = packing_scale(*(runs for runs, _ in sets))
-    for panel, (runs, title) in zip((sheet[0], sheet[3]), sets):
+    scale = packing_scale(*(runs for runs, _ in material.both))
+    for panel, (runs, title) in zip((sheet[0], sheet[3]), material.both):
         draw_curves(panel, runs, "/g2/g", scale, keep=lambda r, g: r < 10, title=title).reference(y=1)
     sheet.colourbar(scale, [sheet[0], sheet[3]])
     dense = [(evidence["layers"].at(packing=packing), f"φ = {packing:g}") for packing in (0.75, 0.85)]
@@ -277,9 +274,8 @@ def elasticity(material: Material) -> Sheet:
 def fluctuations(material: Material) -> Sheet:
     """Fluctuations of the number of rods in parts of the box."""
     sheet = material.sheet(2, columns=2, height=55)
-    sets = ((material.evidence["short-rods"], "ℓ = 2.5 mm"), (material.evidence["long-rods"], "ℓ = 4.5 mm"))
-    scale = packing_scale(*(runs for runs, _ in sets))
-    for panel, (runs, title) in zip(sheet, sets):
+    scale = packing_scale(*(runs for runs, _ in material.both))
+    for panel, (runs, title) in zip(sheet, material.both):
         panel.titles("mean number ⟨N⟩", "ΔN / √⟨N⟩", title).scale("log", "linear")
         draw_curves(panel, runs, "/fluctuations/std_n", scale, y=lambda n, std: std / np.sqrt(n))
         panel.range(y=(0, None))

@@ -25,6 +25,11 @@ class Material:
     def __init__(self, evidence: Evidence, width: float = 183.0) -> None:
         self.evidence, self.width = evidence, width
 
+    @property
+    def both(self) -> list[tuple[Runs, str]]:
+        """Short and long rods at all packings, with their lengths."""
+        return [(self.evidence["short-rods"], "ℓ = 2.5 mm"), (self.evidence["long-rods"], "ℓ = 4.5 mm")]
+
     @functools.cached_property
     def findings(self) -> dict[str, Finding]:
         return {statement.id: statement.check(self.evidence) for statement in STATEMENTS}

@@ -193,7 +193,7 @@ def run_plan(plan: Plan, daemon: Daemon, budget: float = math.inf, *, say: Calla
     copied into `films` as S1.mp4, S2.mp4, ... in the order of their sweep. Returns what went wrong, a line for each job
     that has failed, or whose files are damaged.
     """
-    spent = _Spent()
+    began, now = dict[str, float](), dict[str, float]()  # wall time of jobs, which is CPU time: a worker has one thread
     waiting = [name for name in plan.sweeps if plan.cost(name) > 0]
     at_work: dict[str, str] = {}  # id of the sweep -> its name
     costs = {point.id: point.cost for point in plan.missing}
@@ -217,8 +217,9 @@ def run_plan(plan: Plan, daemon: Daemon, budget: float = math.inf, *, say: Calla
                     f"{left / 3600:.2f} CPU-h left)")
                 if films is not None:
                     _copy_film(job, plan, films)
-        spent.note(job for job, _ in jobs.values())
-        if spent.seconds() >= budget:
+        now |= {id_: float(job["wall_s"] or 0) for id_, (job, _) in jobs.items()}
+        began = {**now, **began}  # when they were first seen here
+        if sum(now.values()) - sum(began.values()) >= budget:
             for sweep in at_work:
                 daemon.ask("POST", f"/v1/sweeps/{sweep}/hold")
             return damaged
@@ -277,22 +278,6 @@ def collect(daemon: Daemon, archive: Path, known: Mapping[str, list[str]]) -> li
             if job["state"] == "done" and (path := archive_job(job, sweeps, archive)):
                 written.append(path)
     return written
-
-
-class _Spent:
-    """Wall time that jobs have worked since they were first seen here: their CPU time, for a worker has one thread."""
-
-    def __init__(self) -> None:
-        self._first: dict[str, float] = {}
-        self._now: dict[str, float] = {}
-
-    def note(self, jobs: Iterable[dict[str, Any]]) -> None:
-        for job in jobs:
-            self._now[job["id"]] = float(job["wall_s"] or 0)
-            self._first.setdefault(job["id"], self._now[job["id"]])
-
-    def seconds(self) -> float:
-        return sum(now - self._first[job] for job, now in self._now.items())
 
 
 def _is_served(daemon: Daemon) -> bool:
