@@ -20,7 +20,7 @@ _Words = TypeVar("_Words")
 def not_installed(*modules: str) -> str:
     """In words which of these modules are not installed, and how they are; "" where all are."""
     missing = [name for name in modules if importlib.util.find_spec(name) is None]
-    return (f"figures need {' and '.join(missing)} of {sys.executable}: "
+    return (f"{' and '.join(missing)} of {sys.executable} {'are' if len(missing) > 1 else 'is'} not installed: "
             f"`apt install {' '.join(_DEBIAN[name] for name in missing)}`") if missing else ""
 
 
