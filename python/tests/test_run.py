@@ -2,7 +2,6 @@
 import copy
 import json
 import pickle
-from pathlib import Path
 
 import h5py
 import numpy as np

@@ -28,7 +28,7 @@ class Observable:
 
     name:      of the files
     y, also:   the array, and another one that is added to it
-    factors:   that x and y are multiplied with
+    factors:   that x and y are multiplied with; units: in print, if not those of the arrays
     is_trace:  recorded over time, and no average: it says nothing about steadiness
     rows:      what y (and x, perhaps) has a row for each value of, one behind the other: that of `row` is drawn
     log, zero, x_range, y_range: of the axes; ranges begin at 0 if left out, unless they are logarithmic or have a zero
@@ -40,6 +40,7 @@ class Observable:
     also: str = ""
     y_title: str = ""
     factors: tuple[float, float] = (1.0, 1.0)
+    units: tuple[str | None, str | None] = (None, None)
     is_trace: bool = False
     rows: str = ""
     row: int = 0
@@ -63,8 +64,8 @@ class Observable:
 
     @property
     def titles(self) -> tuple[str, str]:
-        y = self.y_title or names.axis_title(self.y)
-        return names.axis_title(axes_of(self.y)[-1]), f"{self.species}: {y}" if self.species else y
+        y = self.y_title or names.axis_title(self.y, self.units[1])
+        return names.axis_title(axes_of(self.y)[-1], self.units[0]), f"{self.species}: {y}" if self.species else y
 
     @property
     def ranges(self) -> tuple[Range, Range]:
@@ -76,10 +77,8 @@ _FROM_ZERO, _ANY = (0.0, None), (None, None)
 OBSERVABLES = (
     Observable("order_time", "/order/order", is_trace=True, y_range=(0, 1)),
     Observable("order_pdf", "/order/pdf/density", x_range=(0, 1)),
-    Observable("angles", "/angles/density_per_rad", factors=(_DEGREES, 1 / _DEGREES),
-               x_title=names.axis_title("/angles/theta_rad", "°"),
-               y_title=names.axis_title("/angles/density_per_rad", "1/°"), x_range=(-90, 90),
-               x_ticks=(-90, -45, 0, 45, 90)),
+    Observable("angles", "/angles/density_per_rad", factors=(_DEGREES, 1 / _DEGREES), units=("°", "1/°"),
+               x_range=(-90, 90), x_ticks=(-90, -45, 0, 45, 90)),
     Observable("tilt", "/tilt/v_along_mm_s", zero=True, x_range=_ANY),
     Observable("defects", "/defects/n_plus", "/defects/n_minus", y_title=names.axis_title("/defects/n"), is_trace=True),
     Observable("g2", "/g2/g2", zero=True),
