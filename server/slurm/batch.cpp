@@ -98,10 +98,4 @@ std::set<int> read_stop(const std::filesystem::path& file) {
   return places;
 }
 
-std::string shell_word(const std::string& word) {
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
 }  // namespace shaken::server::slurm

@@ -52,7 +52,4 @@ Result<void> write_stop(const std::filesystem::path& file, const std::set<int>& 
 /// Nobody where there is no such file.
 std::set<int> read_stop(const std::filesystem::path& file);
 
-/// A word for a shell's command line, whatever is in it.
-std::string shell_word(const std::string& word);
-
 }  // namespace shaken::server::slurm

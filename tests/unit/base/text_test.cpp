@@ -109,6 +109,7 @@ TEST(ShellWord, IsQuotedWhereTheShellWouldNotLeaveItAlone) {
   EXPECT_EQ(shell_word(""), "''");
   EXPECT_EQ(shell_word("my runs/ü"), "'my runs/ü'");
   EXPECT_EQ(shell_word("it's $HOME"), R"('it'\''s $HOME')");
+  EXPECT_EQ(shell_word("a; $(x) `y` \\ \"\n"), "'a; $(x) `y` \\ \"\n'");
 }
 
 TEST(CsvField, QuotesOnlyWhereNeeded) {

@@ -102,10 +102,5 @@ TEST(BatchFiles, WhatIsNoneIsRefusedWithItsName) {
   }
 }
 
-TEST(ShellWord, AShellReadsItAsItWas) {
-  EXPECT_EQ(shell_word("plain"), "'plain'");
-  EXPECT_EQ(shell_word("a b'; $(x) `y` \\ \"\n"), "'a b'\\''; $(x) `y` \\ \"\n'");
-}
-
 }  // namespace
 }  // namespace shaken::server::slurm
