@@ -99,7 +99,7 @@ void LatticeOrder::accumulate(std::span<const Vec3> positions, std::span<const V
     Bonds raw(n), compressed(n);
     for (const std::size_t i : rods) {
       for (std::size_t j = 0; j < n; ++j) {
-        const double dx = nearest_image(xs[j] - xs[i], box.x()), dy = nearest_image(ys[j] - ys[i], box.y());
+        const double dx = wrapped_difference(xs[j] - xs[i], box.x()), dy = wrapped_difference(ys[j] - ys[i], box.y());
         raw.x[j] = dx * cosine + dy * sine;
         raw.y[j] = dy * cosine - dx * sine;
         raw.square[j] = dx * dx + dy * dy;

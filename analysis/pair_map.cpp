@@ -94,7 +94,7 @@ void PairMap::accumulate(std::span<const Vec3> positions, std::span<const Vec3> 
     partners_ += static_cast<double>(n - 1);  // a rod makes no pair with itself
     const double xi = xs[i], yi = ys[i];
     for (std::size_t j = 0; j < n; ++j) {
-      const double dx = nearest_image(xs[j] - xi, box.x()), dy = nearest_image(ys[j] - yi, box.y());
+      const double dx = wrapped_difference(xs[j] - xi, box.x()), dy = wrapped_difference(ys[j] - yi, box.y());
       alongs[j] = dx * cosine + dy * sine;
       acrosses[j] = dy * cosine - dx * sine;
     }

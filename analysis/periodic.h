@@ -32,7 +32,7 @@ inline double wrapped(double x, double box_side) {
 }
 
 /// The difference of two wrapped coordinates, brought into [-box_side / 2, box_side / 2] by a period, without a branch.
-inline double nearest_image(double difference, double box_side) {
+inline double wrapped_difference(double difference, double box_side) {
   return difference - box_side * static_cast<double>(static_cast<int>(difference * (2 / box_side)));
 }
 

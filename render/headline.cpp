@@ -14,10 +14,8 @@
 namespace shaken::render {
 
 std::string symbol_of(const std::string& path) {
-  const std::string word = path.substr(path.rfind('.') + 1);
-  if (scene::field_index(path) < 0) return word;
-  const std::string& symbol = scene::field_at(path).symbol;
-  return symbol.empty() ? word : symbol;
+  const std::string symbol = scene::field_index(path) < 0 ? "" : scene::field_at(path).symbol;
+  return symbol.empty() ? path.substr(path.rfind('.') + 1) : symbol;
 }
 
 namespace {

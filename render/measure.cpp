@@ -53,7 +53,7 @@ std::vector<double> densities(const Cell& box, const Frame& frame, double width)
     const auto add = [&](std::size_t j) {
       Vec2 d = place[j] - place[i];
       for (int axis = 0; axis < 2; ++axis) {
-        if (period[axis] > 0) d[axis] = analysis::nearest_image(d[axis], period[axis]);
+        if (period[axis] > 0) d[axis] = analysis::wrapped_difference(d[axis], period[axis]);
       }
       const double square = d.squaredNorm();
       if (square < reach * reach) sum += area[box.shape_of(j)] * std::exp(-square / (2 * width * width));

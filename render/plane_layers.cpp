@@ -171,7 +171,8 @@ class Occupied {
       for (int di = -reach(columns_); di <= reach(columns_); ++di) {
         for (const Vec2& point : cell(column(here) + di, row(here) + dj)) {
           const Vec2 d = point - here;
-          const Vec2 nearest(analysis::nearest_image(d.x(), box_.x()), analysis::nearest_image(d.y(), box_.y()));
+          const Vec2 nearest(analysis::wrapped_difference(d.x(), box_.x()),
+                             analysis::wrapped_difference(d.y(), box_.y()));
           if (nearest.squaredNorm() < distance * distance) return true;
         }
       }
