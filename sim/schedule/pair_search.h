@@ -12,6 +12,7 @@
 namespace shaken {
 
 /// Bounds for which beads were looked at hold for so long at most: further ahead they are not worth the work [ticks].
+/// Price as in pair_schedule.cpp; 125: 2.4 and 1.0 % more; 500: 0.4 % more, and 0.2 % less.
 inline constexpr float kBeadHorizon = 250;
 
 /// Ticks for which nothing can happen to a pair, and what the bound is made from.

@@ -18,12 +18,9 @@ class StoringPhase {
  public:
   StoringPhase(const PairSearch& search, const NeighborList& neighbors, PairSchedule& pairs, RodStates& rods,
                std::vector<Share>& shares)
-      : search_(search),
-        neighbors_(neighbors),
-        pairs_(pairs),
-        rods_(rods),
-        shares_(shares),
-        jumps_(rods.marks.size()) {}
+      : search_(search), neighbors_(neighbors), pairs_(pairs), rods_(rods), shares_(shares) {
+    jumps_.resize(rods.marks.size());
+  }
 
   /// Lists the rods that other rods hit. Returns trouble if any rod that was hit is in it: the world must then stay as
   /// it was before the tick.
