@@ -18,7 +18,7 @@ from figures_whole import assert_whole  # noqa: E402
 from shaken.plots import accuracy, bench, names, style  # noqa: E402
 
 _SCENE = {"length_mm": 4.5, "area_fraction": 0.75, "side_mm": 41.865, "n_rods": 1000}
-_PHASES = ("surfaces", "detection", "response", "storing", "rod_bounds", "tightening", "pair_bounds", "neighbors")
+_PHASES = ("surfaces", "detection", "response", "storing", "rod_bounds", "shortening", "pair_bounds", "neighbors")
 _MACHINE = {"cpu": "made up", "cores": 2, "compiler": "none", "flags": "-O3"}
 
 
