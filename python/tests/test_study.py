@@ -69,6 +69,13 @@ def test_what_it_would_cost_and_what_there_is(programs):
     assert [entry["number"] for entry in listed][:13] == [str(k) for k in range(2, 15)]
 
 
+def test_the_shell_completes_what_there_is():
+    asked = (f'source <({PROGRAMS}/shaken completion bash); PATH={PROGRAMS}:$PATH; COMP_WORDS=(shaken figures ""); '
+             "COMP_CWORD=2; _shaken; echo ${COMPREPLY[@]}")
+    offered = subprocess.run(["bash", "-c", asked], capture_output=True, text=True, timeout=60).stdout.split()
+    assert offered == [figure.number for figure in FIGURES if figure.number] + [figure.name for figure in FIGURES]
+
+
 def test_a_reader_that_goes_away_is_no_trouble(programs):
     command = f"{sys.executable} {SOURCE}/python/shaken/study/__main__.py --list | true"
     done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, timeout=60)
