@@ -91,10 +91,11 @@ UnfinishedFile::~UnfinishedFile() {
 
 Result<void> UnfinishedFile::replace(Lasting lasting) {
   const bool lasts = lasting == Lasting::kYes;
+  // known before: nothing may go wrong for want of memory once the file is replaced
+  const std::filesystem::path folder = lasts && file_.has_parent_path() ? file_.parent_path() : ".";
   if (auto done = lasts ? sync(path_, O_RDONLY) : Result<void>(); !done) return done;
   if (std::rename(path_.c_str(), file_.c_str()) != 0) return system_error("cannot replace " + file_.string());
   path_.clear();
-  const auto folder = file_.has_parent_path() ? file_.parent_path() : ".";
   return lasts ? sync(folder, O_RDONLY | O_DIRECTORY) : Result<void>();
 }
 
