@@ -14,11 +14,11 @@ namespace {
 /// The effects that the lanes know. Those between rods, at side walls and at posts take place elsewhere.
 // clang-format off
 constexpr std::string_view kKnownEffects[] = {
-    "gravity", "vibration", "tilt", "species", "taper", "spin", "rod_rod_collisions", "rod_rod_friction",
-    "rod_rod_restitution", "rod_base_collisions", "rod_base_friction", "rod_base_restitution", "rod_lid_collisions",
-    "rod_lid_friction", "rod_lid_restitution", "side_walls", "side_wall_friction", "posts", "post_friction",
-    "rotational_noise", "impacts_at_instant", "horizontal_vibration", "second_vibration", "lid_motion", "inclination",
-    "restitution_speed", "species_contacts"};
+    "gravity", "vibration", "tilt", "species", "polydispersity", "taper", "spin", "rod_rod_collisions",
+    "rod_rod_friction", "rod_rod_restitution", "rod_base_collisions", "rod_base_friction", "rod_base_restitution",
+    "rod_lid_collisions", "rod_lid_friction", "rod_lid_restitution", "side_walls", "side_wall_friction", "posts",
+    "post_friction", "rotational_noise", "impacts_at_instant", "horizontal_vibration", "second_vibration",
+    "lid_motion", "inclination", "restitution_speed", "species_contacts"};
 // clang-format on
 
 using lanes::ComplianceOf;

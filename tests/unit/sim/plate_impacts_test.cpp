@@ -125,6 +125,7 @@ TEST(PlateImpacts, AreInLanesWhateverTheSceneAsksFor) {
     system.added[0] = AddedRods{};
     system.added_noise[0] = 0.01;
   }));
+  EXPECT_TRUE(is_in_lanes([](System& system) { system.rod.spread.length = 0.05; }));
   EXPECT_TRUE(is_in_lanes([](System& system) { system.horizontal_amplitude = 0.01; }));
   EXPECT_TRUE(is_in_lanes([](System& system) { system.impacts = ImpactTime::kAtInstant; }));
   EXPECT_TRUE(is_in_lanes([](System& system) { system.law = ImpulseLaw::kPoisson; }));
