@@ -12,7 +12,7 @@ from .errors import ShakenError, UnknownName
 from .estimate import Estimate, replica_mean
 from .units import number_of, unit_in
 from .run import DirectoryRun, Run
-from .tables.rows import has_results, swept, version_text
+from .tables.rows import has_results, newness, swept, version_text
 
 
 class Point:
@@ -248,7 +248,7 @@ def grouped(runs: Iterable[tuple[Mapping[str, Any], Run | None]], name: str = ""
         versions.setdefault(version, {}).setdefault(run.id or run.where, run)
     points: list[Point] = []
     for key, versions in by_version.items():
-        newest = max(versions, default=None)
+        newest = max(versions, default=None, key=newness)
         if newest is None:
             points.append(Point(parameters_of[key], [], waiting[key]))
         for version, found in versions.items():

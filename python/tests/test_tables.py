@@ -16,6 +16,8 @@ from shaken.units import quantity
 from shaken.tables import app, conditions, results, rows, text
 from shaken.tables.conditions import Condition, marked
 
+VECTORS = Path(__file__).resolve().parents[2] / "tests/vectors"
+
 
 def row_with(**fields):
     return rows.Row({}, fields.get("state", ""), {name.replace("__", "."): value for name, value in fields.items()})
@@ -473,3 +475,20 @@ def test_plots_say_what_they_are_made_of_and_what_is_left_out(tmp_path, monkeypa
                 for k, length in enumerate((2.5, 4.5))]
     assert plotted(monkeypatch, windowed, "--y=velocity_rms_mm_s", f"--out={tmp_path}/v.svg") == 0
     assert "over 0.4 s (mm/s)" in (tmp_path / "v.csv").read_text()
+
+
+@pytest.mark.parametrize("case", json.loads((VECTORS / "points.json").read_text()), ids=lambda case: case["why"])
+def test_points_are_those_of_the_page(case):
+    points = rows.aggregated([rows.row_of(row) for row in case["rows"]])
+    newest = max(points, key=lambda point: rows.newness(point.version))
+    assert newest.number(case["value"]) == case["mean"] and newest.fields["n_done"] == case["n"]
+    steady = rows.row_of(case["rows"][0]).steady(case["value"])
+    assert results.MARKS[steady] == case["mark"]
+
+
+def test_a_run_that_is_not_done_belongs_to_the_newest_version():
+    done = [{"job": version, "state": "done", "parameters": {"x": 1}, "summary": {
+        "versions": {"shaken": version, "physics": 3}, "exit": {"state": "done"}}} for version in ("0.9.0", "0.10.0")]
+    waits = {"job": "w", "state": "queued", "parameters": {"x": 1}, "summary": None}
+    points = rows.aggregated([rows.row_of(row) for row in (*done, waits)])
+    assert {point.version[0]: point.fields["n_replicas"] for point in points} == {"0.9.0": 1, "0.10.0": 2}

@@ -299,6 +299,18 @@ def use(page, address, daemon):
           return !isEqual(found.mean, mean) || !isEqual(found.error, error);
         }).map(({why}) => why)));""", json.loads((VECTORS / "replica_mean.json").read_text()))
     check(not wrong, f"means and errors are those of `shaken results`: {wrong}")
+    wrong = page.execute_async_script("""
+        const [cases, done] = arguments;
+        import("/page/results.js").then(({leaves, pointsOf}) => done(cases.filter(({rows, value, mean, n, mark}) => {
+          const [point] = pointsOf(rows.map((row) => ({...row, values: leaves(row.summary)})), {x: "x", value});
+          return point.mean !== mean || point.n !== n || point.mark !== mark;
+        }).map(({why}) => why)));""", json.loads((VECTORS / "points.json").read_text()))
+    check(not wrong, f"points are those of `shaken results --aggregate`: {wrong}")
+    wrong = page.execute_async_script("""
+        const [{duration_text, bytes_text}, done] = arguments;
+        import("/page/dom.js").then(({bytes, duration}) => done([...duration_text.filter(([n, text]) => duration(n) !== text),
+          ...bytes_text.filter(([n, text]) => bytes(n) !== text)]));""", json.loads((VECTORS / "words.json").read_text()))
+    check(not wrong, f"times and sizes are written as on the terminal: {wrong}")
     point = page.execute_async_script("""
         const done = arguments[0], row = (job, physics, mean) => ({job, state: "done", parameters: {x: 1},
           summary: {versions: {shaken: "0.1.0", physics}, steady: true}, values: {"order.mean": mean}});

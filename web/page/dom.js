@@ -127,19 +127,23 @@ export function replaceIfOther(place, stamp, children) {
   place.replaceChildren(...children());
 }
 
-/** Seconds as people say them. */
+/** Seconds as people say them: duration_text of base/text.h (tests/vectors/). */
 export function duration(seconds) {
-  if (!(seconds >= 0)) return "unknown";
-  if (seconds < 60) return `${Math.round(seconds)} s`;
-  if (seconds < 3600) return `${Math.floor(seconds / 60)} min ${Math.round(seconds % 60)} s`;
-  return `${Math.floor(seconds / 3600)} h ${Math.round(seconds % 3600 / 60)} min`;
+  if (!(seconds >= 0 && seconds < Infinity)) return "unknown";
+  if (seconds < 9.95) return `${seconds.toFixed(1)} s`;
+  const s = Math.round(seconds), minutes = Math.floor((s + 30) / 60), hours = Math.floor((s + 1800) / 3600);
+  const both = (n, of, large, small) => `${Math.floor(n / of)} ${large} ${String(n % of).padStart(2, "0")} ${small}`;
+  if (s < 60) return `${s} s`;
+  if (s < 3600) return both(s, 60, "min", "s");
+  return minutes < 24 * 60 ? both(minutes, 60, "h", "min") : both(hours, 24, "d", "h");
 }
 
+/** bytes_text of base/text.h (tests/vectors/). */
 export function bytes(n) {
   const units = ["B", "kB", "MB", "GB", "TB"];
   let unit = 0;
-  for (; n >= 1000 && unit < units.length - 1; ++unit) n /= 1000;
-  return `${unit ? n.toFixed(1) : n} ${units[unit]}`;
+  for (; n >= 999.5 && unit < units.length - 1; ++unit) n /= 1000;
+  return `${Number(n.toPrecision(3))} ${units[unit]}`;
 }
 
 export const number = (x, digits = 4) => (Number.isFinite(x) ? String(Number(x.toPrecision(digits))) : "unknown");

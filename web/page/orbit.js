@@ -2,7 +2,7 @@
 // Rods by WebGL2 as bodies between their plates, in perspective from anywhere above: as `shaken picture --view orbit` has it.
 import {colour as cssColour} from "/page/dom.js";
 import {attribute, fill, kColourOf, newProgram, rgb, useForRods} from "/page/gl.js";
-import {periodOf} from "/page/plane.js";
+import {kUpright, periodOf} from "/page/plane.js";
 
 const kSegments = 10;    // around a rod
 const kTangent = 0.27;   // of half the angle of view
@@ -187,7 +187,7 @@ export class OrbitPainter {
 
   paintRods(frame, look, toEye, colouring) {
     const {gl, bodies} = this, n = frame.n_rods, kinds = new Float32Array(2 * n);
-    for (let i = 0; i < n; ++i) kinds.set([frame.n_z[i] / 32767, frame.shape[i]], 2 * i);
+    for (let i = 0; i < n; ++i) kinds.set([frame.n_z[i] / kUpright, frame.shape[i]], 2 * i);
     useForRods(gl, bodies, this.palettes, frame, colouring);
     gl.uniformMatrix4fv(bodies.at.look, false, look);
     gl.uniform3fv(bodies.at.toEye, toEye);

@@ -3,7 +3,7 @@
 import {colour as cssColour} from "/page/dom.js";
 import {attribute, fill, kColourOf, makeTextures, newProgram, rgb, useForRods} from "/page/gl.js";
 import {OrbitPainter} from "/page/orbit.js";
-import {periodOf, toNearest} from "/page/plane.js";
+import {kUpright, periodOf, toNearest} from "/page/plane.js";
 
 const kVertex = `
 layout(location = 0) in vec2 corner;
@@ -69,7 +69,7 @@ export function instancesOf(frame, view) {
       if (Math.abs(x + dx) > most) continue;
       for (const dy of shifts[1]) {
         if (Math.abs(y + dy) > most) continue;
-        rods.set([x + dx, y + dy, frame.heading[i] / 32768, frame.n_z[i] / 32768], 4 * count);
+        rods.set([x + dx, y + dy, frame.heading[i] / 32768, frame.n_z[i] / kUpright], 4 * count);
         shape[count++] = frame.shape[i];
       }
     }

@@ -16,7 +16,8 @@ export const kSteadiness = {"~": "still relaxing", "?": "not known to be steady"
 
 /** The mark of a value of a row, "~" or "?"; empty where it is steady, or no average over time. */
 export function markOf(row, path) {
-  const own = path.startsWith("measured.") ? row.summary?.measured?.[path.split(".")[1]]?.steady : undefined;
+  const name = path.startsWith("measured.") ? path.slice("measured.".length, -".value".length) : "";
+  const own = row.summary?.measured?.[name]?.steady;
   const isAverage = path === "order.mean" || path === "order.std" || path.startsWith("defects.mean") ||
     (path.startsWith("measured.") && path.endsWith(".value"));
   const steady = typeof own === "boolean" ? own : row.summary?.steady;
@@ -49,6 +50,10 @@ export function replicaMean(values, errors) {
   const student = known.length === n ? 1 : 1 + x * (0.5 + x * (0.25 + x * 0.0625));
   return {mean, error: Math.max(within, student * scatter)};
 }
+
+/** Whether a run is done, or was before it went on for longer: the rule of python/shaken/tables/rows.py (tests/vectors/). */
+const hasResults = ({state, summary}) =>
+  state === "done" || summary?.exit?.state === "done" || summary?.exit?.done_before_s !== undefined;
 
 /** What computed a row; what different versions computed is never averaged. */
 const versionOf = (row) => JSON.stringify([row.summary?.versions?.shaken ?? "", row.summary?.versions?.physics ?? 0]);
@@ -92,10 +97,10 @@ export function pointsOf(rows, {x, y, value, fixed = {}}) {
     if (place.jobs.includes(row.job)) continue;
     place.jobs.push(row.job);
     place.states.add(row.state);
-    if (Number.isFinite(row.values[value])) place.found.push(row);
+    if (hasResults(row) && Number.isFinite(row.values[value])) place.found.push(row);
   }
   return [...places.values()].map(({found, ...place}) => {
-    const newest = found.map(versionOf).sort().at(-1), rows = found.filter((row) => versionOf(row) === newest);
+    const newest = found.map(versionOf).sort((a, b) => a.localeCompare(b, "en", {numeric: true})).at(-1), rows = found.filter((row) => versionOf(row) === newest);
     const marks = new Set(rows.map((row) => markOf(row, value)).filter(Boolean));
     return {
       ...place, n: rows.length, nOthers: found.length - rows.length, marks,

@@ -2,7 +2,7 @@
 // Frames of rods on a canvas that can be zoomed and moved.
 import {colour as cssColour, onTheme} from "/page/dom.js";
 import {RodPainter, suitingColouring} from "/page/painter.js";
-import {periodOf, toNearest} from "/page/plane.js";
+import {kUpright, periodOf, toNearest} from "/page/plane.js";
 
 /** A frame out of the bytes of docs/web.md. Throws where they contradict themselves. */
 export function unpack(buffer) {
@@ -38,7 +38,7 @@ export function rodAt(frame, view, x, y, reach = 0) {
     const off = (at, from, to, side, period) => toNearest(to - (at / 65536 + 0.5 - from) * side, period);
     const dx = off(frame.x[i], view.x, x, frame.box_mm[0], periodX), dy = off(frame.y[i], view.y, y, frame.box_mm[1], periodY);
     const along = dx * Math.cos(theta) + dy * Math.sin(theta), across = -dx * Math.sin(theta) + dy * Math.cos(theta);
-    const flat = length * Math.sqrt(Math.max(0, 1 - (frame.n_z[i] / 32768) ** 2));
+    const flat = length * Math.sqrt(Math.max(0, 1 - (frame.n_z[i] / kUpright) ** 2));
     const beyond = Math.hypot(Math.max(0, Math.abs(along) - flat), across);
     if (beyond <= Math.max(middle, end) + reach && beyond < least) [best, least] = [i, beyond];
   }
@@ -240,7 +240,7 @@ export class RodCanvas {
     if (!this.onRod) return;
     this.onRod(i < 0 ? "" : `Rod ${i}: x = ${place(frame.x[i], frame.box_mm[0])} mm, y = ${place(frame.y[i], frame.box_mm[1])} mm, ` +
       (frame.order === null ? "" : `${angleToDirector(frame, i).toFixed(1)}° to the director, `) +
-      `n_z = ${(frame.n_z[i] / 32768).toFixed(3)}`, i);
+      `n_z = ${(frame.n_z[i] / kUpright).toFixed(3)}`, i);
   }
 
   reset() {

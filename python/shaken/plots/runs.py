@@ -12,7 +12,7 @@ import numpy as np
 from ..errors import ShakenError
 from ..hdf5 import open_file
 from ..run import axes_of, error_name
-from ..tables.rows import version_text
+from ..tables.rows import newness, version_text
 from . import maps, names
 from .series import VERSION, Arrangement, label_of, mean_curve
 from .sheet import Sheet
@@ -232,7 +232,7 @@ def run_figures(runs: Sequence[PlottedRun], width: str | None = None) -> Iterato
     """(name, figure) of each observable that at least one run has, and of the maps of each point. Of replicas by one
     version the mean is drawn, with the standard error of replica_mean; what differs in parameters or version are
     different curves."""
-    versions = sorted({run.version for run in runs if run.version})
+    versions = sorted({run.version for run in runs if run.version}, key=newness)
     points: list[dict[str, Any]] = []
     of_point: list[list[PlottedRun]] = []
     for run in runs:

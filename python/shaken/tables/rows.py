@@ -30,6 +30,11 @@ def version_text(versions: Any) -> str:
     return ", ".join(words)
 
 
+def newness(version: Any) -> list[int]:
+    """What versions, or texts of them, are sorted by: 0.10.0 is newer than 0.9.0."""
+    return [int(number) for number in re.findall("[0-9]+", str(version))]
+
+
 def has_results(state: str, summary: Mapping[str, Any] | None) -> bool:
     """Whether a run is done, or was before it went on for longer. state: of its job"""
     ended = (summary or {}).get("exit") or {}
@@ -242,7 +247,7 @@ def aggregated(rows: Sequence[Row]) -> list[Row]:
     newest: dict[str, tuple[str, int]] = {}
     groups: dict[tuple[str, tuple[str, int]], dict[str, Row]] = {}
     for row in rows:
-        newest[row.key] = max(newest.get(row.key, row.version), row.version)
+        newest[row.key] = max(newest.get(row.key, row.version), row.version, key=newness)
     for row in rows:
         version = row.version if any(row.version) or row.state == "done" else newest[row.key]
         groups.setdefault((row.key, version), {}).setdefault(row.fields.get("job") or str(id(row)), row)
