@@ -29,6 +29,12 @@ Rows units() {
   return rows;
 }
 
+Rows symbols_in_names() {
+  Rows rows;
+  for (const std::string_view symbol : run::unit_symbols()) rows.emplace_back(symbol, Json::object());
+  return rows;
+}
+
 template <class T>
 Json row_of(const keys::Key<T>& key, const keys::Value& fallback) {
   const bool is_plain = key.dimension == keys::Dimension::kPlain;
@@ -110,6 +116,7 @@ Rows effects() {
 
 std::string catalogue() {
   const std::vector<std::pair<const char*, Rows>> sections{{"units", units()},
+                                                           {"symbols_in_names", symbols_in_names()},
                                                            {"keys", keys_of_scenes()},
                                                            {"style_keys", keys_of_styles()},
                                                            {"observables", observables()},

@@ -2,6 +2,7 @@
 """All that has a name in Shaken, as the programs know it (`shaken schema catalogue`): no list of it stands in Python.
 
 UNITS:   unit -> {"of": what it measures, "scale": how many of the default unit it is}; that of scale 1 comes first
+SYMBOLS: of units that names of arrays and numbers end in
 KEYS:    key of a scene -> {"of", "unit", "range", "default", "title", "symbol", "doc"}
 ARRAYS:  array of observables.h5 -> {"unit", "title", "symbol", "doc", "error": whether there is one of its standard
          errors, "axes": the arrays that it is measured at, the slowest first}
@@ -15,4 +16,5 @@ from typing import Any
 
 _ALL: dict[str, dict[str, dict[str, Any]]] = json.loads(
     Path(__file__).with_suffix(".json").read_text(encoding="utf-8"))
-UNITS, KEYS, ARRAYS, NUMBERS = (_ALL[section] for section in ("units", "keys", "arrays", "numbers"))
+UNITS, SYMBOLS, KEYS, ARRAYS, NUMBERS = (
+    _ALL[section] for section in ("units", "symbols_in_names", "keys", "arrays", "numbers"))

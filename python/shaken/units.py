@@ -8,10 +8,10 @@ import re
 from decimal import Decimal
 from typing import Any
 
-from .catalogue import UNITS
+from .catalogue import SYMBOLS, UNITS
 from .errors import ShakenError, nearest
 
-_UNIT = re.compile(r"(mm|s|rad|deg|mg|pJ|Hz)([0-9]?)$")
+_UNIT = re.compile(f"({'|'.join(SYMBOLS)})([0-9]?)$")
 _SPECIES = re.compile(r"^/?(rods_[0-9]+)(?=[./])")
 
 

@@ -9,7 +9,7 @@
 namespace shaken::run {
 namespace {
 
-constexpr std::array<std::string_view, 6> kSymbols{"mm", "s", "rad", "deg", "Hz", "pJ"};
+constexpr std::array<std::string_view, 7> kSymbols{"mm", "s", "rad", "deg", "mg", "pJ", "Hz"};
 
 /// A symbol and its power: "mm2".
 struct Factor {
@@ -25,6 +25,8 @@ Factor factor_of(std::string_view word) {
 }
 
 }  // namespace
+
+std::span<const std::string_view> unit_symbols() { return kSymbols; }
 
 std::string unit_of_name(std::string_view name) {
   std::vector<std::string_view> words;
