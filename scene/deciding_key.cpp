@@ -31,7 +31,7 @@ std::string deciding_key(const RunPlan& plan, std::string_view keys) {
       if (absent.empty()) absent = (block == nullptr ? key : *block).path + " is absent";
       if (std::holds_alternative<std::monostate>(value)) continue;
       const char* space = key.unit.empty() ? "" : " ";
-      const std::string text = fmt::format("{} = {}{}{}", key.path, show(key, value), space, key.unit);
+      std::string text = fmt::format("{} = {}{}{}", key.path, show(key, value), space, key.unit);
       if (!is_neutral(key, value)) return text;
       if (neutral.empty()) neutral = text;
     }

@@ -280,14 +280,14 @@ auto derived(auto row, const std::string& note) {
 }
 
 /// A key as figures call it: Rule::title, symbol, and unit of a plain number.
-auto called(std::string title, std::string symbol, std::string unit, auto row) {
-  row.title = std::move(title);
-  row.symbol = std::move(symbol);
-  row.unit = std::move(unit);
+auto called(const std::string& title, const std::string& symbol, const std::string& unit, auto row) {
+  row.title = title;
+  row.symbol = symbol;
+  row.unit = unit;
   return row;
 }
-auto called(std::string title, std::string symbol, auto row) {
-  return called(std::move(title), std::move(symbol), "", std::move(row));
+auto called(const std::string& title, const std::string& symbol, auto row) {
+  return called(title, symbol, "", std::move(row));
 }
 
 /// A key that came later: left out of the canonical text where it says what held before there was a choice.
