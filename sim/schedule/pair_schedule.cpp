@@ -45,7 +45,7 @@ PairSchedule::PairSchedule(std::size_t n_rods, double dt, int n_owners)
 
 void PairSchedule::make_room(std::size_t n_pairs) {
   pairs_.resize(n_pairs);
-  detected_at_.resize(n_pairs, -1);
+  searched_at_.resize(n_pairs, -1);
   wheel_.make_room(n_pairs);
 }
 
@@ -56,7 +56,7 @@ void PairSchedule::add(int p, const PairRods& rods, std::uint8_t owner) {
   pair.owner = owner;
   mark(p, kSurvivesHits, false);
   for (std::size_t r = 0; r < 2; ++r) pair.lanes[r] = static_cast<std::uint16_t>(budgets_.add(rods[r], p));
-  detected_at_[p] = -1;
+  searched_at_[p] = -1;
 }
 
 void PairSchedule::remove(int p) {
@@ -155,7 +155,7 @@ void PairSchedule::toggle_touching(int p) {
 }
 
 std::size_t PairSchedule::bytes() const {
-  return wheel_.bytes() + budgets_.bytes() + heap_bytes(pairs_, detected_at_, n_touching_);
+  return wheel_.bytes() + budgets_.bytes() + heap_bytes(pairs_, searched_at_, n_touching_);
 }
 
 }  // namespace shaken

@@ -55,10 +55,10 @@ class PairSchedule {
   void toggle_touching(int p);
   int n_touching(int rod) const { return n_touching_[rod]; }  ///< pairs of the rod
 
-  Tick detected_at(int p) const { return detected_at_[p]; }  ///< of the last search for contacts
-  void set_detected(int p, Tick now) {
-    mark(p, kAgain, detected_at_[p] == now - 1);
-    detected_at_[p] = now;
+  Tick searched_at(int p) const { return searched_at_[p]; }  ///< of the last search for contacts
+  void set_searched(int p, Tick now) {
+    mark(p, kAgain, searched_at_[p] == now - 1);
+    searched_at_[p] = now;
   }
   /// Beads overlapped at the last search, which came a tick after another one.
   bool keeps_touching(int p) const { return (pairs_[p].marks & kAgain) != 0 && is_touching(p); }
@@ -111,7 +111,7 @@ class PairSchedule {
   void set_budgets(int p, Tick now, const Remaining& bound);
 
   std::vector<Pair> pairs_;
-  std::vector<Tick> detected_at_;
+  std::vector<Tick> searched_at_;
   TimingWheel wheel_;
   GapBudgets budgets_;
   std::vector<std::int16_t> n_touching_;  ///< (n_rods)

@@ -53,7 +53,7 @@ class DetectionPhase {
   /// Searches pairs that have not been searched in this tick.
   void search_gained(std::span<const int> pairs, const World& world, Tick now) {
     for (const int p : pairs) {
-      if (pairs_.is_used(p) && pairs_.detected_at(p) != now) search(p, world, now);
+      if (pairs_.is_used(p) && pairs_.searched_at(p) != now) search(p, world, now);
     }
   }
 
@@ -61,7 +61,7 @@ class DetectionPhase {
   void search_touching(const World& world, Tick now) {
     may_change_.clear();
     const auto note = [&](int i) {
-      if (std::exchange(rods_.marks[i].searched_at, now) != now) may_change_.push_back(i);
+      if (std::exchange(rods_.marks[i].touching_searched_at, now) != now) may_change_.push_back(i);
     };
     for (const Share& share : shares_) {
       for (const int i : share.hit) note(i);
@@ -77,7 +77,7 @@ class DetectionPhase {
     note_contacts();
     for (std::size_t m = 0; m < may_change_.size(); ++m) {
       for (const int p : neighbors_.pairs_of(may_change_[m])) {
-        if (!pairs_.is_touching(p) || pairs_.detected_at(p) == now) continue;
+        if (!pairs_.is_touching(p) || pairs_.searched_at(p) == now) continue;
         shares_[pairs_.owner(p)].searched.push_back(p);
         search(p, world, now);
       }
@@ -103,7 +103,7 @@ class DetectionPhase {
     share.counts.count(WorkKind::kPairsDeferred, pairs.end() - due);
     pairs.erase(due, pairs.end());
     for (const int p : pairs) {
-      pairs_.set_detected(p, now);
+      pairs_.set_searched(p, now);
       for (const int i : pairs_.rods(p)) prefetch(rods_.marks[i]);
     }
   }
@@ -117,11 +117,11 @@ class DetectionPhase {
         if (n_unseen == 0) break;
         if (static_cast<std::size_t>(pairs_.owner(p)) != share.number || !pairs_.is_touching(p)) continue;
         --n_unseen;
-        if (pairs_.detected_at(p) == now) continue;
-        pairs_.set_detected(p, now);
+        if (pairs_.searched_at(p) == now) continue;
+        pairs_.set_searched(p, now);
         share.searched.push_back(p);
       }
-      if (n_unseen == 0) rods_.marks[i].searched_at = now;
+      if (n_unseen == 0) rods_.marks[i].touching_searched_at = now;
     }
   }
 
@@ -137,7 +137,7 @@ class DetectionPhase {
 
   /// Searches one pair, on the first thread.
   void search(int p, const World& world, Tick now) {
-    pairs_.set_detected(p, now);
+    pairs_.set_searched(p, now);
     for (const int i : pairs_.rods(p)) rods_.pose_if_needed(i, world, now);
     const bool touching = find(p, rods_.flight_pose(pairs_.rods(p)[1]), shares_.front(), contacts_);
     if (touching != pairs_.is_touching(p)) pairs_.toggle_touching(p);

@@ -21,8 +21,8 @@ class NeighborUpkeep {
   /// Builds the list from where the rods are at the first tick, and has all its pairs searched.
   void first_tick(Tick now) {
     const int n_rods = static_cast<int>(rods_.marks.size());
-    std::vector<Pose> poses;
-    for (int i = 0; i < n_rods; ++i) poses.push_back(rods_.flight_pose(i));
+    std::vector<Pose> poses(rods_.marks.size());
+    for (int i = 0; i < n_rods; ++i) poses[i] = rods_.flight_pose(i);
     list_.build(poses);
     for (int i = 0; i < n_rods; ++i) measure(i, now);
     gained_.resize(list_.pairs().size());

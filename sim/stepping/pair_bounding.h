@@ -60,7 +60,7 @@ class PairBounding {
       for (const int i : pairs_.rods(p)) {
         if (!loops_.claim(rods_.marks[i].bounded_at, now)) continue;
         share.to_bound_flight.push_back(i);
-        if (rods_.claim_pose(i, now)) share.to_pose.push_back(i);
+        if (rods_.claim_pose(i, now)) share.to_pose.push_back(i);  // safe: here is only who has the claim
       }
     }
     share.counts.count(WorkKind::kPairsBounded, std::ssize(share.to_bound));

@@ -14,12 +14,12 @@ namespace shaken {
 /// The rods at a tick, and what its phases note of each. All lists are (n_rods).
 struct RodStates {
   struct Marks {
-    Tick posed_at = -1;      ///< tick of the rod in `at_tick`
-    Tick listed_at = -1;     ///< tick at which it was last to be scheduled
-    Tick hit_at = -1;        ///< tick at which it was last hit
-    Tick hit_again_at = -1;  ///< last tick at which a surface hit it when it had been hit in the tick before
-    Tick bounded_at = -1;    ///< tick of its flight bound
-    Tick searched_at = -1;   ///< tick in which all of its pairs that touch are searched for contacts
+    Tick posed_at = -1;              ///< tick of the rod in `at_tick`
+    Tick scheduled_at = -1;          ///< tick at which it was last to be scheduled
+    Tick hit_at = -1;                ///< tick at which it was last hit
+    Tick hit_again_at = -1;          ///< last tick at which a surface hit it when it had been hit in the tick before
+    Tick bounded_at = -1;            ///< tick of its flight bound
+    Tick touching_searched_at = -1;  ///< tick in which all of its pairs that touch are searched for contacts
   };
 
   RodStates(const TickRules& tick_rules, std::size_t n_shares)

@@ -40,7 +40,7 @@ namespace shaken {
 ///
 /// A tick. Every rod and every pair belongs to a share (Share), and each share may have a thread of its own. Loops
 /// marked || run on all shares at once, each on what belongs to it; the first thread alone does those marked 1, which
-/// concern several shares. Lists are members of Share.
+/// concern several shares; a row without a mark goes on in the loop above. Lists are members of Share.
 ///
 ///     phase         loop                               reads                        leaves
 ///     ------------------------------------------------------------------------------------------------------------

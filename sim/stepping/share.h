@@ -22,7 +22,7 @@ struct alignas(64) Share {
   std::vector<int> hit;                     ///< of these, hit by a surface; later also those that other rods hit
   std::vector<int> to_place;                ///< rods whose skin budget is used up: their pairs are to be found anew
   std::vector<int> failed;                  ///< rods whose motion after the surfaces is numerical trouble
-  std::vector<int> searched;                ///< pairs whose contacts were looked for
+  std::vector<int> searched;                ///< pairs searched for contacts, and those gained: all need a bound
   std::vector<int> to_schedule;             ///< rods that need a bound on the time to the next surface
   std::vector<std::vector<int>> overspent;  ///< (n_shares) pairs of each share whose budgets hits overspent
   std::vector<int> to_bound;                ///< pairs that need a bound

@@ -43,7 +43,7 @@ class StoringPhase {
         Share& share = shares_[rods_.owners[i]];
         RodStates::Marks& marks = rods_.marks[i];
         if (std::exchange(marks.hit_at, now) != now) share.hit.push_back(i);
-        if (std::exchange(marks.listed_at, now) != now) share.to_schedule.push_back(i);
+        if (std::exchange(marks.scheduled_at, now) != now) share.to_schedule.push_back(i);
       }
     }
     return first;

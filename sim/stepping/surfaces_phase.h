@@ -155,7 +155,7 @@ class SurfacesPhase {
 
     /// Before any surface displaces the rod.
     void begin(int i) const {
-      rods.marks[i].posed_at = rods.marks[i].listed_at = now;
+      rods.marks[i].posed_at = rods.marks[i].scheduled_at = now;
       SkinBudget& budget = rods.skin_budgets[i];
       if (budget.remaining(now, rules.dt) >= SkinBudget::kLeast) return;
       budget.measure(neighbors, i, rods.flight_pose(i), now);
