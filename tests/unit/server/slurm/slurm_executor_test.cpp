@@ -118,7 +118,7 @@ TEST_F(SlurmExecutorTest, WorkersGoOutPackedAsOneArray) {
   EXPECT_THAT(call, HasSubstr("<--nice=3>"));
   EXPECT_LT(call.find("<--qos=low>"), call.find("<--nice=3>"));
   EXPECT_EQ(read_batch(folder(executor, workers[0]))->tasks.size(), 2);
-  EXPECT_THAT(read_text(folder(executor, workers[0]).script()), HasSubstr("exec '/bin/it'\\''s a task' '"));
+  EXPECT_THAT(read_text(folder(executor, workers[0]).script()), HasSubstr("exec '/bin/it'\\''s a task' /"));
   list(executor, workers[0], {"PENDING|Priority", "PENDING|Priority"});
   ASSERT_TRUE(step_until_says(executor, workers[0], "waits as Slurm job 7_0 (Priority)"));
   EXPECT_EQ(executor.poll(workers[2]).words, "waits as Slurm job 7_1 (Priority)");
