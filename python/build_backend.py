@@ -49,7 +49,7 @@ def _wheel(folder: str, content: dict[str, bytes]) -> str:
 
 def build_wheel(wheel_directory: str, config_settings: Any = None, metadata_directory: Any = None) -> str:
     """Called by pip: makes the wheel in that folder and returns its name."""
-    sources = sorted(path for path in (_HERE / "shaken").rglob("*") if path.suffix == ".py" or path.name == "py.typed")
+    sources = sorted(path for path in (_HERE / "shaken").rglob("*") if path.is_file() and path.suffix != ".pyc")
     return _wheel(wheel_directory, {str(path.relative_to(_HERE)): path.read_bytes() for path in sources})
 
 

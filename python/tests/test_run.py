@@ -2,6 +2,10 @@
 import copy
 import json
 import pickle
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
 
 import h5py
 import numpy as np
@@ -292,3 +296,17 @@ def test_a_prefix_of_an_id_is_enough(tmp_path):
     made_up_run(tmp_path / "runs" / "0123999999abcdef")
     with pytest.raises(shaken.ShakenError, match="fits 2 runs"):
         shaken.open("0123", root=tmp_path)
+
+
+def test_the_wheel_has_all_that_the_package_reads(tmp_path):
+    source = Path(__file__).resolve().parents[1]
+    make = "import build_backend; print(build_backend.build_wheel('.'))"
+    env = {"PYTHONPATH": str(source), "PYTHONDONTWRITEBYTECODE": "1"}
+    wheel = subprocess.run([sys.executable, "-c", make], cwd=tmp_path, env=env, stdout=subprocess.PIPE, text=True,
+                           check=True)
+    use = "from shaken.plots import names; print(names.axis_title('rods.length'))"
+    with zipfile.ZipFile(tmp_path / wheel.stdout.strip()) as archive_of_it:
+        archive_of_it.extractall(tmp_path / "site")
+    env = {"PYTHONPATH": str(tmp_path / "site"), "PYTHONIOENCODING": "utf-8"}
+    used = subprocess.run([sys.executable, "-c", use], cwd=tmp_path, env=env, capture_output=True, text=True)
+    assert used.returncode == 0, used.stderr
