@@ -138,21 +138,20 @@ std::vector<std::string> remarks(const RunPlan& plan) {
     list.push_back(fmt::format("{} {} is longer than the run, {}: there will be a single frame, of the start", path,
                                format_quantity(every, Dimension::kTime), format_quantity(total, Dimension::kTime)));
   };
-  const auto remark_few_phases = [&](const char* name, const auto& settings) {
-    if (!settings || settings->phases != SamplePhases::kLocked || !plan.system.has_moving_plates()) return;
-    const double periods = settings->every * plan.system.frequency;
+  for (const Field& field : fields()) {
+    const bool is_locked = field.path.ends_with(".phases") && fields().value(plan, field) == Value("locked");
+    if (!is_locked || !plan.system.has_moving_plates()) continue;
+    const std::string& block = fields().block_of(field)->path;
+    const double every = std::get<double>(field_at(block + ".every").fetch(plan));
+    const double periods = every * plan.system.frequency;
     if (const int phases = phases_met(periods); phases > 0) {
       list.push_back(
-          fmt::format("measure.{0}.every {1} is {2:.6g} periods of the plates: samples see them at {3} of their "
-                      "vibration, and mean "
-                      "velocities may be those of that instant; take measure.{0}.phases \"spread\"",
-                      name, format_quantity(settings->every, Dimension::kTime), periods,
+          fmt::format("{0}.every {1} is {2:.6g} periods of the plates: samples see them at {3} of their "
+                      "vibration, and means may be those of that instant; take {0}.phases \"spread\"",
+                      block, format_quantity(every, Dimension::kTime), periods,
                       phases == 1 ? "a single phase" : fmt::format("{} phases", phases)));
     }
-  };
-  remark_few_phases("tilt", plan.tilt);
-  remark_few_phases("polar", plan.polar);
-  remark_few_phases("temperatures", plan.temperatures);
+  }
   if (plan.trajectory) remark_one_frame("trajectory.every", plan.trajectory->every);
   if (plan.movie) remark_one_frame("movie.every", plan.movie->every);
   for (const Field& field : fields()) {

@@ -105,6 +105,8 @@ TEST(Remarks, NamePolarOrderOfRodsWithoutHeads) {
               ElementsAre(HasSubstr("this is not measured: measure.polar")));
   EXPECT_THAT(remarks(plan_of("{" + polar + R"(, "measure": {"polar": {"phases": "locked", "every": "1 s"}}})")),
               ElementsAre(HasSubstr("measure.polar.phases \"spread\"")));
+  EXPECT_THAT(remarks(plan_of(R"({"measure": {"stress": {"phases": "locked", "every": "1 s"}}})")),
+              ElementsAre(HasSubstr("measure.stress.phases \"spread\"")));
   EXPECT_THAT(remarks(plan_of(R"({"measure": {"temperatures": {"phases": "locked", "every": "1 s"}}})")),
               ElementsAre(HasSubstr("measure.temperatures.phases \"spread\"")));
 }
