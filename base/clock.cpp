@@ -47,10 +47,16 @@ double cpu_seconds() { return read_clock(CLOCK_PROCESS_CPUTIME_ID); }
 
 double thread_cpu_seconds() { return read_clock(CLOCK_THREAD_CPUTIME_ID); }
 
+double TimeWithoutReadings::at(double reading) {
+  sum_ += std::max(0.0, reading - last_ - cost_);
+  last_ = reading;
+  return sum_;
+}
+
 double thread_cpu_seconds_without_readings() {
   static const double cost = cost_of_reading();
-  static std::int64_t readings = 0;
-  return thread_cpu_seconds() - cost * static_cast<double>(readings++);
+  static TimeWithoutReadings time(thread_cpu_seconds(), cost);
+  return time.at(thread_cpu_seconds());
 }
 
 double children_cpu_seconds() {

@@ -19,8 +19,23 @@ double cpu_seconds();
 /// CPU time of this thread [s].
 double thread_cpu_seconds();
 
-/// The same less the time that reading it has taken so far: a reading costs a system call, which would weigh on short
-/// phases. Not for several threads at once.
+/// Sums the time between readings of a clock, less what one reading costs. An interval that is shorter than that (the
+/// cost scatters) counts as none, so that the sum never runs back.
+class TimeWithoutReadings {
+ public:
+  TimeWithoutReadings(double first_reading, double cost) : last_(first_reading), cost_(cost) {}
+
+  /// The sum up to this reading [s].
+  double at(double reading);
+
+ private:
+  double last_;
+  double cost_;
+  double sum_ = 0;
+};
+
+/// CPU time of this thread without that of reading it, which costs a system call and would weigh on short phases [s].
+/// Not for several threads at once.
 double thread_cpu_seconds_without_readings();
 
 /// CPU time of the children of this process that have ended [s].

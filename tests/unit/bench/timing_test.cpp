@@ -27,6 +27,13 @@ TEST(CpuClock, ReadingsCostNextToNothing) {
   EXPECT_LT(thread_cpu_seconds_without_readings() - start, 0.01);
 }
 
+TEST(CpuClock, NeverRunsBackWhereAReadingCostsLessThanMeasured) {
+  TimeWithoutReadings time(10, 0.25);
+  EXPECT_DOUBLE_EQ(time.at(11), 0.75);
+  for (int i = 1; i <= 100; ++i) EXPECT_DOUBLE_EQ(time.at(11 + 0.125 * i), 0.75);
+  EXPECT_DOUBLE_EQ(time.at(25), 2);
+}
+
 TEST_F(SmallBox, AStretchCountsWhatHappensInIt) {
   Simulation simulation = resumed(case_, state_, StepperKind::kScheduled);
   const Counters before = simulation.world().counters;
