@@ -24,17 +24,17 @@ ALLOWED = {
     "scene": ["base/keys", "sim/rod", "sim/cell.h", "sim/posts.h", "sim/system.h",
               "sim/physics_version.h"],
     # whether rods can be placed, or a run begin where another ends, the simulation itself says
-    "scene/stages.cpp": ["scene", "base/keys", "sim/start/from_another_run.h"],
+    "scene/sweeps/stages.cpp": ["scene", "base/keys", "sim/start/from_another_run.h"],
     "scene/placement.cpp": ["scene", "base/keys", "sim/rod", "sim/system.h", "sim/start/initial.h"],
     # a film is as large as the renderer can draw it
-    "scene/field_table.cpp": ["scene", "base/keys", "base/picture_limits.h", "sim/rod", "sim/system.h"],
+    "scene/keys/field_table.cpp": ["scene/keys", "base/keys", "base/picture_limits.h", "sim/rod", "sim/system.h"],
     # a sweep's name is printed
-    "scene/sweep.cpp": ["scene", "base/keys", "base/text.h", "sim/rod", "sim/system.h"],
+    "scene/sweeps/sweep.cpp": ["scene", "base/keys", "base/text.h", "sim/rod", "sim/system.h"],
     # how long a run was to go on stands in its scene
-    "run/files/done.h": ["run/files", "scene/run_plan.h"],
+    "run/files/done.h": ["run/files", "scene/keys/run_plan.h"],
     "run/files/done.cpp": ["run/files", "base", "scene"],
     # what comes from a file is held against what a scene allows
-    "run/files/frame_log.cpp": ["run/files", "base", "scene/cell_limits.h"],
+    "run/files/frame_log.cpp": ["run/files", "base", "scene/keys/cell_limits.h"],
     # S of a frame is that of the measurement
     "run/files/order_curve.cpp": ["run/files", "base", "analysis/order.h"],
     "run/files": ["base", "sim/cell.h", "sim/snapshot.h"],
@@ -42,9 +42,10 @@ ALLOWED = {
     "run/export/columns.cpp": ["base", "run/export", "run/files", "run/measure/measurement_kinds.h"],
     "run/export": ["base", "run/files", "sim/system.h"],
     # whether rods of another run are those of a scene, and how fast rods are at a start, the simulation itself says
-    "run/import": ["run", "base", "scene", "sim/motion/start_motion.h", "sim/start/from_another_run.h",
-                   "sim/close_up.h", "sim/overlaps.h", "sim/simulation.h", "sim/system.h", "sim/world.h"],
-    "run": ["proto", "base", "scene", "analysis", "run/files", "sim/rod", "sim/cell.h", "sim/system.h",
+    "run/import": ["run/files", "run/loop", "base", "scene", "sim/motion/start_motion.h",
+                   "sim/start/from_another_run.h", "sim/close_up.h", "sim/overlaps.h", "sim/simulation.h",
+                   "sim/system.h", "sim/world.h"],
+    "run": ["proto", "base", "scene", "analysis", "sim/rod", "sim/cell.h", "sim/system.h",
             "sim/snapshot.h", "sim/world.h", "sim/simulation.h", "sim/balance.h", "sim/close_up.h", "sim/overlaps.h",
             "sim/effects/registry.h", "sim/motion/side_walls.h", "sim/physics_version.h"],
     # drawing knows rods and fields; only the program's sources of frames know files and the bus
@@ -52,14 +53,14 @@ ALLOWED = {
     "render/program": ["render", "base", "proto/bus.h"],
     "render/interpolation.h": ["sim/cell.h", "sim/snapshot.h"],
     # plates are drawn where they are
-    "render/sources.h": ["render", "run/files", "scene/run_plan.h", "sim/motion/plates.h"],
+    "render/sources.h": ["render", "run/files", "scene/keys/run_plan.h", "sim/motion/plates.h"],
     # what comes from the bus is held against what a scene allows
     "render/sources.cpp": ["render", "base/files.h", "base/text.h", "base/keys", "run/files", "proto", "scene",
                            "analysis"],
     # the settings of a sweep, with their units
-    "render/headline.cpp": ["render", "base/keys", "scene/fields.h"],
+    "render/headline.cpp": ["render", "base/keys", "scene/keys/fields.h"],
     # the defaults of the director field whose defects are drawn
-    "render/measure.cpp": ["render", "scene/measure_plan.h", "sim/system.h", "analysis"],
+    "render/measure.cpp": ["render", "scene/keys/measure_plan.h", "sim/system.h", "analysis"],
     # films are encoded by the program ffmpeg
     "render/movie.cpp": ["render", "base"],
     "render": ["base/files.h", "base/keys", "base/palettes.h", "base/picture_limits.h", "base/text.h", "sim/cell.h",
@@ -69,7 +70,7 @@ ALLOWED = {
     # the options of pictures are the keys of styles
     "client/picture_options.cpp": ["client", "base", "render/style_keys.h"],
     # where rods are too thin for the terminal, their director is drawn
-    "client/watch/director_cells.cpp": ["client", "analysis/director_field.h", "scene/measure_plan.h"],
+    "client/watch/director_cells.cpp": ["client", "analysis/geometry/director_field.h", "scene/keys/measure_plan.h"],
     # walls are drawn where they are
     "client/watch/rod_samples.cpp": ["client", "sim/motion/side_walls.h"],
     "client/verbs/schema.cpp": ["client", "scene", "render/style_file.h"],
@@ -84,6 +85,13 @@ ALLOWED = {
     "bench": ["base", "scene", "run/files", "analysis", "sim/rod", "sim/system.h", "sim/snapshot.h", "sim/world.h",
               "sim/balance.h", "sim/simulation.h", "sim/effects/registry.h"],
 }
+# Rooms of a folder: each may use what the folder may, and the rooms before it.
+ROOMS = {"analysis": ["errors", "geometry", "lags"], "scene": ["keys", "resolve"],
+         "run": ["files", "measure", "export", "live", "loop", "import", "cost", "worker"]}
+for folder, rooms in ROOMS.items():
+    for floor, room in enumerate(rooms):
+        before = [f"{folder}/{below}" for below in rooms[:floor]]
+        ALLOWED.setdefault(f"{folder}/{room}", ALLOWED[folder] + before)
 for floor, name in enumerate(SIM):
     for part in [name] if "." in name else [name, name + ".h", name + ".cpp"]:
         ALLOWED[part] = [below + end for below in SIM[:floor + 1] for end in ("", ".h", ".cpp")]

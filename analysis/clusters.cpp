@@ -7,8 +7,8 @@
 #include <functional>
 #include <numeric>
 
-#include "analysis/periodic.h"
-#include "analysis/segment_distance.h"
+#include "analysis/geometry/periodic.h"
+#include "analysis/geometry/segment_distance.h"
 #include "base/core/check.h"
 
 namespace shaken::analysis {

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "analysis/bounded_series.h"
-#include "analysis/region.h"
-#include "analysis/summed.h"
+#include "analysis/errors/bounded_series.h"
+#include "analysis/errors/summed.h"
+#include "analysis/geometry/region.h"
 #include "base/core/types.h"
 
 namespace shaken::analysis {

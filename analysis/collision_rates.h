@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "analysis/blocked.h"
-#include "analysis/bounded_series.h"
-#include "analysis/summed.h"
+#include "analysis/errors/blocked.h"
+#include "analysis/errors/bounded_series.h"
+#include "analysis/errors/summed.h"
 
 namespace shaken::analysis {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "analysis/estimate_curve.h"
-#include "analysis/periodic.h"
+#include "analysis/errors/estimate_curve.h"
+#include "analysis/geometry/periodic.h"
 #include "base/core/check.h"
 
 namespace shaken::analysis {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "analysis/defect_series.h"
 
-#include "analysis/steady.h"
+#include "analysis/errors/steady.h"
 #include "base/core/check.h"
 
 namespace shaken::analysis {

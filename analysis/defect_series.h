@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "analysis/bounded_series.h"
 #include "analysis/defects.h"
-#include "analysis/saved.h"
+#include "analysis/errors/bounded_series.h"
+#include "analysis/errors/saved.h"
 
 namespace shaken::analysis {
 

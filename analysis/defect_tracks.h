@@ -8,10 +8,10 @@
 #include <span>
 #include <vector>
 
-#include "analysis/blocked.h"
 #include "analysis/defects.h"
-#include "analysis/jackknife.h"
-#include "analysis/summed.h"
+#include "analysis/errors/blocked.h"
+#include "analysis/errors/jackknife.h"
+#include "analysis/errors/summed.h"
 #include "base/core/types.h"
 
 namespace shaken::analysis {

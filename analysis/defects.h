@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "analysis/director_field.h"
-#include "analysis/saved.h"
+#include "analysis/errors/saved.h"
+#include "analysis/geometry/director_field.h"
 #include "base/core/types.h"
 
 namespace shaken::analysis {

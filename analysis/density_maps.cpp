@@ -5,11 +5,11 @@
 #include <cmath>
 #include <numeric>
 
-#include "analysis/lag_fits.h"
-#include "analysis/parts.h"
-#include "analysis/periodic.h"
-#include "analysis/steady.h"
-#include "analysis/summed.h"
+#include "analysis/errors/parts.h"
+#include "analysis/errors/steady.h"
+#include "analysis/errors/summed.h"
+#include "analysis/geometry/periodic.h"
+#include "analysis/lags/lag_fits.h"
 #include "base/core/check.h"
 
 namespace shaken::analysis {

@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "analysis/director_field.h"
-#include "analysis/estimate_curve.h"
-#include "analysis/region.h"
-#include "analysis/saved.h"
+#include "analysis/errors/estimate_curve.h"
+#include "analysis/errors/saved.h"
+#include "analysis/geometry/director_field.h"
+#include "analysis/geometry/region.h"
 #include "base/core/types.h"
 
 namespace shaken::analysis {

@@ -8,8 +8,8 @@
 #include <optional>
 #include <utility>
 
-#include "analysis/estimate_curve.h"
-#include "analysis/periodic.h"
+#include "analysis/errors/estimate_curve.h"
+#include "analysis/geometry/periodic.h"
 #include "base/core/check.h"
 
 namespace shaken::analysis {

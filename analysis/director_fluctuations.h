@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "analysis/blocked.h"
-#include "analysis/jackknife.h"
-#include "analysis/summed.h"
+#include "analysis/errors/blocked.h"
+#include "analysis/errors/jackknife.h"
+#include "analysis/errors/summed.h"
 #include "base/core/types.h"
 
 namespace shaken::analysis {

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "analysis/blocked.h"
-#include "analysis/bounded_series.h"
-#include "analysis/summed.h"
+#include "analysis/errors/blocked.h"
+#include "analysis/errors/bounded_series.h"
+#include "analysis/errors/summed.h"
 #include "base/core/types.h"
 
 namespace shaken::analysis {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/estimate_curve.h"
-#include "analysis/lag_fits.h"
+#include "analysis/errors/estimate_curve.h"
+#include "analysis/lags/lag_fits.h"
 #include "base/core/check.h"
 
 namespace shaken::analysis {

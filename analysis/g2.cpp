@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "analysis/pair_bins.h"
-#include "analysis/periodic.h"
+#include "analysis/geometry/pair_bins.h"
+#include "analysis/geometry/periodic.h"
 #include "base/core/check.h"
 
 namespace shaken::analysis {

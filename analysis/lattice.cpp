@@ -8,9 +8,9 @@
 #include <limits>
 #include <vector>
 
+#include "analysis/geometry/periodic.h"
+#include "analysis/geometry/wave_sums.h"
 #include "analysis/order.h"
-#include "analysis/periodic.h"
-#include "analysis/wave_sums.h"
 #include "base/core/check.h"
 #include "base/core/rng.h"
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "analysis/summed.h"
+#include "analysis/errors/summed.h"
 #include "base/core/box.h"
 #include "base/core/types.h"
 

@@ -7,9 +7,9 @@
 #include <limits>
 #include <utility>
 
+#include "analysis/geometry/periodic.h"
+#include "analysis/geometry/wave_sums.h"
 #include "analysis/order.h"
-#include "analysis/periodic.h"
-#include "analysis/wave_sums.h"
 #include "base/core/check.h"
 
 namespace shaken::analysis {

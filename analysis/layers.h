@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "analysis/summed.h"
-#include "analysis/wave_sums.h"
+#include "analysis/errors/summed.h"
+#include "analysis/geometry/wave_sums.h"
 #include "base/core/box.h"
 #include "base/core/types.h"
 

@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
-#include "analysis/pair_bins.h"
-#include "analysis/periodic.h"
+#include "analysis/geometry/pair_bins.h"
+#include "analysis/geometry/periodic.h"
 #include "base/core/check.h"
 
 namespace shaken::analysis {

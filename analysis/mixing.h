@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "analysis/region.h"
-#include "analysis/summed.h"
+#include "analysis/errors/summed.h"
+#include "analysis/geometry/region.h"
 #include "base/core/types.h"
 
 namespace shaken::analysis {

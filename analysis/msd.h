@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/estimate_curve.h"
-#include "analysis/lag_average.h"
-#include "analysis/lag_fits.h"
-#include "analysis/saved.h"
+#include "analysis/errors/estimate_curve.h"
+#include "analysis/errors/saved.h"
+#include "analysis/lags/lag_average.h"
+#include "analysis/lags/lag_fits.h"
 #include "base/core/types.h"
 
 namespace shaken::analysis {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "analysis/estimate_curve.h"
+#include "analysis/errors/estimate_curve.h"
 #include "base/core/check.h"
 
 namespace shaken::analysis {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numeric>
 
-#include "analysis/periodic.h"
+#include "analysis/geometry/periodic.h"
 
 namespace shaken::analysis {
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "analysis/bounded_series.h"
-#include "analysis/saved.h"
+#include "analysis/errors/bounded_series.h"
+#include "analysis/errors/saved.h"
 #include "analysis/time_series.h"
 #include "base/core/types.h"
 #include "sim/cell.h"

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "analysis/summed.h"
+#include "analysis/errors/summed.h"
 
 namespace shaken::analysis {
 

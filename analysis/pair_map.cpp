@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/geometry/periodic.h"
 #include "analysis/order.h"
-#include "analysis/periodic.h"
 #include "base/core/check.h"
 
 namespace shaken::analysis {

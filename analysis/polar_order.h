@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "analysis/bounded_series.h"
-#include "analysis/summed.h"
+#include "analysis/errors/bounded_series.h"
+#include "analysis/errors/summed.h"
 #include "base/core/types.h"
 
 namespace shaken::analysis {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/steady.h"
+#include "analysis/errors/steady.h"
 #include "base/core/check.h"
 
 namespace shaken::analysis {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "analysis/saved.h"
+#include "analysis/errors/saved.h"
 #include "base/core/types.h"
 
 namespace shaken::analysis {

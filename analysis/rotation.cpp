@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "analysis/lag_fits.h"
-#include "analysis/periodic.h"
+#include "analysis/geometry/periodic.h"
+#include "analysis/lags/lag_fits.h"
 #include "base/core/check.h"
 
 namespace shaken::analysis {

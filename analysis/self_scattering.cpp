@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "analysis/lag_fits.h"
+#include "analysis/lags/lag_fits.h"
 #include "base/core/check.h"
 
 namespace shaken::analysis {

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "analysis/blocked.h"
-#include "analysis/bounded_series.h"
-#include "analysis/summed.h"
+#include "analysis/errors/blocked.h"
+#include "analysis/errors/bounded_series.h"
+#include "analysis/errors/summed.h"
 #include "base/core/types.h"
 
 /// The pressure tensor of rods in the plane of the plates: momentum that crosses a line of unit length in unit time,

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/geometry/wave_sums.h"
 #include "analysis/order.h"
-#include "analysis/wave_sums.h"
 #include "base/core/check.h"
 
 namespace shaken::analysis {

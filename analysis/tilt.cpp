@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "analysis/jackknife.h"
+#include "analysis/errors/jackknife.h"
 #include "base/core/check.h"
 
 namespace shaken::analysis {

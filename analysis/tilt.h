@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "analysis/summed.h"
+#include "analysis/errors/summed.h"
 #include "base/core/types.h"
 
 namespace shaken::analysis {

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <optional>
 
-#include "analysis/jackknife.h"
+#include "analysis/errors/jackknife.h"
 
 namespace shaken::analysis {
 namespace {

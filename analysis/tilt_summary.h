@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "analysis/estimate_curve.h"
+#include "analysis/errors/estimate_curve.h"
 #include "analysis/tilt.h"
 
 namespace shaken::analysis {

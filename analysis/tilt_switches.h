@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "analysis/blocked.h"
-#include "analysis/estimate_curve.h"
-#include "analysis/summed.h"
+#include "analysis/errors/blocked.h"
+#include "analysis/errors/estimate_curve.h"
+#include "analysis/errors/summed.h"
 #include "base/core/types.h"
 
 namespace shaken::analysis {

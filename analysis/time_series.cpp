@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "analysis/parts.h"
-#include "analysis/steady.h"
+#include "analysis/errors/parts.h"
+#include "analysis/errors/steady.h"
 
 namespace shaken::analysis {
 namespace {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "analysis/estimate_curve.h"
+#include "analysis/errors/estimate_curve.h"
 
 namespace shaken::analysis {
 

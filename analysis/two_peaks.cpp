@@ -9,7 +9,7 @@
 #include <unsupported/Eigen/NonLinearOptimization>
 #include <vector>
 
-#include "analysis/periodic.h"
+#include "analysis/geometry/periodic.h"
 
 namespace shaken::analysis {
 namespace {

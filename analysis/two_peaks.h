@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "analysis/angles.h"
-#include "analysis/estimate_curve.h"
+#include "analysis/errors/estimate_curve.h"
 
 namespace shaken::analysis {
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "analysis/blocked.h"
-#include "analysis/summed.h"
+#include "analysis/errors/blocked.h"
+#include "analysis/errors/summed.h"
 #include "base/core/types.h"
 
 namespace shaken::analysis {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/lag_fits.h"
+#include "analysis/lags/lag_fits.h"
 #include "base/core/check.h"
 
 namespace shaken::analysis {

@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/estimate_curve.h"
-#include "analysis/lag_average.h"
-#include "analysis/saved.h"
+#include "analysis/errors/estimate_curve.h"
+#include "analysis/errors/saved.h"
+#include "analysis/lags/lag_average.h"
 #include "base/core/types.h"
 
 namespace shaken::analysis {

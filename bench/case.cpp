@@ -15,8 +15,8 @@
 #include "bench/bench.h"
 #include "run/files/checkpoint_file.h"
 #include "scene/canonical.h"
-#include "scene/derived.h"
-#include "scene/fields.h"
+#include "scene/keys/derived.h"
+#include "scene/keys/fields.h"
 #include "scene/load.h"
 
 namespace shaken::bench {

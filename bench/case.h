@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene/run_plan.h"
+#include "scene/keys/run_plan.h"
 #include "sim/simulation.h"
 
 namespace CLI {

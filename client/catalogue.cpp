@@ -12,9 +12,9 @@
 #include "run/files/unit_of_name.h"
 #include "run/measure/measurement_kinds.h"
 #include "scene/canonical.h"
-#include "scene/fields.h"
+#include "scene/keys/fields.h"
+#include "scene/keys/observables.h"
 #include "scene/load.h"
-#include "scene/observables.h"
 #include "sim/effects/registry.h"
 
 namespace shaken::client {

@@ -7,7 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "client/arguments.h"
-#include "scene/fields.h"
+#include "scene/keys/fields.h"
 
 namespace shaken::client {
 namespace {

@@ -12,9 +12,9 @@
 #include "base/scratch_folder.h"
 #include "base/table.h"
 #include "base/text.h"
-#include "scene/accuracy_levels.h"
 #include "scene/canonical.h"
-#include "scene/derived.h"
+#include "scene/keys/accuracy_levels.h"
+#include "scene/keys/derived.h"
 
 namespace shaken::client {
 namespace {
@@ -40,8 +40,8 @@ Json probe(const scene::RunPlan& plan, const std::string& label, double cpu, con
 }
 
 /// How long a run steps, in units of its own: rods times simulated seconds, times what the step and the density do to
-/// the cost of one. The level's factor was measured (scene/accuracy_levels.h); rods collide as often as the free area
-/// is small, which is within a tenth of rods of 2.5 and 4.5 mm at area fractions from 0.35 to 0.8.
+/// the cost of one. The level's factor was measured (scene/keys/accuracy_levels.h); rods collide as often as the free
+/// area is small, which is within a tenth of rods of 2.5 and 4.5 mm at area fractions from 0.35 to 0.8.
 double work_of(const scene::RunPlan& plan) {
   constexpr double kDensest = 0.95;
   const System& system = plan.system;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "client/live/json.h"
-#include "scene/sweep.h"
+#include "scene/sweeps/sweep.h"
 
 namespace shaken::client {
 

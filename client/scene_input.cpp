@@ -9,8 +9,8 @@
 #include "base/files.h"
 #include "base/text.h"
 #include "scene/canonical.h"
-#include "scene/derived.h"
-#include "scene/observables.h"
+#include "scene/keys/derived.h"
+#include "scene/keys/observables.h"
 #include "scene/placement.h"
 #include "scene/remarks.h"
 

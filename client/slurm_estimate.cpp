@@ -11,7 +11,7 @@
 
 #include "base/failure.h"
 #include "base/text.h"
-#include "scene/sweep_keys.h"
+#include "scene/sweeps/sweep_keys.h"
 
 namespace shaken::client {
 

@@ -16,7 +16,7 @@ namespace shaken::proto {
 /// the sender.
 frame_static_t encode_cell(const Cell& cell, std::size_t n_rods, const std::string& label);
 
-/// None where counts of beads contradict each other. What the numbers may be says scene/cell_limits.h.
+/// None where counts of beads contradict each other. What the numbers may be says scene/keys/cell_limits.h.
 std::optional<Cell> decode_cell(const frame_static_t& message);
 
 /// Posts as a message of their own, which former receivers do not know; its head is left to the sender.

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/periodic.h"
+#include "analysis/geometry/periodic.h"
 
 namespace shaken::render {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "analysis/defect_tracks.h"
-#include "analysis/region.h"
+#include "analysis/geometry/region.h"
 #include "render/picture.h"
 
 namespace shaken::render {

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "base/keys/units.h"
-#include "scene/fields.h"
+#include "scene/keys/fields.h"
 
 namespace shaken::render {
 

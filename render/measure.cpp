@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "analysis/defects.h"
-#include "analysis/director_field.h"
+#include "analysis/geometry/director_field.h"
+#include "analysis/geometry/periodic.h"
 #include "analysis/order.h"
-#include "analysis/periodic.h"
 #include "render/picture.h"
-#include "scene/measure_plan.h"
+#include "scene/keys/measure_plan.h"
 
 namespace shaken::render {
 namespace {

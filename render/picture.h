@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "analysis/defects.h"
-#include "analysis/director_field.h"
+#include "analysis/geometry/director_field.h"
 #include "base/core/result.h"
 #include "base/core/types.h"
 #include "sim/cell.h"
@@ -126,8 +126,8 @@ struct Asked {
 };
 
 /// Fills what is found: order, director_angle and what is asked for, from the rods of the first species. Defects are
-/// looked for within the side walls, and where there are rods (analysis/director_field.h), as a run does that measures
-/// them. The density is that of all rods.
+/// looked for within the side walls, and where there are rods (analysis/geometry/director_field.h), as a run does that
+/// measures them. The density is that of all rods.
 void measure(RodPicture& picture, const Asked& asked);
 
 }  // namespace shaken::render

@@ -6,7 +6,7 @@
 #include <deque>
 #include <optional>
 
-#include "analysis/periodic.h"
+#include "analysis/geometry/periodic.h"
 #include "render/colourings.h"
 #include "render/colours.h"
 #include "render/marks.h"

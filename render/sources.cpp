@@ -26,10 +26,10 @@
 #include "run/files/foreign_file.h"
 #include "run/files/order_curve.h"
 #include "run/files/version.h"
-#include "scene/cell_limits.h"
-#include "scene/derived.h"
+#include "scene/keys/cell_limits.h"
+#include "scene/keys/derived.h"
+#include "scene/keys/measure_plan.h"
 #include "scene/load.h"
-#include "scene/measure_plan.h"
 
 namespace shaken::render {
 

@@ -15,7 +15,7 @@
 #include "render/picture.h"
 #include "render/style.h"
 #include "run/files/trajectory.h"
-#include "scene/run_plan.h"
+#include "scene/keys/run_plan.h"
 #include "sim/motion/plates.h"
 
 namespace shaken::render {

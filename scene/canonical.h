@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "scene/fields.h"
-#include "scene/run_plan.h"
+#include "scene/keys/fields.h"
+#include "scene/keys/run_plan.h"
 
 namespace shaken::scene {
 

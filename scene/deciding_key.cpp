@@ -7,7 +7,7 @@
 #include <sstream>
 #include <variant>
 
-#include "scene/fields.h"
+#include "scene/keys/fields.h"
 
 namespace shaken::scene {
 namespace {

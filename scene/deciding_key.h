@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "scene/run_plan.h"
+#include "scene/keys/run_plan.h"
 
 namespace shaken::scene {
 

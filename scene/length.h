@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "base/core/types.h"
-#include "scene/run_plan.h"
+#include "scene/keys/run_plan.h"
 
 namespace shaken::scene {
 

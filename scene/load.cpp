@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "base/keys/draft.h"
-#include "scene/keys.h"
-#include "scene/resolve.h"
-#include "scene/settings.h"
-#include "scene/values.h"
+#include "scene/keys/keys.h"
+#include "scene/keys/settings.h"
+#include "scene/keys/values.h"
+#include "scene/resolve/resolve.h"
 
 namespace shaken::scene {
 

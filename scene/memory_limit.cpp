@@ -10,7 +10,7 @@
 #include <fstream>
 
 #include "base/core/cgroup.h"
-#include "scene/observables.h"
+#include "scene/keys/observables.h"
 
 namespace shaken::scene {
 

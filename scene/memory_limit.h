@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "scene/keys.h"
-#include "scene/run_plan.h"
+#include "scene/keys/keys.h"
+#include "scene/keys/run_plan.h"
 
 namespace shaken::scene {
 

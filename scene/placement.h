@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "scene/keys.h"
-#include "scene/sweep.h"
+#include "scene/keys/keys.h"
+#include "scene/sweeps/sweep.h"
 
 namespace shaken::scene {
 

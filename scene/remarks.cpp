@@ -9,10 +9,10 @@
 #include <string>
 
 #include "base/keys/units.h"
-#include "scene/derived.h"
-#include "scene/fields.h"
-#include "scene/measured_species.h"
-#include "scene/observables.h"
+#include "scene/keys/derived.h"
+#include "scene/keys/fields.h"
+#include "scene/keys/measured_species.h"
+#include "scene/keys/observables.h"
 #include "sim/rod/sizes.h"
 #include "sim/rod/species.h"
 

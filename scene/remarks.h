@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/run_plan.h"
+#include "scene/keys/run_plan.h"
 
 namespace shaken::scene {
 

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "scene/run_plan.h"
+#include "scene/keys/run_plan.h"
 
 namespace shaken::scene {
 

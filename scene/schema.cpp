@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "base/keys/schema.h"
-#include "scene/factors.h"
-#include "scene/fields.h"
-#include "scene/sweep_keys.h"
-#include "scene/values.h"
+#include "scene/keys/fields.h"
+#include "scene/keys/values.h"
+#include "scene/sweeps/factors.h"
+#include "scene/sweeps/sweep_keys.h"
 
 namespace shaken::scene {
 

@@ -11,7 +11,7 @@
 #include "base/processor.h"
 #include "proto/bus.h"
 #include "proto/relay/address.h"
-#include "scene/slurm_settings.h"
+#include "scene/sweeps/slurm_settings.h"
 
 namespace shaken::server {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/keys/table.h"
-#include "scene/run_plan.h"
+#include "scene/keys/run_plan.h"
 #include "server/cleaning.h"
 #include "server/queue/queue.h"
 

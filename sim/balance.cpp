@@ -11,16 +11,12 @@ namespace {
 /// Calls visit(species, pose, motion) for every rod at the world's tick, where it would be without periodic boundaries.
 template <class Visit>
 void for_each_rod(const World& world, const Visit& visit) {
-  const Gravity gravity = world.system.gravity_on_plates();
   const Box box = world.system.box();
   for (std::size_t i = 0; i < world.rods.size(); ++i) {
-    const Species& species = world.species_of(i);
-    const Flight& flight = world.rods[i];
-    const double tau = static_cast<double>(world.tick - flight.since) * world.system.dt;
-    Pose pose = pose_after(flight, tau, gravity);
-    pose.position.x() += flight.image[0] * box.x();
-    pose.position.y() += flight.image[1] * box.y();
-    visit(species, pose, motion_after(flight, tau, gravity, pose.director, species.inertia_par / species.inertia_perp));
+    auto [pose, motion] = rod_at(world, i, world.tick);
+    pose.position.x() += world.rods[i].image[0] * box.x();
+    pose.position.y() += world.rods[i].image[1] * box.y();
+    visit(world.species_of(i), pose, motion);
   }
 }
 

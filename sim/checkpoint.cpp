@@ -29,15 +29,10 @@ void each_field(Archive&& visit, F& flight) {
 
 template <class Archive, class C>
 void each_counter(Archive&& visit, C& counters, bool has_posts) {
-  visit(counters.impulses_rod_rod);
-  visit(counters.impulses_rod_base);
-  visit(counters.impulses_rod_lid);
-  visit(counters.max_overlap_rod_rod);
-  visit(counters.max_overlap_rod_plate);
-  visit(counters.impulses_rod_wall);
-  visit(counters.noise_kicks);
-  visit(counters.impacts_at_instant);
-  if (has_posts) visit(counters.impulses_rod_post);
+  const auto one = [&](auto& counter) {
+    if (has_posts || static_cast<const void*>(&counter) != &counters.impulses_rod_post) visit(counter);
+  };
+  std::apply([&](auto... field) { (one(counters.*field), ...); }, Counters::fields());
 }
 
 /// Calls visit(sum) for the ledger's sums in a fixed order.

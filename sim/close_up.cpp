@@ -14,15 +14,11 @@
 namespace shaken {
 namespace {
 
-std::optional<CloseUp::Rod> rod_at(const World& world, Tick tick, int rod, bool concerned) {
-  const Flight& flight = world.rods[static_cast<std::size_t>(rod)];
-  if (flight.since > tick) return {};
-  const double tau = static_cast<double>(tick - flight.since) * world.system.dt;
-  const Species& species = world.species_of(static_cast<std::size_t>(rod));
-  const double inertia_ratio = species.inertia_par / species.inertia_perp;
-  const Gravity gravity = world.system.gravity_on_plates();
-  const Pose pose = pose_after(flight, tau, gravity);
-  return CloseUp::Rod{rod, concerned, pose, motion_after(flight, tau, gravity, pose.director, inertia_ratio)};
+std::optional<CloseUp::Rod> rod_seen(const World& world, Tick tick, int rod, bool concerned) {
+  const auto i = static_cast<std::size_t>(rod);
+  if (world.rods[i].since > tick) return {};
+  const auto [pose, motion] = rod_at(world, i, tick);
+  return CloseUp::Rod{rod, concerned, pose, motion};
 }
 
 void add_plate_contacts(const World& world, const CloseUp::Rod& rod, CloseUp& out) {
@@ -104,7 +100,7 @@ CloseUp look_closely(const World& world, Tick tick, const std::vector<int>& conc
   std::vector<int> asked = concerned;
   std::sort(asked.begin(), asked.end());
   for (const int rod : asked) {
-    if (const auto state = rod_at(world, tick, rod, true)) {
+    if (const auto state = rod_seen(world, tick, rod, true)) {
       out.rods.push_back(*state);
     } else {
       out.unknown.push_back(rod);
@@ -119,7 +115,7 @@ CloseUp look_closely(const World& world, Tick tick, const std::vector<int>& conc
   }
 
   for (int other = 0; other < static_cast<int>(world.rods.size()); ++other) {
-    const auto state = rod_at(world, tick, other, false);
+    const auto state = rod_seen(world, tick, other, false);
     if (!state) continue;
     const bool is_asked = std::binary_search(asked.begin(), asked.end(), other);
     bool is_near = false;

@@ -221,7 +221,7 @@ inline Vec2 period_of(const Box& box, const std::optional<SideWalls>& walls) {
 }
 
 /// The physical system and how it is stepped: all that `make_world` needs. What to measure, record and draw is not
-/// the simulation's business and lives in scene/run_plan.h. The defaults are the paper's (Sharma & Soni 2024).
+/// the simulation's business and lives in scene/keys/run_plan.h. The defaults are the paper's (Sharma & Soni 2024).
 struct System {
   RodShape rod;
   int n_rods = 2109;                              ///< number of rods of this kind

@@ -58,25 +58,28 @@ Cell World::cell() const {
   return cell;
 }
 
+PoseAndMotion rod_at(const World& world, std::size_t i, Tick tick) {
+  const Flight& flight = world.rods[i];
+  const Gravity gravity = world.system.gravity_on_plates();
+  const double tau = static_cast<double>(tick - flight.since) * world.system.dt;
+  const Pose pose = pose_after(flight, tau, gravity);
+  return {pose, motion_after(flight, tau, gravity, pose.director, world.species_of(i).inertia_ratio)};
+}
+
 Snapshot snapshot(const World& world) {
   Snapshot out;
   out.tick = world.tick;
   out.time = static_cast<double>(world.tick) * world.system.dt;
   out.box = world.system.box();
   const std::size_t n = world.rods.size();
-  const Gravity gravity = world.system.gravity_on_plates();
   out.position.reserve(n);
   out.image.reserve(n);
   out.director.reserve(n);
   out.velocity.reserve(n);
   out.angular_velocity.reserve(n);
   for (std::size_t i = 0; i < n; ++i) {
-    const Flight& flight = world.rods[i];
-    const Species& species = world.species_of(i);
-    const double tau = static_cast<double>(world.tick - flight.since) * world.system.dt;
-    Pose pose = pose_after(flight, tau, gravity);
-    const Motion motion = motion_after(flight, tau, gravity, pose.director, species.inertia_par / species.inertia_perp);
-    auto image = flight.image;
+    auto [pose, motion] = rod_at(world, i, world.tick);
+    auto image = world.rods[i].image;
     wrap(pose.position.x(), image[0], out.box.x());
     wrap(pose.position.y(), image[1], out.box.y());
     out.position.push_back(pose.position);

@@ -5,6 +5,8 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include "sim/cell.h"
@@ -27,22 +29,29 @@ struct Counters {
   std::int64_t noise_kicks = 0;
   std::int64_t impacts_at_instant = 0;  ///< impulses given at their own instant within a tick
   double max_overlap_rod_rod = 0;       ///< deepest bead-bead overlap seen at a contact [mm]
-  double max_overlap_rod_plate = 0;     ///< deepest overlap of a bead with plate, wall or post seen at a contact [mm]
+  double max_overlap_rod_surface = 0;   ///< deepest overlap of a bead with plate, wall or post seen at a contact [mm]
   Ledger ledger;
 
+  /// All numbers but the ledger's, in the order of checkpoints, where those of a scene with posts have the last.
+  static constexpr auto fields() {
+    using C = Counters;
+    return std::tuple(&C::impulses_rod_rod, &C::impulses_rod_base, &C::impulses_rod_lid, &C::max_overlap_rod_rod,
+                      &C::max_overlap_rod_surface, &C::impulses_rod_wall, &C::noise_kicks, &C::impacts_at_instant,
+                      &C::impulses_rod_post);
+  }
+  /// Counts are added; of extremes the larger stays.
   void add(const Counters& more) {
-    impulses_rod_rod += more.impulses_rod_rod;
-    impulses_rod_base += more.impulses_rod_base;
-    impulses_rod_lid += more.impulses_rod_lid;
-    impulses_rod_wall += more.impulses_rod_wall;
-    impulses_rod_post += more.impulses_rod_post;
-    noise_kicks += more.noise_kicks;
-    impacts_at_instant += more.impacts_at_instant;
-    max_overlap_rod_rod = std::max(max_overlap_rod_rod, more.max_overlap_rod_rod);
-    max_overlap_rod_plate = std::max(max_overlap_rod_plate, more.max_overlap_rod_plate);
+    const auto join = [](auto& mine, auto its) {
+      if constexpr (std::is_integral_v<decltype(its)>) {
+        mine += its;
+      } else {
+        mine = std::max(mine, its);
+      }
+    };
+    std::apply([&](auto... field) { (join(this->*field, more.*field), ...); }, fields());
     ledger.add(more.ledger);
   }
-  double max_overlap() const { return std::max(max_overlap_rod_rod, max_overlap_rod_plate); }
+  double max_overlap() const { return std::max(max_overlap_rod_rod, max_overlap_rod_surface); }
 };
 
 /// Why a run had to end: never repaired, always reported.
@@ -70,6 +79,13 @@ struct World {
 
 /// The scene's species and plates at tick 0, without rods. Which rods are of which shape is drawn from the seed.
 World empty_world(const System& system);
+
+struct PoseAndMotion {
+  Pose pose;  ///< where the rod would be if the box had not been left since its flight began
+  Motion motion;
+};
+/// Of rod `i` at `tick`, at which it flies already.
+PoseAndMotion rod_at(const World& world, std::size_t i, Tick tick);
 
 /// Every rod evaluated at the world's tick.
 Snapshot snapshot(const World& world);

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/run_plan.h"
+#include "scene/keys/run_plan.h"
 #include "sim/world.h"
 
 namespace shaken::bench {

@@ -11,7 +11,7 @@
 #include "base/failure.h"
 #include "base/files.h"
 #include "bench/hard/hard.h"
-#include "scene/sweep.h"
+#include "scene/sweeps/sweep.h"
 #include "sim/balance.h"
 #include "sim/simulation.h"
 

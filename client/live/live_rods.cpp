@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "proto/cell_codec.h"
-#include "scene/cell_limits.h"
+#include "scene/keys/cell_limits.h"
 
 namespace shaken::client {
 namespace {

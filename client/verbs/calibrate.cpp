@@ -9,7 +9,7 @@
 #include "client/verbs/in_python.h"
 #include "client/verbs/verbs.h"
 #include "scene/canonical.h"
-#include "scene/derived.h"
+#include "scene/keys/derived.h"
 #include "scene/load.h"
 #include "scene/rods_of_species.h"
 

@@ -11,9 +11,9 @@
 #include "client/scene_input.h"
 #include "client/slurm_estimate.h"
 #include "client/verbs/verbs.h"
-#include "scene/accuracy_levels.h"
-#include "scene/derived.h"
-#include "scene/observables.h"
+#include "scene/keys/accuracy_levels.h"
+#include "scene/keys/derived.h"
+#include "scene/keys/observables.h"
 
 namespace shaken::client {
 namespace {

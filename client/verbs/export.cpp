@@ -14,7 +14,7 @@
 #include "run/export/frames.h"
 #include "run/files/directory.h"
 #include "run/files/foreign_file.h"
-#include "scene/observables.h"
+#include "scene/keys/observables.h"
 
 namespace shaken::client {
 namespace {

@@ -7,9 +7,9 @@
 #include <iterator>
 #include <numbers>
 
-#include "analysis/director_field.h"
+#include "analysis/geometry/director_field.h"
 #include "client/watch/rod_samples.h"
-#include "scene/measure_plan.h"
+#include "scene/keys/measure_plan.h"
 
 namespace shaken::client {
 namespace {

@@ -13,13 +13,13 @@
 #include "base/peak_memory.h"
 #include "base/scratch_folder.h"
 #include "proto/frame_codec.h"
-#include "run/effects.h"
-#include "run/messages.h"
-#include "run/movie_process.h"
-#include "run/open_run.h"
+#include "run/live/messages.h"
+#include "run/loop/effects.h"
+#include "run/loop/movie_process.h"
+#include "run/loop/open_run.h"
 #include "scene/canonical.h"
+#include "scene/keys/observables.h"
 #include "scene/length.h"
-#include "scene/observables.h"
 
 namespace shaken::run {
 namespace {

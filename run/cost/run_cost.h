@@ -8,7 +8,7 @@
 #include <string>
 
 #include "base/core/result.h"
-#include "scene/run_plan.h"
+#include "scene/keys/run_plan.h"
 #include "sim/simulation.h"
 
 namespace shaken::run {
@@ -61,8 +61,8 @@ struct RunCost {
 
 /// Goes on with `simulation`, of this plan's system, for about `cpu` seconds, or a tenth of the time that the run will
 /// take if that is less, and times once what the run does now and then beside stepping. At tick 0 half of `cpu` goes by
-/// before anything is timed. Bytes of measurements follow from the plan (scene/observables.h). Fails if the steps meet
-/// numerical trouble or the disk refuses. Files go to a temporary folder.
+/// before anything is timed. Bytes of measurements follow from the plan (scene/keys/observables.h). Fails if the steps
+/// meet numerical trouble or the disk refuses. Files go to a temporary folder.
 Result<RunCost> cost_of_run(const scene::RunPlan& plan, Simulation simulation, double cpu);
 
 /// What a plan calls for and, if it was probed, what that costs; what `shaken-worker --probe` writes:

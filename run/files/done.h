@@ -5,7 +5,7 @@
 #include <string>
 
 #include "run/files/directory.h"
-#include "scene/run_plan.h"
+#include "scene/keys/run_plan.h"
 
 namespace shaken::run {
 

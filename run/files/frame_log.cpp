@@ -16,7 +16,7 @@
 #include "base/core/state_io.h"
 #include "base/files.h"
 #include "run/files/hashed_bytes.h"
-#include "scene/cell_limits.h"
+#include "scene/keys/cell_limits.h"
 
 namespace shaken::run {
 namespace {

@@ -20,7 +20,7 @@ struct TrajectoryHeader {
   Provenance provenance{};
 };
 
-/// Nothing if a scene may have such rods (scene/cell_limits.h); else what is wrong.
+/// Nothing if a scene may have such rods (scene/keys/cell_limits.h); else what is wrong.
 Result<void> check(const TrajectoryHeader& header);
 
 /// Frames in a file of either kind.

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <string>
-#include <vector>
 
 namespace shaken::run {
 namespace {
@@ -24,23 +23,38 @@ Factor factor_of(std::string_view word) {
   return {symbol, digits == word.size() ? 1 : std::stoi(std::string(word.substr(digits)))};
 }
 
+/// Where the unit of a name begins, with the underscore in front: 5 of "total_mm2".
+std::size_t unit_begin(std::string_view name) {
+  std::size_t begin = name.size();
+  const auto word_before = [&] {
+    const std::size_t at = name.substr(0, begin).find_last_of("_/");
+    return at == std::string_view::npos || name[at] == '/' ? std::string_view() : name.substr(at + 1, begin - at - 1);
+  };
+  const auto pass_units = [&] {
+    while (factor_of(word_before()).power > 0) begin -= word_before().size() + 1;
+  };
+  pass_units();
+  if (begin < name.size() && word_before() == "per") {
+    begin -= 4;
+    pass_units();  // "s_per_mm"
+  }
+  return begin;
+}
+
 }  // namespace
 
 std::span<const std::string_view> unit_symbols() { return kSymbols; }
 
 std::string unit_of_name(std::string_view name) {
-  std::vector<std::string_view> words;
-  for (std::string_view rest = name.substr(name.find_last_of('/') + 1);; rest.remove_prefix(rest.find('_') + 1)) {
-    words.push_back(rest.substr(0, rest.find('_')));
-    if (rest.find('_') == std::string_view::npos) break;
-  }
-  std::size_t first = words.size();
-  while (first > 0 && factor_of(words[first - 1]).power > 0) --first;
-  const bool is_inverse = first > 0 && words[first - 1] == "per";
+  std::string_view words = name.substr(unit_begin(name));
+  const bool is_inverse = words.starts_with("_per");
   std::string unit;
-  for (std::size_t w = first; w < words.size(); ++w) {
-    const auto [symbol, power] = factor_of(words[w]);
-    const int signed_power = w == first && !is_inverse ? power : -power;
+  for (bool is_first = true; !words.empty(); is_first = false) {
+    words.remove_prefix(1);
+    const auto [symbol, power] = factor_of(words.substr(0, words.find('_')));
+    words.remove_prefix(std::min(words.size(), words.find('_')));
+    if (power == 0) continue;  // "per"
+    const int signed_power = is_first && !is_inverse ? power : -power;
     if (!unit.empty()) unit += ' ';
     unit += symbol;
     if (signed_power != 1) unit += std::to_string(signed_power);

@@ -12,7 +12,7 @@ std::span<const std::string_view> unit_symbols();
 
 /// The unit that the name of an array or number ends in, as H5MD writes units: "/velocity/c_v_mm2_s2" is in "mm2 s-2",
 /// "q_per_mm" in "mm-1"; "1" if it ends in none. The first unit of a name stands above the line and all that follow it
-/// below; after "per" all of them do.
+/// below, as do all after "per".
 std::string unit_of_name(std::string_view name);
 
 }  // namespace shaken::run

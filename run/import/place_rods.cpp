@@ -202,7 +202,7 @@ class PlacingRods {
       const Species& species = world.species[kind];
       Flight flight;
       begin_flight(flight, 0, poses_[k], {rods_[k].velocity, rods_[k].angular_velocity}, system().box(),
-                   species.inertia_par / species.inertia_perp);
+                   species.inertia_ratio);
       flight.image = {0, 0};
       placed_.n_still += is_still(flight) ? 1 : 0;
       world.rods.push_back(flight);

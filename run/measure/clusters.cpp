@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "analysis/blocked.h"
+#include "analysis/errors/blocked.h"
 #include "run/measure/estimates.h"
 #include "run/measure/measured.h"
 #include "run/measure/measurement_kinds.h"

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "analysis/collision_rates.h"
-#include "analysis/steady.h"
 #include "run/measure/estimates.h"
 #include "run/measure/measured.h"
 #include "run/measure/measurement_kinds.h"
@@ -24,17 +23,16 @@ constexpr std::array<std::pair<CollisionCount, const char*>, analysis::kCollisio
     {CollisionCount::kLostSurfaces, "power_lost_surfaces_pJ_s"},
 }};
 
-std::unique_ptr<Measurement> measure_collisions(const MeasureContext& context) {
+std::unique_ptr<Measurement> measure_collisions(const MeasureContext&) {
   const auto sample = [](const Sample& now, auto& series) { series.accumulate(now->time, now.totals().collisions); };
-  const auto reduce = [steady = context.plan.steady](Reduction& result, const auto& series) {
-    const auto numbers =
-        block_estimates(series.sums(), steady.value_or(result.t_steady), [](const analysis::CollisionSums& part) {
-          const analysis::CollisionRates rates = part.reduce();
-          std::vector<double> all(rates.begin(), rates.end());
-          const double of_rods = rates[static_cast<std::size_t>(CollisionCount::kRodRod)];
-          all.push_back(of_rods > 0 ? 1 / of_rods : analysis::kNaN);
-          return all;
-        });
+  const auto reduce = [](Reduction& result, const auto& series) {
+    const auto numbers = block_estimates(series.sums(), result.t_steady, [](const analysis::CollisionSums& part) {
+      const analysis::CollisionRates rates = part.reduce();
+      std::vector<double> all(rates.begin(), rates.end());
+      const double of_rods = rates[static_cast<std::size_t>(CollisionCount::kRodRod)];
+      all.push_back(of_rods > 0 ? 1 / of_rods : analysis::kNaN);
+      return all;
+    });
     result.arrays["/collisions/time_s"] = series.times();
     for (const auto& [count, name] : kCollisionNames) {
       result.arrays[std::string("/collisions/") + name] = series.of(count);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/region.h"
+#include "analysis/geometry/region.h"
 #include "run/measure/estimates.h"
 #include "run/measure/measure_defects.h"
 #include "run/measure/measured.h"

@@ -6,7 +6,7 @@
 #include "run/measure/estimates.h"
 #include "run/measure/measured.h"
 #include "run/measure/measurement_kinds.h"
-#include "scene/derived.h"
+#include "scene/keys/derived.h"
 
 namespace shaken::run {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "analysis/blocked.h"
-#include "analysis/estimate_curve.h"
-#include "analysis/jackknife.h"
+#include "analysis/errors/blocked.h"
+#include "analysis/errors/estimate_curve.h"
+#include "analysis/errors/jackknife.h"
 #include "run/measure/reduction.h"
 
 namespace shaken::run {

@@ -2,8 +2,7 @@
 #include <cmath>
 
 #include "analysis/flow_correlation.h"
-#include "analysis/region.h"
-#include "analysis/steady.h"
+#include "analysis/geometry/region.h"
 #include "run/measure/estimates.h"
 #include "run/measure/measured.h"
 #include "run/measure/measurement_kinds.h"
@@ -15,14 +14,12 @@ std::unique_ptr<Measurement> measure_flow(const MeasureContext& context) {
   const System& system = context.plan.system;
   const analysis::Region region(system.box(), system.walls);
   const double two_diameters = 4 * context.species.max_radius;
-  const auto sample = [region, steady = context.plan.steady](const Sample& now, auto& flow) {
-    if (!analysis::is_steady(now->time, steady.value_or(0.0))) return;
+  const auto sample = [region](const Sample& now, auto& flow) {
     flow.accumulate(now->time, now->position, now.unwrapped(), now.order().director, region);
   };
-  const auto reduce = [steady = context.plan.steady](Reduction& result, const auto& flow) {
-    const double from = steady.value_or(result.t_steady);
-    const analysis::FlowCurve curve = flow.sums().after(from).reduce();
-    const auto errors = block_errors(flow.sums(), from, [](const analysis::FlowSums& part) {
+  const auto reduce = [](Reduction& result, const auto& flow) {
+    const analysis::FlowCurve curve = flow.sums().after(result.t_steady).reduce();
+    const auto errors = block_errors(flow.sums(), result.t_steady, [](const analysis::FlowSums& part) {
       const analysis::FlowCurve found = part.reduce();
       return std::vector{found.c, found.along, found.across};
     });
@@ -30,7 +27,7 @@ std::unique_ptr<Measurement> measure_flow(const MeasureContext& context) {
     put(result, "/flow/c", "", analysis::EstimateCurve{curve.c, errors[0]});
     put(result, "/flow/c_along", "", analysis::EstimateCurve{curve.along, errors[1]});
     put(result, "/flow/c_across", "", analysis::EstimateCurve{curve.across, errors[2]});
-    const auto numbers = block_estimates(flow.sums(), from, [](const analysis::FlowSums& part) {
+    const auto numbers = block_estimates(flow.sums(), result.t_steady, [](const analysis::FlowSums& part) {
       const analysis::FlowCurve found = part.reduce();
       return std::vector<double>{found.near, found.length};
     });
@@ -48,6 +45,7 @@ MeasurementKind flow_kind() {
       .name = "flow",
       .sources = "flow_correlation, region",
       .make = measure_flow,
+      .only_steady = true,
       .arrays =
           {
               called("distance", "r", {"r_mm", "bin centres"}),

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "analysis/blocked.h"
+#include "analysis/errors/blocked.h"
 #include "analysis/number_fluctuations.h"
 #include "run/measure/estimates.h"
 #include "run/measure/measured.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "analysis/g2.h"
 
-#include "analysis/blocked.h"
-#include "analysis/region.h"
+#include "analysis/errors/blocked.h"
+#include "analysis/geometry/region.h"
 #include "run/measure/estimates.h"
 #include "run/measure/measured.h"
 #include "run/measure/measurement_kinds.h"

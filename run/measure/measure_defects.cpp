@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "analysis/director_field.h"
+#include "analysis/geometry/director_field.h"
 #include "run/measure/estimates.h"
 #include "run/measure/measurement_kinds.h"
 

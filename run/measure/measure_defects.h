@@ -6,7 +6,7 @@
 
 #include "analysis/defect_series.h"
 #include "analysis/defect_tracks.h"
-#include "analysis/region.h"
+#include "analysis/geometry/region.h"
 #include "run/measure/measurement.h"
 
 namespace shaken::run {

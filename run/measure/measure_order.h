@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "analysis/blocked.h"
+#include "analysis/errors/blocked.h"
 #include "analysis/order.h"
 #include "analysis/order_statistics.h"
 #include "run/measure/measurement.h"

@@ -4,7 +4,7 @@
 #include "base/core/state_io.h"
 #include "run/measure/reduction.h"
 #include "run/measure/sample.h"
-#include "scene/run_plan.h"
+#include "scene/keys/run_plan.h"
 #include "sim/cell.h"
 #include "sim/rod/species.h"
 

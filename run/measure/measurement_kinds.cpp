@@ -10,8 +10,8 @@
 #include <regex>
 #include <sstream>
 
-#include "scene/fields.h"
-#include "scene/observables.h"
+#include "scene/keys/fields.h"
+#include "scene/keys/observables.h"
 
 namespace shaken::run {
 
@@ -30,7 +30,7 @@ std::optional<Cadence> MeasurementKind::cadence(const scene::RunPlan& plan) cons
   const std::optional<double> period = every(plan);
   if (!period) return std::nullopt;
   const System& system = plan.system;
-  if (is_spread != nullptr && is_spread(plan)) return Cadence::spread(*period, system.dt, system.seed);
+  if (scene::observable(name).is_spread(plan)) return Cadence::spread(*period, system.dt, system.seed);
   return Cadence(*period, system.dt);
 }
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "run/cadence.h"
+#include "run/measure/cadence.h"
 #include "run/measure/measurement.h"
 
 namespace shaken::run {
@@ -47,9 +47,10 @@ constexpr Output over(std::string_view key, Output output, int times = 1) {
 
 /// One thing that can be measured, the block "measure.NAME" of a scene, and all that becomes of it.
 struct MeasurementKind {
-  std::string_view name;     ///< as in scene/observables.cpp
+  std::string_view name;     ///< as in scene/keys/observables.cpp
   std::string_view sources;  ///< files of analysis/, "tilt, tilt_summary"
   std::unique_ptr<Measurement> (*make)(const MeasureContext&) = nullptr;
+  bool only_steady = false;  ///< samples before a given time.steady are left out
   std::vector<Output> arrays = {};
   /// A group of arrays, or one of them, and those that it is measured at, the slowest first, as in {"area_fraction",
   /// "time_s y_mm x_mm"}. All others are measured at the first array of their group.
@@ -57,12 +58,10 @@ struct MeasurementKind {
   std::vector<Output> numbers = {};
   /// Names of arrays and numbers that need an axis, where others of the same measurement do not: spheres lack them.
   std::vector<std::string_view> of_axis = {};
-  /// Whether samples are spread over their intervals, because they depend on the phase of the vibration; null: no.
-  bool (*is_spread)(const scene::RunPlan&) = nullptr;
 
   /// The period asked for [s]; none: it is not measured (Observable::period).
   std::optional<double> every(const scene::RunPlan& plan) const;
-  /// When samples are taken; none: it is not measured.
+  /// When samples are taken: spread over their intervals where Observable::is_spread. None: it is not measured.
   std::optional<Cadence> cadence(const scene::RunPlan& plan) const;
 
   /// Names of the arrays that one is measured at, the slowest first; none of an axis itself.

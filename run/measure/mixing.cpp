@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/blocked.h"
-#include "analysis/region.h"
+#include "analysis/errors/blocked.h"
+#include "analysis/geometry/region.h"
 #include "run/measure/estimates.h"
 #include "run/measure/measured.h"
 #include "run/measure/measurement_kinds.h"

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "analysis/steady.h"
 #include "run/measure/estimates.h"
 #include "run/measure/measured.h"
 #include "run/measure/measurement_kinds.h"
@@ -17,14 +16,11 @@ Scalar read_off(const analysis::Estimate& estimate, const analysis::GrowthFit& f
 }
 
 std::unique_ptr<Measurement> measure_msd(const MeasureContext& context) {
-  const auto sample = [steady = context.plan.steady](const Sample& now, auto& msd) {
-    if (!analysis::is_steady(now->time, steady.value_or(0.0))) return;
+  const auto sample = [](const Sample& now, auto& msd) {
     msd.accumulate(now->time, now.unwrapped(), now.order().director);
   };
-  const auto reduce = [n_rods = context.plan.system.n_rods, steady = context.plan.steady](Reduction& result,
-                                                                                          const auto& msd) {
-    const double from = steady.value_or(result.t_steady);
-    const analysis::MsdCurve curve = msd.reduce(from);
+  const auto reduce = [n_rods = context.plan.system.n_rods](Reduction& result, const auto& msd) {
+    const analysis::MsdCurve curve = msd.reduce(result.t_steady);
     result.arrays["/msd/lag_s"] = curve.lag;
     put(result, "/msd/total", "_mm2", curve.total);
     put(result, "/msd/along", "_mm2", curve.along);
@@ -36,7 +32,7 @@ std::unique_ptr<Measurement> measure_msd(const MeasureContext& context) {
     put(result, "/msd/d_total", "_mm2_s", curve.d_total);
     put(result, "/msd/d_along", "_mm2_s", curve.d_along);
     put(result, "/msd/d_across", "_mm2_s", curve.d_across);
-    const analysis::Diffusion diffusion = msd.diffusion(from);
+    const analysis::Diffusion diffusion = msd.diffusion(result.t_steady);
     const analysis::ShortAndLong &total = diffusion.total, &along = diffusion.along, &across = diffusion.across;
     result.scalars["diffusion_mm2_s"] = read_off(diffusion.d_long, total.at_long);
     result.scalars["diffusion_short_mm2_s"] = read_off(diffusion.d_short, total.at_short);
@@ -67,6 +63,7 @@ MeasurementKind msd_kind() {
       .name = "msd",
       .sources = "msd, lag_fits, lag_average",
       .make = measure_msd,
+      .only_steady = true,
       .arrays =
           {
               called("lag", "t", {"lag_s", "lags"}),

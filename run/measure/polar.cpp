@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "analysis/blocked.h"
+#include "analysis/errors/blocked.h"
 #include "analysis/polar_order.h"
 #include "run/measure/estimates.h"
 #include "run/measure/measured.h"
@@ -62,7 +62,6 @@ MeasurementKind polar_kind() {
               {"velocity_polarity",
                "speed of the mean velocity over the mean speed: 1 where all rods move the same way"},
           },
-      .is_spread = [](const scene::RunPlan& plan) { return plan.polar->phases == scene::SamplePhases::kSpread; },
   };
 }
 

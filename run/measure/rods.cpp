@@ -2,7 +2,6 @@
 #include <string>
 
 #include "analysis/rod_traces.h"
-#include "analysis/steady.h"
 #include "run/measure/measured.h"
 #include "run/measure/measurement_kinds.h"
 
@@ -11,8 +10,7 @@ namespace {
 
 std::unique_ptr<Measurement> measure_rods(const MeasureContext& context) {
   const scene::MeasureRods& settings = *context.plan.rods;
-  const auto sample = [from = context.plan.steady.value_or(0.0)](const Sample& now, auto& traces) {
-    if (!analysis::is_steady(now->time, from)) return;
+  const auto sample = [](const Sample& now, auto& traces) {
     traces.accumulate(now->time, now.unwrapped(), now->director);
   };
   const auto reduce = [](Reduction& result, const auto& traces) {
@@ -36,6 +34,7 @@ MeasurementKind rods_kind() {
       .name = "rods",
       .sources = "rod_traces",
       .make = measure_rods,
+      .only_steady = true,
       .arrays =
           {
               {"trace/time_s", "times of the samples of single rods"},

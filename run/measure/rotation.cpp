@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "analysis/rotation.h"
 
-#include "analysis/steady.h"
 #include "run/measure/estimates.h"
 #include "run/measure/measured.h"
 #include "run/measure/measurement_kinds.h"
@@ -10,17 +9,13 @@ namespace shaken::run {
 namespace {
 
 std::unique_ptr<Measurement> measure_rotation(const MeasureContext& context) {
-  const auto sample = [steady = context.plan.steady](const Sample& now, auto& rotation) {
-    if (!analysis::is_steady(now->time, steady.value_or(0.0))) return;
-    rotation.accumulate(now->time, now->director);
-  };
-  const auto reduce = [steady = context.plan.steady](Reduction& result, const auto& rotation) {
-    const double from = steady.value_or(result.t_steady);
-    const analysis::RotationCurve curve = rotation.reduce(from);
+  const auto sample = [](const Sample& now, auto& rotation) { rotation.accumulate(now->time, now->director); };
+  const auto reduce = [](Reduction& result, const auto& rotation) {
+    const analysis::RotationCurve curve = rotation.reduce(result.t_steady);
     result.arrays["/rotation/lag_s"] = curve.lag;
     put(result, "/rotation/msad", "_rad2", curve.msad);
     put(result, "/rotation/c2", "", curve.c2);
-    const analysis::RotationSummary summary = rotation.summarize(from);
+    const analysis::RotationSummary summary = rotation.summarize(result.t_steady);
     result.scalars["rotational_diffusion_rad2_s"] = scalar(summary.d_r);
     result.scalars["alpha_rotation_short"] = scalar(summary.growth.at_short.exponent);
     result.scalars["alpha_rotation_long"] = scalar(summary.growth.at_long.exponent);
@@ -42,6 +37,7 @@ MeasurementKind rotation_kind() {
       .name = "rotation",
       .sources = "rotation, lag_fits, lag_average",
       .make = measure_rotation,
+      .only_steady = true,
       .arrays =
           {
               called("lag", "t", {"lag_s", "lags"}),

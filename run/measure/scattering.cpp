@@ -2,7 +2,6 @@
 #include <string>
 
 #include "analysis/self_scattering.h"
-#include "analysis/steady.h"
 #include "run/measure/estimates.h"
 #include "run/measure/measured.h"
 #include "run/measure/measurement_kinds.h"
@@ -22,12 +21,11 @@ analysis::EstimateCurve row_by_row(const std::array<analysis::EstimateCurve, ana
 
 std::unique_ptr<Measurement> measure_scattering(const MeasureContext& context) {
   const double wavelength = context.plan.scattering->wavelength_for(context.plan.system.rod.length);
-  const auto sample = [steady = context.plan.steady](const Sample& now, auto& scattering) {
-    if (!analysis::is_steady(now->time, steady.value_or(0.0))) return;
+  const auto sample = [](const Sample& now, auto& scattering) {
     scattering.accumulate(now->time, now.unwrapped(), now.order().director);
   };
-  const auto reduce = [steady = context.plan.steady](Reduction& result, const auto& scattering) {
-    const analysis::ScatteringCurve curve = scattering.reduce(steady.value_or(result.t_steady));
+  const auto reduce = [](Reduction& result, const auto& scattering) {
+    const analysis::ScatteringCurve curve = scattering.reduce(result.t_steady);
     result.arrays["/scattering/q_per_mm"] = scattering.wave_numbers();
     result.arrays["/scattering/lag_s"] = curve.lag;
     put(result, "/scattering/f", "", row_by_row(curve.mean));
@@ -55,6 +53,7 @@ MeasurementKind scattering_kind() {
       .name = "scattering",
       .sources = "self_scattering, lag_average",
       .make = measure_scattering,
+      .only_steady = true,
       .arrays =
           {
               called("wave number", "q", {"q_per_mm", "(4) wave numbers q"}),

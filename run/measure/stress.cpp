@@ -19,12 +19,11 @@ std::unique_ptr<Measurement> measure_stress(const MeasureContext& context) {
   const auto sample = [area](const Sample& now, auto& series) {
     series.accumulate(now->time, now.totals().stress, area, now.order().director);
   };
-  const auto reduce = [n_rods, steady = context.plan.steady](Reduction& result, const auto& series) {
-    const auto numbers =
-        block_estimates(series.sums(), steady.value_or(result.t_steady), [&](const analysis::PressureSums& part) {
-          const analysis::Pressure p = part.reduce(n_rods);
-          return std::vector<double>{p.kinetic + p.collisional, p.collisional, p.along, p.across};
-        });
+  const auto reduce = [n_rods](Reduction& result, const auto& series) {
+    const auto numbers = block_estimates(series.sums(), result.t_steady, [&](const analysis::PressureSums& part) {
+      const analysis::Pressure p = part.reduce(n_rods);
+      return std::vector<double>{p.kinetic + p.collisional, p.collisional, p.along, p.across};
+    });
     result.arrays["/stress/time_s"] = series.times();
     for (std::size_t k = 0; k < kComponents.size(); ++k) {
       result.arrays[std::string("/stress/kinetic_") + kComponents[k] + "_pJ_mm2"] = series.kinetic(k);
@@ -70,7 +69,6 @@ MeasurementKind stress_kind() {
               called("pressure across the director", "p_⊥", {"pressure_across_pJ_mm2", "that across it"}),
           },
       .of_axis = {"pressure_along_pJ_mm2", "pressure_across_pJ_mm2"},
-      .is_spread = [](const scene::RunPlan& plan) { return plan.stress->phases == scene::SamplePhases::kSpread; },
   };
 }
 

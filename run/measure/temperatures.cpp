@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "analysis/blocked.h"
+#include "analysis/errors/blocked.h"
 #include "run/measure/estimates.h"
 #include "run/measure/measured.h"
 #include "run/measure/measurement_kinds.h"
@@ -98,7 +98,6 @@ MeasurementKind temperatures_kind() {
       .of_axis = {"along_pJ", "across_pJ", "turning_pJ", "tipping_pJ", "spinning_pJ", "temperature_along_pJ",
                   "temperature_across_pJ", "temperature_turning_pJ", "temperature_tipping_pJ",
                   "temperature_spinning_pJ"},
-      .is_spread = [](const scene::RunPlan& plan) { return plan.temperatures->phases == scene::SamplePhases::kSpread; },
   };
 }
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "analysis/blocked.h"
+#include "analysis/errors/blocked.h"
 #include "analysis/tilt_summary.h"
 #include "analysis/tilt_switches.h"
 #include "run/measure/estimates.h"
@@ -84,7 +84,6 @@ MeasurementKind tilt_kind() {
                "below about 3 none is seen",
                false, "the mean velocity does not change its sign beyond its largest value"},
           },
-      .is_spread = [](const scene::RunPlan& plan) { return plan.tilt->phases == scene::SamplePhases::kSpread; },
   };
 }
 

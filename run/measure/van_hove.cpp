@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "analysis/van_hove.h"
 
-#include "analysis/steady.h"
 #include "run/measure/estimates.h"
 #include "run/measure/measured.h"
 #include "run/measure/measurement_kinds.h"
@@ -12,12 +11,10 @@ namespace {
 std::unique_ptr<Measurement> measure_van_hove(const MeasureContext& context) {
   const scene::MeasureVanHove& settings = *context.plan.van_hove;
   const double range = settings.range_for(context.plan.system.rod.length);
-  const auto sample = [steady = context.plan.steady](const Sample& now, auto& van_hove) {
-    if (!analysis::is_steady(now->time, steady.value_or(0.0))) return;
+  const auto sample = [](const Sample& now, auto& van_hove) {
     van_hove.accumulate(now->time, now.unwrapped(), now.order().director);
   };
-  const auto reduce = [steady = context.plan.steady](Reduction& result, const auto& van_hove) {
-    const double from = steady.value_or(result.t_steady);
+  const auto reduce = [](Reduction& result, const auto& van_hove) {
     // Rows by lag, one behind the other.
     std::vector<double> lags, displacements;
     analysis::EstimateCurve along, across, distance;
@@ -26,7 +23,7 @@ std::unique_ptr<Measurement> measure_van_hove(const MeasureContext& context) {
       lags.push_back(van_hove.lag(k));
       const std::vector<double> centres = samples.empty().reduce().displacement;
       displacements.insert(displacements.end(), centres.begin(), centres.end());
-      const auto points = block_estimates(samples, from, [](const analysis::DisplacementHistogram& part) {
+      const auto points = block_estimates(samples, result.t_steady, [](const analysis::DisplacementHistogram& part) {
         const analysis::DisplacementCurve found = part.reduce();
         std::vector<double> all = found.along;
         all.insert(all.end(), found.across.begin(), found.across.end());
@@ -56,6 +53,7 @@ MeasurementKind van_hove_kind() {
       .name = "van_hove",
       .sources = "van_hove",
       .make = measure_van_hove,
+      .only_steady = true,
       .arrays =
           {
               {"lag_s", "(lags) lags, at most four"},

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 
-#include "analysis/steady.h"
 #include "analysis/velocity_correlation.h"
 #include "run/measure/estimates.h"
 #include "run/measure/measured.h"
@@ -11,13 +10,11 @@ namespace shaken::run {
 namespace {
 
 std::unique_ptr<Measurement> measure_velocity(const MeasureContext& context) {
-  const auto sample = [steady = context.plan.steady](const Sample& now, auto& velocity) {
-    if (!analysis::is_steady(now->time, steady.value_or(0.0))) return;
+  const auto sample = [](const Sample& now, auto& velocity) {
     velocity.accumulate(now->time, now.unwrapped(), now.order().director);
   };
-  const auto reduce = [steady = context.plan.steady](Reduction& result, const auto& velocity) {
-    const double from = steady.value_or(result.t_steady);
-    const analysis::VelocityCurve curve = velocity.reduce(from);
+  const auto reduce = [](Reduction& result, const auto& velocity) {
+    const analysis::VelocityCurve curve = velocity.reduce(result.t_steady);
     result.arrays["/velocity/lag_s"] = curve.lag;
     put(result, "/velocity/c_v", "", curve.c_v);
     put(result, "/velocity/c_v_along", "", curve.along);
@@ -26,7 +23,7 @@ std::unique_ptr<Measurement> measure_velocity(const MeasureContext& context) {
     put(result, "/velocity/product_along", "_mm2_s2", curve.product_along);
     put(result, "/velocity/product_across", "_mm2_s2", curve.product_across);
     put(result, "/velocity/direction", "", curve.direction);
-    const analysis::VelocitySummary summary = velocity.summarize(from);
+    const analysis::VelocitySummary summary = velocity.summarize(result.t_steady);
     result.scalars["velocity_correlation_s"] = scalar(summary.correlation_time);
     result.scalars["velocity_decay_s"] = scalar(summary.decay_time);
     result.scalars["velocity_variance_along_mm2_s2"] = scalar(summary.mean_square_along);
@@ -48,6 +45,7 @@ MeasurementKind velocity_kind() {
       .name = "velocity",
       .sources = "velocity_correlation, lag_average",
       .make = measure_velocity,
+      .only_steady = true,
       .arrays =
           {
               called("lag", "t", {"lag_s", "lags"}),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include "scene/observables.h"
+#include "scene/keys/observables.h"
 #include "scene/resolve/steps.h"
 
 namespace shaken::scene {

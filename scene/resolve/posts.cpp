@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "scene/derived.h"
+#include "scene/keys/derived.h"
 #include "scene/resolve/steps.h"
 #include "sim/rod/species.h"
 

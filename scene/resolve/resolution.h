@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene/fields.h"
+#include "scene/keys/fields.h"
 
 namespace shaken::scene {
 

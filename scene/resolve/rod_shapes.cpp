@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/derived.h"
+#include "scene/keys/derived.h"
 #include "scene/resolve/steps.h"
 #include "sim/rod/sizes.h"
 #include "sim/rod/species.h"

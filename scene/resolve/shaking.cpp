@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include "scene/derived.h"
+#include "scene/keys/derived.h"
 #include "scene/resolve/steps.h"
 
 namespace shaken::scene {

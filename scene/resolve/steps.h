@@ -3,9 +3,9 @@
 
 #include "scene/resolve/resolution.h"
 
-/// The steps of resolving, file by file; scene/resolve.cpp calls them in their order. Each takes up what those before
-/// it have made of the plan, and reports what is wrong. One that returns a bool returns false where others could not
-/// build on its part: there was a problem with it, or with the values that it is made of.
+/// The steps of resolving, file by file; scene/resolve/resolve.cpp calls them in their order. Each takes up what those
+/// before it have made of the plan, and reports what is wrong. One that returns a bool returns false where others could
+/// not build on its part: there was a problem with it, or with the values that it is made of.
 namespace shaken::scene {
 
 // rod_shapes.cpp

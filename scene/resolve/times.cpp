@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/accuracy_levels.h"
-#include "scene/derived.h"
+#include "scene/keys/accuracy_levels.h"
+#include "scene/keys/derived.h"
 #include "scene/resolve/steps.h"
 #include "sim/rod/species.h"
 

@@ -14,7 +14,7 @@
 #include "base/files.h"
 #include "base/slurm_conf.h"
 #include "base/text.h"
-#include "scene/slurm_settings.h"
+#include "scene/sweeps/slurm_settings.h"
 
 namespace shaken::server::slurm {
 namespace {

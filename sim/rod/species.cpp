@@ -199,6 +199,7 @@ Species make_species(const RodShape& shape) {
     species.inertia_par = species.mass * 0.4 * beads.r5 / beads.r3;
     species.inertia_perp = species.mass * (0.4 * beads.r5 + beads.r3x2) / beads.r3;
   }
+  species.inertia_ratio = species.inertia_par / species.inertia_perp;
   return species;
 }
 

@@ -35,6 +35,7 @@ struct Species {
   double mass = 0;                  ///< [mg]
   double inertia_perp = 0;          ///< about an axis through the centre, across the rod [mg mm^2]
   double inertia_par = 0;           ///< about the rod's axis [mg mm^2]
+  double inertia_ratio = 0;         ///< I_par / I_perp
 
   int n_beads() const { return static_cast<int>(bead_offset.size()); }
   /// Distance of neighbouring beads [mm]; 1 for a sphere.

@@ -6,7 +6,6 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "base/core/types.h"
@@ -91,11 +90,13 @@ class GapBudgets {
   /// Returns a bit for each lane that is overspent.
   std::uint32_t spend_from(Block& block, const VelocityJump& jump, Tick now) const;
 
-  Block& block(int rod, int lane) { return const_cast<Block&>(std::as_const(*this).block(rod, lane)); }
-  const Block& block(int rod, int lane) const {
-    if (lane < kInBlock) return first_[rod];
-    return further_[static_cast<std::size_t>(rod) * n_further_ + static_cast<std::size_t>(lane / kInBlock - 1)];
+  template <class Budgets>
+  static auto& block_of(Budgets& of, int rod, int lane) {
+    if (lane < kInBlock) return of.first_[rod];
+    return of.further_[static_cast<std::size_t>(rod) * of.n_further_ + static_cast<std::size_t>(lane / kInBlock - 1)];
   }
+  Block& block(int rod, int lane) { return block_of(*this, rod, lane); }
+  const Block& block(int rod, int lane) const { return block_of(*this, rod, lane); }
   static Block empty_block();
   void widen();
 

@@ -119,7 +119,7 @@ class Compression {
       Rng rng(system_.seed, RngStream::kVelocity, 1, static_cast<std::uint64_t>(i));
       push_at_start(flight, system_, rng);
       const Species& species = world_.species_of(i);
-      motions_[i] = motion_after(flight, 0.0, Gravity(), flight.director, species.inertia_par / species.inertia_perp);
+      motions_[i] = motion_after(flight, 0.0, Gravity(), flight.director, species.inertia_ratio);
     }
     fly_anew_in(loose.box_side, loose.gap);
     return run();
@@ -224,8 +224,7 @@ class Compression {
       const Species& species = world_.species_of(i);
       const double tau = static_cast<double>(world_.tick - world_.rods[i].since) * world_.system.dt;
       poses_.push_back(pose_after(world_.rods[i], tau, 0.0));
-      motions_.push_back(
-          motion_after(world_.rods[i], tau, 0.0, poses_.back().director, species.inertia_par / species.inertia_perp));
+      motions_.push_back(motion_after(world_.rods[i], tau, 0.0, poses_.back().director, species.inertia_ratio));
     }
   }
 
@@ -315,8 +314,7 @@ class Compression {
       pose.position.y() *= wide;
       pose.position.z() *= high;
       const Species& species = world_.species_of(i);
-      begin_flight(world_.rods[i], 0, pose, motions_[i], world_.system.box(),
-                   species.inertia_par / species.inertia_perp);
+      begin_flight(world_.rods[i], 0, pose, motions_[i], world_.system.box(), species.inertia_ratio);
     }
     world_.tick = 0;
   }

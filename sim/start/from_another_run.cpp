@@ -91,16 +91,13 @@ RodsLeft rods_left(const World& world, const World& left) {
   RodsLeft rods;
   rods.poses.reserve(left.rods.size());
   rods.motions.reserve(left.rods.size());
-  const Gravity gravity = left.system.gravity_on_plates();
   std::vector<std::size_t> next(world.species.size(), 0);  // of each shape, where to look for its next rod
   for (const std::uint8_t kind : world.shape_of_rod) {
     std::size_t& from = next[kind];
     while (left.shape_of_rod[from] != kind) ++from;
-    const Flight& flight = left.rods[from++];
-    const double ratio = world.species[kind].inertia_par / world.species[kind].inertia_perp;
-    const double tau = static_cast<double>(left.tick - flight.since) * left.system.dt;
-    rods.poses.push_back(pose_after(flight, tau, gravity));
-    rods.motions.push_back(motion_after(flight, tau, gravity, rods.poses.back().director, ratio));
+    const PoseAndMotion rod = rod_at(left, from++, left.tick);
+    rods.poses.push_back(rod.pose);
+    rods.motions.push_back(rod.motion);
   }
   return rods;
 }
@@ -120,7 +117,7 @@ Result<World> make_world(const System& system, const World& left) {
       Rng rng(system.seed, RngStream::kKicks, 0, static_cast<std::uint64_t>(i));
       for (double& component : motions[i].velocity) component *= 1.0 + kKick * rng.normal();
     }
-    begin_flight(world.rods[i], 0, poses[i], motions[i], system.box(), species.inertia_par / species.inertia_perp);
+    begin_flight(world.rods[i], 0, poses[i], motions[i], system.box(), species.inertia_ratio);
     world.rods[i].image = {0, 0};
   }
   world.start = content(world);

@@ -5,8 +5,7 @@
 
 #include "base/core/check.h"
 #include "sim/balance.h"
-#include "sim/contact/bead_contacts.h"
-#include "sim/neighbors/neighbor_list.h"
+#include "sim/overlaps.h"
 #include "sim/start/aligned_rods.h"
 #include "sim/start/placement.h"
 #include "sim/start/random_rods.h"
@@ -22,21 +21,7 @@ Result<std::vector<Flight>> initial_flights(const System& system, std::span<cons
   if (const double least = least_box_side(species); system.box().shorter() < least * (1.0 - 1e-9)) {
     return Error{"the box is too small: rods might meet two images of another below " + std::to_string(least) + " mm"};
   }
-  auto flights = system.start == Start::kAligned ? aligned_rods(rods) : random_rods(rods, directors);
-  if (!flights) return flights;
-
-  // what was promised is checked, not believed
-  std::vector<Pose> poses;
-  for (const Flight& flight : *flights) poses.push_back({flight.position, flight.director});
-  NeighborList neighbors(species, shape_of_rod, system.box(), 0.01);
-  neighbors.build(poses);
-  std::vector<BeadContact> contacts;
-  for (const auto& [i, j] : neighbors.pairs()) {
-    find_bead_contacts(rods.species_of(i), poses[i].director, rods.species_of(j), poses[j].director,
-                       nearest_image(poses[i].position, poses[j].position, system.box()), contacts);
-  }
-  SHAKEN_CHECK(contacts.empty(), std::to_string(contacts.size()) + " overlaps in the initial state");
-  return flights;
+  return system.start == Start::kAligned ? aligned_rods(rods) : random_rods(rods, directors);
 }
 
 Result<World> make_world(const System& system) { return make_world_along(system, {}); }
@@ -46,6 +31,11 @@ Result<World> make_world_along(const System& system, const DirectorAt& directors
   auto flights = initial_flights(system, world.species, world.shape_of_rod, directors);
   if (!flights) return flights.error();
   world.rods = std::move(flights).value();
+  // what was promised is checked, not believed
+  std::vector<Pose> poses;
+  for (const Flight& flight : world.rods) poses.push_back({flight.position, flight.director});
+  const std::size_t n_overlaps = find_overlaps(world, world.shape_of_rod, poses).size();
+  SHAKEN_CHECK(n_overlaps == 0, std::to_string(n_overlaps) + " overlaps in the initial state");
   world.start = content(world);
   return world;
 }

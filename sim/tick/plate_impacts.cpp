@@ -394,7 +394,7 @@ void PlateHits::count(int lane, Counters& counters) const {
   for (int plate = 0; plate < 2; ++plate) {
     if (!meets(lane, plate)) continue;
     const OfPlate& hit = of_plate[plate];
-    counters.max_overlap_rod_plate = std::max(counters.max_overlap_rod_plate, hit.overlap[lane]);
+    counters.max_overlap_rod_surface = std::max(counters.max_overlap_rod_surface, hit.overlap[lane]);
     if (!is_hit(lane, plate)) continue;
     ++(plate == 0 ? counters.impulses_rod_base : counters.impulses_rod_lid);
     counters.ledger.lost_surfaces.add(hit.lost[lane]);

@@ -162,7 +162,7 @@ struct PlateVisit {
   /// What a plate does to a bead that is in it. `side`: +1: base, pushes up; -1: lid, pushes down.
   void meet(double side, int bead, double overlap) {
     evaluate_motion(rod, flight, now, species, rules);
-    counters.max_overlap_rod_plate = std::max(counters.max_overlap_rod_plate, overlap);
+    counters.max_overlap_rod_surface = std::max(counters.max_overlap_rod_surface, overlap);
     double speed = 0;  // of the hit
     if (species.has_rotational_noise()) {
       const Vec3 arm = species.bead_offset[bead] * rod.pose.director - species.bead_radius[bead] * side * Vec3::UnitZ();
@@ -250,7 +250,7 @@ struct UprightVisit {
       if (overlap > kMaxOverlapFraction * std::min(thinnest, species.bead_radius[bead]))
         return too_deep(now, index, bead, overlap, name);
       evaluate_motion(rod, flight, now, species, rules);
-      counters.max_overlap_rod_plate = std::max(counters.max_overlap_rod_plate, overlap);
+      counters.max_overlap_rod_surface = std::max(counters.max_overlap_rod_surface, overlap);
       Vec3 normal = Vec3::Zero();
       see_from(bead, see, [&](int surface, const WallSeen& seen) {
         if (n * bead + surface == deepest.item()) normal = seen.normal;

@@ -33,12 +33,8 @@ namespace shaken {
 
 /// A species with what impulses need to know of it and its contacts.
 struct SpeciesMechanics : Species {
-  explicit SpeciesMechanics(const Species& species)
-      : Species(species),
-        inverse(inverse_inertia(species)),
-        inertia_ratio(species.inertia_par / species.inertia_perp) {}
+  explicit SpeciesMechanics(const Species& species) : Species(species), inverse(inverse_inertia(species)) {}
   InverseInertia inverse;
-  double inertia_ratio;  ///< I_par / I_perp
   ContactParameters base{}, lid{}, wall{}, post{};
   std::array<ContactParameters, kMostSpecies> rods{};  ///< with each species
   std::size_t number = 0;                              ///< of the species, among those

@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "base/scratch_folder.h"
-#include "scene/sweep.h"
+#include "scene/sweeps/sweep.h"
 #include "server/submission.h"
 #include "tests/fuzz/fuzz_target.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The text of a scene file: what is taken, reads as itself once more.
 #include "scene/canonical.h"
+#include "scene/keys/observables.h"
 #include "scene/load.h"
-#include "scene/observables.h"
 #include "scene/remarks.h"
 #include "tests/fuzz/fuzz_target.h"
 

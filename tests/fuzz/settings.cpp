@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Settings "path=value", one a line, on top of an empty scene and as axes of a sweep.
-#include "scene/settings.h"
+#include "scene/keys/settings.h"
 
 #include <algorithm>
 #include <string>
 #include <vector>
 
+#include "scene/keys/values.h"
 #include "scene/load.h"
-#include "scene/sweep.h"
-#include "scene/values.h"
+#include "scene/sweeps/sweep.h"
 #include "tests/fuzz/fuzz_target.h"
 
 using namespace shaken;

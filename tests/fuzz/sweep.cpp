@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The text of a sweep file: every point that is taken can be queued and read again.
-#include "scene/sweep.h"
+#include "scene/sweeps/sweep.h"
 
 #include "scene/canonical.h"
 #include "scene/load.h"

@@ -81,7 +81,7 @@ TEST(LidMotion, RodsStartBetweenThePlatesAsTheyAreThen) {
       EXPECT_LT(place.z() + 0.4, plates.lid);
     }
     ASSERT_FALSE(simulation->advance_to(3000).has_value());
-    EXPECT_LT(simulation->world().counters.max_overlap_rod_plate, 0.01);
+    EXPECT_LT(simulation->world().counters.max_overlap_rod_surface, 0.01);
   }
 }
 

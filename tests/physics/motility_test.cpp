@@ -3,8 +3,8 @@
 // drifts along itself, opposite in sign to its tilt for |n_z| < 0.25, fastest near the taper's own slope |n_z| = 0.19.
 #include <gtest/gtest.h>
 
-#include "analysis/blocked.h"
-#include "analysis/parts.h"
+#include "analysis/errors/blocked.h"
+#include "analysis/errors/parts.h"
 #include "analysis/tilt.h"
 #include "sim/simulation.h"
 

@@ -49,7 +49,7 @@ class OneRod {
     const double tau = static_cast<double>(world.tick - before.since) * world.system.dt;
     const Vec3 n = pose_after(before, tau, kGravity).director;
     const Vec3 z = pose_after(before, tau, kGravity).position;
-    const Motion came = motion_after(before, tau, kGravity, n, species.inertia_par / species.inertia_perp);
+    const Motion came = motion_after(before, tau, kGravity, n, species.inertia_ratio);
     const PlateState plates = world.plates.at(world.tick);
     double deepest = 0, speed = 0;
     for (int bead = 0; bead < species.n_beads(); ++bead) {

@@ -13,15 +13,8 @@ namespace shaken::test {
 
 inline bool same(const Counters& a, const Counters& b) {
   const auto all = [](const Counters& c) {
-    std::vector<double> values{static_cast<double>(c.impulses_rod_rod),
-                               static_cast<double>(c.impulses_rod_base),
-                               static_cast<double>(c.impulses_rod_lid),
-                               static_cast<double>(c.impulses_rod_wall),
-                               static_cast<double>(c.impulses_rod_post),
-                               static_cast<double>(c.noise_kicks),
-                               static_cast<double>(c.impacts_at_instant),
-                               c.max_overlap_rod_rod,
-                               c.max_overlap_rod_plate};
+    std::vector<double> values;
+    std::apply([&](auto... field) { (values.push_back(static_cast<double>(c.*field)), ...); }, Counters::fields());
     const Ledger& ledger = c.ledger;
     for (const auto* sum : {&ledger.lost_rod_rod, &ledger.lost_surfaces, &ledger.given, &ledger.noise})
       values.push_back(sum->value());

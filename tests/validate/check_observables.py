@@ -193,17 +193,17 @@ def most_blocks(n, limit=64):
 
 
 def steady_parts(run, frames):
-    """What analysis/blocked.h says counts: sample numbers in whole blocks from the steady time on, block by block."""
+    """What analysis/errors/blocked.h says counts: sample numbers in whole blocks from the steady time on, block by block."""
     length = most_blocks(len(frames))
     return [np.arange(i, min(i + length, len(frames))) for i in range(0, len(frames), length)
             if is_steady(run.time[frames[i]], run.t_steady)]
 
 
-FEWEST_PARTS = 10  # that have any part in a number, or it has no error: analysis/parts.h
+FEWEST_PARTS = 10  # that have any part in a number, or it has no error: analysis/errors/parts.h
 
 
 def sem_of_parts(parts):
-    """Error of the mean of successive numbers (parts, ...) as of an autoregressive series: analysis/parts.h."""
+    """Error of the mean of successive numbers (parts, ...) as of an autoregressive series: analysis/errors/parts.h."""
     n = len(parts)
     if n < FEWEST_PARTS:
         return np.full(parts.shape[1:], np.nan)
@@ -1133,7 +1133,7 @@ def check_lattice(run, table):
 
 
 class Lags:
-    """All pairs of samples that analysis/lag_average.h takes, O(T) origins of each lag at once.
+    """All pairs of samples that analysis/lags/lag_average.h takes, O(T) origins of each lag at once.
 
     kernel(origins, ends) gives rods (pairs) and sums (pairs, quantities); samples are numbered from the first."""
 
@@ -1215,7 +1215,7 @@ class Lags:
         return slope, self.sem([(lag, q, ci * w) for lag, ci in zip(window, c) for q, w in enumerate(weights)])
 
     def growth(self, weights):
-        """(from, to, slope, its error, exponent, its error) at short and at long lags, of analysis/lag_fits.h."""
+        """(from, to, slope, its error, exponent, its error) at short and at long lags, of analysis/lags/lag_fits.h."""
         value = self.mean @ weights
         first = int(self.lags[0] == 0)
         long = self.last_octave()

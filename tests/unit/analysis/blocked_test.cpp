@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "analysis/blocked.h"
+#include "analysis/errors/blocked.h"
 
 #include <gtest/gtest.h>
 

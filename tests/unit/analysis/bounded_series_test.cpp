@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "analysis/bounded_series.h"
+#include "analysis/errors/bounded_series.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <functional>
 
-#include "analysis/segment_distance.h"
+#include "analysis/geometry/segment_distance.h"
 #include "tests/unit/analysis/analysis_samples.h"
 #include "tests/unit/analysis/state_checks.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "analysis/director_field.h"
+#include "analysis/geometry/director_field.h"
 #include "sim/system.h"
 #include "tests/unit/analysis/analysis_samples.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "analysis/director_field.h"
+#include "analysis/geometry/director_field.h"
 
 #include <gtest/gtest.h>
 

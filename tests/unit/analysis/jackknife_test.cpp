@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "analysis/jackknife.h"
+#include "analysis/errors/jackknife.h"
 
 #include <gtest/gtest.h>
 
-#include "analysis/parts.h"
+#include "analysis/errors/parts.h"
 #include "tests/unit/analysis/analysis_samples.h"
 
 namespace shaken::analysis {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "analysis/lag_fits.h"
+#include "analysis/lags/lag_fits.h"
 
 #include <gtest/gtest.h>
 

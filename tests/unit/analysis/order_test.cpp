@@ -6,7 +6,7 @@
 
 #include <numeric>
 
-#include "analysis/periodic.h"
+#include "analysis/geometry/periodic.h"
 #include "tests/unit/analysis/analysis_samples.h"
 #include "tests/unit/analysis/state_checks.h"
 

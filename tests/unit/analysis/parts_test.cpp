@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "analysis/parts.h"
+#include "analysis/errors/parts.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "analysis/region.h"
+#include "analysis/geometry/region.h"
 
 #include <gtest/gtest.h>
 

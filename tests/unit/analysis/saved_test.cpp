@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "analysis/saved.h"
+#include "analysis/errors/saved.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,6 @@
 #include <vector>
 
 #include "analysis/angles.h"
-#include "analysis/blocked.h"
-#include "analysis/bounded_series.h"
 #include "analysis/clusters.h"
 #include "analysis/collision_rates.h"
 #include "analysis/defect_maps.h"
@@ -19,6 +17,8 @@
 #include "analysis/density_maps.h"
 #include "analysis/director_fluctuations.h"
 #include "analysis/drift.h"
+#include "analysis/errors/blocked.h"
+#include "analysis/errors/bounded_series.h"
 #include "analysis/flow_correlation.h"
 #include "analysis/g2.h"
 #include "analysis/lattice.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "analysis/segment_distance.h"
+#include "analysis/geometry/segment_distance.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/jackknife.h"
+#include "analysis/errors/jackknife.h"
 #include "tests/unit/analysis/analysis_samples.h"
 
 namespace shaken::analysis {

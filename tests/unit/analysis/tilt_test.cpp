@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/blocked.h"
-#include "analysis/parts.h"
+#include "analysis/errors/blocked.h"
+#include "analysis/errors/parts.h"
 #include "tests/unit/analysis/analysis_samples.h"
 
 namespace shaken::analysis {

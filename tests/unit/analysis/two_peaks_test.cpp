@@ -7,8 +7,8 @@
 #include <cmath>
 #include <functional>
 
-#include "analysis/blocked.h"
-#include "analysis/jackknife.h"
+#include "analysis/errors/blocked.h"
+#include "analysis/errors/jackknife.h"
 #include "tests/support/effort.h"
 #include "tests/unit/analysis/analysis_samples.h"
 

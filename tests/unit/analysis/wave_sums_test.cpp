@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "analysis/wave_sums.h"
+#include "analysis/geometry/wave_sums.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "run/ending.h"
+#include "run/loop/ending.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "run/measurements.h"
+#include "run/measure/measurements.h"
 #include "tests/unit/analysis/analysis_samples.h"
 
 namespace shaken::run {

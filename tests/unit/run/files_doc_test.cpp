@@ -14,10 +14,10 @@
 #include "base/files.h"
 #include "base/scratch_folder.h"
 #include "run/files/directory.h"
-#include "run/loop.h"
+#include "run/loop/loop.h"
+#include "run/loop/trouble_file.h"
 #include "run/measure/measurement_kinds.h"
-#include "run/trouble_file.h"
-#include "scene/observables.h"
+#include "scene/keys/observables.h"
 #include "tests/unit/run/hdf5_attributes.h"
 
 namespace shaken::run {

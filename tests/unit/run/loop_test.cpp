@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Whole runs in a directory: stopping and going on must leave no trace in the results, and damage must never lead to
 // a wrong one.
-#include "run/loop.h"
+#include "run/loop/loop.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -22,7 +22,7 @@
 #include "run/files/done.h"
 #include "run/files/observables_file.h"
 #include "run/files/trajectory.h"
-#include "run/saved_run.h"
+#include "run/loop/saved_run.h"
 #include "scene/canonical.h"
 #include "scene/length.h"
 #include "tests/support/in_child.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "run/measurements.h"
+#include "run/measure/measurements.h"
 
 #include <gtest/gtest.h>
 
@@ -8,11 +8,11 @@
 #include <random>
 
 #include "analysis/clusters.h"
-#include "analysis/director_field.h"
-#include "analysis/region.h"
+#include "analysis/geometry/director_field.h"
+#include "analysis/geometry/region.h"
 #include "analysis/temperatures.h"
 #include "run/measure/largest_tilt.h"
-#include "scene/observables.h"
+#include "scene/keys/observables.h"
 #include "sim/world.h"
 
 namespace shaken::run {
@@ -170,7 +170,7 @@ TEST(Measurements, EachKeepsItsOwnTime) {
   EXPECT_EQ(counts.size(), measurement_kinds().size());
   for (const MeasurementKind& kind : measurement_kinds()) {
     const long whole = std::lround(std::floor(0.1 / *kind.every(plan()) + 1e-9));
-    const bool is_spread = kind.is_spread != nullptr && kind.is_spread(plan());
+    const bool is_spread = scene::observable(kind.name).is_spread(plan());
     EXPECT_EQ(counts.at(std::string(kind.name)), is_spread ? whole : whole + 1) << kind.name;
   }
   EXPECT_EQ(counts.at("tilt"), 20);

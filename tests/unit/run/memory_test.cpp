@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The estimate of scene/observables.h against what a run takes, with every allocation of this process counted.
+// The estimate of scene/keys/observables.h against what a run takes, with every allocation of this process counted.
 #include <gtest/gtest.h>
 #include <malloc.h>
 
@@ -8,9 +8,9 @@
 #include <new>
 
 #include "base/scratch_folder.h"
-#include "run/loop.h"
+#include "run/loop/loop.h"
+#include "scene/keys/observables.h"
 #include "scene/load.h"
-#include "scene/observables.h"
 
 namespace {
 

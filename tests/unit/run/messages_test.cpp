@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "run/messages.h"
+#include "run/live/messages.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "proto/cell_codec.h"
 #include "proto/codec.h"
-#include "scene/fields.h"
+#include "scene/keys/fields.h"
 #include "sim/balance.h"
 #include "sim/start/initial.h"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The pages say what the records of the observables say (run/measure/, scene/observables.cpp), and these say what a run
-// writes (files_doc_test.cpp). To write the tables of the pages anew: SHAKEN_UPDATE_DOCS=1 and run these tests.
+// The pages say what the records of observables (run/measure/, scene/keys/observables.cpp) and effects say, and these
+// say what a run writes (files_doc_test.cpp). To write the tables of the pages anew: SHAKEN_UPDATE_DOCS=1 and run these
+// tests.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -11,7 +12,8 @@
 
 #include "run/files/unit_of_name.h"
 #include "run/measure/measurement_kinds.h"
-#include "scene/observables.h"
+#include "scene/keys/observables.h"
+#include "sim/effects/registry.h"
 #include "tests/support/generated_page.h"
 
 namespace shaken::run {
@@ -21,7 +23,7 @@ const std::string kPages = SHAKEN_SOURCE_DIR "/docs/";
 
 /// "`tilt`, `tilt_summary`"
 std::string in_backticks(std::string_view names) {
-  return "`" + std::regex_replace(std::string(names), std::regex(", "), "`, `") + "`";
+  return "`" + std::regex_replace(std::string(names), std::regex(",? "), "`, `") + "`";
 }
 
 TEST(ObservablesPage, ListsEveryBlock) {
@@ -49,6 +51,16 @@ TEST(ObservablesPage, ListsEveryNumber) {
     }
   }
   expect_generated(kPages + "observables.md", "numbers", table.str());
+}
+
+TEST(EffectsPage, ListsEveryEffect) {
+  std::ostringstream table;
+  table << "| effect | what it is | on and off by | work |\n|---|---|---|---|\n";
+  for (const Effect& effect : all_effects()) {
+    table << "| `" << effect.name << "` | " << effect.what << " | " << in_backticks(effect.keys) << " | "
+          << std::regex_replace(std::string(effect.unit), std::regex("_"), " × ") << " |\n";
+  }
+  expect_generated(kPages + "effects.md", "effects", table.str());
 }
 
 TEST(FilesPage, ListsEveryArray) {

@@ -53,6 +53,8 @@ TEST(UnitOfName, IsWhatTheNameEndsIn) {
   EXPECT_EQ(unit_of_name("/angles/density_per_rad"), "rad-1");
   EXPECT_EQ(unit_of_name("rotational_diffusion_rad2_s"), "rad2 s-1");
   EXPECT_EQ(unit_of_name("theta_m_deg"), "deg");
+  EXPECT_EQ(unit_of_name("viscosity_pJ_s_per_mm2"), "pJ s-1 mm-2");
+  EXPECT_EQ(unit_of_name("slowness_s_per_mm"), "s mm-1");
   EXPECT_EQ(unit_of_name("/g2/g2"), "1");
   EXPECT_EQ(unit_of_name("/tilt/n_z"), "1");
   EXPECT_EQ(unit_of_name("layers_per_box"), "1");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "run/pace.h"
+#include "run/live/pace.h"
 
 #include <gtest/gtest.h>
 

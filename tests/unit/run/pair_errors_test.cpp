@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "run/measurements.h"
+#include "run/measure/measurements.h"
 
 namespace shaken::run {
 namespace {

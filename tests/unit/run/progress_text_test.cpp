@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "run/progress_text.h"
+#include "run/worker/progress_text.h"
 
 #include <gtest/gtest.h>
 

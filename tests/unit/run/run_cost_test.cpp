@@ -8,9 +8,9 @@
 
 #include "base/files.h"
 #include "base/scratch_folder.h"
-#include "run/effects.h"
-#include "run/loop.h"
-#include "run/open_run.h"
+#include "run/loop/effects.h"
+#include "run/loop/loop.h"
+#include "run/loop/open_run.h"
 #include "scene/length.h"
 #include "sim/effects/registry.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "run/summary.h"
+#include "run/loop/summary.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/accuracy_levels.h"
+#include "scene/keys/accuracy_levels.h"
 
 #include <array>
 #include <cmath>
@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "scene/canonical.h"
-#include "scene/fields.h"
+#include "scene/keys/fields.h"
 #include "scene/load.h"
-#include "scene/sweep.h"
+#include "scene/sweeps/sweep.h"
 #include "tests/unit/scene/scene_support.h"
 
 namespace shaken::scene {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/fields.h"
+#include "scene/keys/fields.h"
 
 #include <set>
 

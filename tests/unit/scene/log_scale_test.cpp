@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/log_scale.h"
+#include "scene/keys/log_scale.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

@@ -5,8 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "scene/keys/observables.h"
 #include "scene/load.h"
-#include "scene/observables.h"
 #include "scene/placement.h"
 
 namespace shaken::scene {

@@ -4,7 +4,7 @@
 #include <random>
 
 #include "scene/canonical.h"
-#include "scene/sweep.h"
+#include "scene/sweeps/sweep.h"
 #include "tests/support/effort.h"
 #include "tests/unit/scene/mutated.h"
 #include "tests/unit/scene/scene_support.h"

@@ -2,7 +2,7 @@
 // Quantities that follow from each other: any sufficient set may be given, too many must agree.
 #include <cmath>
 
-#include "scene/derived.h"
+#include "scene/keys/derived.h"
 #include "sim/rod/species.h"
 #include "tests/unit/scene/scene_support.h"
 

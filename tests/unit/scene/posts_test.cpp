@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "scene/canonical.h"
-#include "scene/derived.h"
+#include "scene/keys/derived.h"
 #include "scene/placement.h"
 #include "tests/unit/scene/scene_support.h"
 

@@ -2,8 +2,8 @@
 // What users get to see when something is wrong: each kind of mistake, with its place and its remedy.
 #include <gmock/gmock.h>
 
-#include "scene/observables.h"
-#include "scene/sweep.h"
+#include "scene/keys/observables.h"
+#include "scene/sweeps/sweep.h"
 #include "tests/unit/scene/scene_support.h"
 
 namespace shaken::scene {

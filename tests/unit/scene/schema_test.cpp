@@ -14,7 +14,7 @@
 #include <sstream>
 
 #include "scene/canonical.h"
-#include "scene/sweep.h"
+#include "scene/sweeps/sweep.h"
 #include "tests/support/effort.h"
 #include "tests/unit/scene/mutated.h"
 #include "tests/unit/scene/scene_support.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/settings.h"
+#include "scene/keys/settings.h"
 
 #include "tests/unit/scene/scene_support.h"
 

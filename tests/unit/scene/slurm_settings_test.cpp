@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "scene/slurm_settings.h"
+#include "scene/sweeps/slurm_settings.h"
 
 #include <gmock/gmock.h>
 
 #include "scene/canonical.h"
-#include "scene/sweep_keys.h"
+#include "scene/sweeps/sweep_keys.h"
 #include "tests/support/generated_page.h"
 #include "tests/unit/scene/scene_support.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "scene/canonical.h"
-#include "scene/derived.h"
+#include "scene/keys/derived.h"
 #include "sim/rod/sizes.h"
 #include "sim/rod/species.h"
 #include "sim/world.h"

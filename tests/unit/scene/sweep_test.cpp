@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/sweep.h"
+#include "scene/sweeps/sweep.h"
 
 #include <gmock/gmock.h>
 
@@ -8,7 +8,7 @@
 #include <set>
 
 #include "scene/canonical.h"
-#include "scene/fields.h"
+#include "scene/keys/fields.h"
 #include "tests/support/effort.h"
 #include "tests/unit/scene/scene_support.h"
 

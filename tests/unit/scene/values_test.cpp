@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/values.h"
+#include "scene/keys/values.h"
 
 #include <gmock/gmock.h>
 #include <rapidcheck.h>

@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "scene/sweep.h"
+#include "scene/sweeps/sweep.h"
 #include "tests/support/generated_page.h"
 #include "tests/unit/server/server_support.h"
 

@@ -26,7 +26,7 @@ Vec3 integrate_director(Vec3 n, const Vec3& J, double perp, double par, double t
 TEST(Flight, MatchesAFineIntegrationOfTheEquationsOfMotion) {
   test::Draw draw(2);
   const Species rod = make_species({});
-  const double ratio = rod.inertia_par / rod.inertia_perp;
+  const double ratio = rod.inertia_ratio;
   for (int trial = 0; trial < 50; ++trial) {
     const Pose pose{Vec3(10, 20, 0.6), draw.direction()};
     const Motion motion{draw.vector(30), draw.vector(40)};
@@ -56,7 +56,7 @@ TEST(Flight, MatchesAFineIntegrationOfTheEquationsOfMotion) {
 TEST(Flight, SplittingAFlightChangesNothing) {
   test::Draw draw(3);
   const Species rod = make_species({});
-  const double ratio = rod.inertia_par / rod.inertia_perp;
+  const double ratio = rod.inertia_ratio;
   const double dt = 4e-6;
   Flight whole;
   begin_flight(whole, 0, {Vec3(1, 2, 3), draw.direction()}, {draw.vector(30), draw.vector(40)}, 50, ratio);

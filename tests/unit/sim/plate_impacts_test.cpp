@@ -184,7 +184,7 @@ TEST(PlateImpacts, InLanesAreBitForBitThoseOfOneRodAfterTheOther) {
     EXPECT_EQ(counters.impacts_at_instant, expected_counters.impacts_at_instant);
     EXPECT_EQ(counters.noise_kicks, expected_counters.noise_kicks);
     EXPECT_TRUE(are_same(counters.ledger.noise, expected_counters.ledger.noise));
-    EXPECT_EQ(counters.max_overlap_rod_plate, expected_counters.max_overlap_rod_plate);
+    EXPECT_EQ(counters.max_overlap_rod_surface, expected_counters.max_overlap_rod_surface);
     EXPECT_TRUE(are_same(counters.ledger.lost_surfaces, expected_counters.ledger.lost_surfaces));
     EXPECT_TRUE(are_same(counters.ledger.given, expected_counters.ledger.given));
     for (std::size_t c = 0; c < 3; ++c)

@@ -39,7 +39,7 @@ struct FlyingPair {
     species = make_species({.length = length,
                             .end_diameter = draw.integer(0, 4) == 0 ? 0.8 : draw.uniform(0.2, 0.6),
                             .n_beads = beads_for_pitch(length, 0.4, 0.3)});
-    ratio = species.inertia_par / species.inertia_perp;
+    ratio = species.inertia_ratio;
     const double tilt = draw.integer(0, 1) ? 0.38 : 0.1;
     const Vec3 n = draw.flat_direction(tilt);
     // dense systems are nearly parallel; dilute ones cross at any angle
@@ -142,7 +142,7 @@ struct FarPair : FlyingPair {
       default:
         break;
     }
-    ratio = species.inertia_par / species.inertia_perp;
+    ratio = species.inertia_ratio;
     const double slow = 0.1 / horizon;  // a tenth of a millimetre or of a rod length in all that time, or more
     const double fast = std::pow(10.0, draw.uniform(0, 2)) * slow;
     D *= draw.uniform(1, 3);
@@ -273,7 +273,7 @@ struct SkewedPair : FlyingPair {
                               .n_beads = draw.integer(5, 25),
                               .profile = Profile::kPolar});
     }
-    ratio = species.inertia_par / species.inertia_perp;
+    ratio = species.inertia_ratio;
     if (draw.integer(0, 1)) {
       const Vec3 a = draw.integer(0, 1) ? species.bead_offset.front() * flight[0].director
                                         : Vec3(species.bead_offset.back() * flight[0].director);
@@ -317,7 +317,7 @@ struct RidingPair : FlyingPair {
       const double thickness = 40 * std::pow(10.0, draw.uniform(-2.5, -1.7));
       species =
           make_species({.length = 40, .mid_diameter = thickness, .end_diameter = 0.5 * thickness, .n_beads = 101});
-      ratio = species.inertia_par / species.inertia_perp;
+      ratio = species.inertia_ratio;
     }
     const int last = species.n_beads() - 1;
     const int m = draw.integer(0, last);
@@ -373,7 +373,7 @@ BeadSafeTime bound_in_line(bool thick_ends, double gap) {
   const double to_head = species.bead_offset.back() + species.bead_radius.back();
   const double end = thick_ends ? to_tail : to_head;
   const Vec3 D(2 * end + gap, 0, 0);
-  const double ratio = species.inertia_par / species.inertia_perp;
+  const double ratio = species.inertia_ratio;
   FlightBound bound[2];
   for (int r = 0; r < 2; ++r) {
     // the director points to the head, the thin end
@@ -623,7 +623,7 @@ struct FlyingRods {
     species = make_species({.length = length,
                             .end_diameter = draw.integer(0, 4) == 0 ? 0.9 : 0.4,
                             .n_beads = draw.integer(0, 9) == 0 ? 1 : 9});
-    ratio = species.inertia_par / species.inertia_perp;
+    ratio = species.inertia_ratio;
     dt = draw.integer(0, 1) ? 4e-6 : draw.uniform(1e-6, 4e-5);
     const double gamma = draw.integer(0, 5) == 0 ? 0.0 : draw.uniform(0, 15);
     const double frequency = draw.integer(0, 1) ? 200 : draw.uniform(50, 300);

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "run/loop/open_run.h"
+
+#include <algorithm>
+
+#include "run/loop/start_state.h"
+#include "scene/canonical.h"
+
+namespace shaken::run {
+
+std::optional<Cadence> recording_of(const scene::RunPlan& plan) {
+  const std::optional<double> every = plan.recording_every();
+  return every ? std::optional(Cadence(*every, plan.system.dt)) : std::nullopt;
+}
+
+TrajectoryHeader trajectory_header(const World& world, const std::string& scene_json, const Provenance& provenance) {
+  return {static_cast<int>(world.rods.size()), world.cell(), world.system.dt, scene_json, provenance};
+}
+
+Provenance provenance_of(const scene::RunPlan& plan) { return {scene::run_id(plan), plan.system.seed}; }
+
+namespace {
+
+OpenRun make_run(const scene::RunPlan& plan, Simulation simulation) {
+  Measurements measurements(plan, simulation.world().cell());
+  return {std::move(simulation), std::move(measurements), recording_of(plan), std::nullopt, 0, 0};
+}
+
+}  // namespace
+
+Tick OpenRun::next_due(Tick from) const {
+  const Tick sample = measurements.next_due(from);
+  return recording ? std::min(sample, recording->next(from)) : sample;
+}
+
+Result<OpenRun> start_run(const scene::RunPlan& plan, const RunDirectory& directory, const std::string& scene_json,
+                          const GoOn& go_on) {
+  Result<Simulation> simulation = start_simulation(plan, directory.root, go_on);
+  if (!simulation) return simulation.error();
+  OpenRun run = make_run(plan, std::move(simulation).value());
+  if (run.recording) {
+    auto frames = FrameLog::create(directory.frames(),
+                                   trajectory_header(run.simulation.world(), scene_json, provenance_of(plan)));
+    if (!frames) return frames.error();
+    run.frames = std::move(frames).value();
+  }
+  return run;
+}
+
+Result<OpenRun> resume_run(const scene::RunPlan& plan, const RunDirectory& directory, const Checkpoint& checkpoint) {
+  Result<Simulation> simulation = Simulation::resume(plan.system, checkpoint.simulation);
+  if (!simulation) return simulation.error();
+  OpenRun run = make_run(plan, std::move(simulation).value());
+  run.cpu_before = checkpoint.cpu_seconds;
+  run.wall_before = checkpoint.wall_seconds;
+  if (auto done = run.measurements.restore(checkpoint.measurements); !done) {
+    return Error{"the checkpoint's measurements are not of this plan: saved analysis state: " + done.error().message};
+  }
+  if (run.recording) {
+    auto frames =
+        reopen_frames(directory, static_cast<std::size_t>(run.simulation.tick() / run.recording->period() + 1));
+    if (!frames) return frames.error();
+    run.frames = std::move(frames).value();
+  }
+  return run;
+}
+
+Checkpoint make_checkpoint(const OpenRun& run, double cpu_seconds, double wall_seconds) {
+  return {run.simulation.checkpoint(), run.measurements.save(), cpu_seconds, wall_seconds};
+}
+
+}  // namespace shaken::run

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#include "run/loop/saved_run.h"
+
+#include <utility>
+
+#include "base/files.h"
+#include "run/files/checkpoint_file.h"
+#include "scene/load.h"
+
+namespace shaken::run {
+
+Result<scene::RunPlan> read_plan(const RunDirectory& directory) {
+  const Result<std::string> text = read_file(directory.scene());
+  if (!text) return text.error();
+  const keys::Loaded<scene::RunPlan> plan = scene::load_scene(*text, directory.scene().string());
+  if (!plan) return Error{to_string(plan.error())};
+  return *plan;
+}
+
+Result<Simulation> resume_last(const RunDirectory& directory, const std::string& run_id, const System& system,
+                               Tick before) {
+  const auto resume = [&](const std::filesystem::path& file) -> Result<Simulation> {
+    const Result<Checkpoint> checkpoint = read_checkpoint(file, run_id);
+    if (!checkpoint) return checkpoint.error();
+    Result<Simulation> simulation = Simulation::resume(system, checkpoint->simulation);
+    if (simulation && simulation->tick() < before) return simulation;
+    return Error{file.string() + ": " + (simulation ? "too late a state" : simulation.error().message)};
+  };
+  Result<Simulation> newest = resume(directory.checkpoint());
+  if (newest) return newest;
+  Result<Simulation> previous = resume(directory.previous_checkpoint());
+  return previous ? std::move(previous) : std::move(newest);  // if neither will do, why the newest will not
+}
+
+}  // namespace shaken::run
