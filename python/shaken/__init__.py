@@ -15,8 +15,8 @@ from typing import Any
 #: Module -> what it has for users. They are imported when they are asked for: most need numpy, some programs do not.
 _PARTS = {"about": "FieldAbout field_about", "archive": "ArchivedRun Snapshot archived_runs",
           "bus": "LiveFrame LiveObservables live", "daemon": "Daemon", "errors": "NoDaemon ShakenError UnknownName",
-          "estimate": "Estimate replica_mean", "frames": "Frame Trajectory", "run": "Array DirectoryRun Run open_run",
-          "sweep": "Point Sweep results"}
+          "estimate": "Estimate replica_mean", "frames": "Frame Trajectory", "opening": "open_run",
+          "run": "Array DirectoryRun Run", "sweep": "Point Sweep results"}
 _HOMES = {"open" if name == "open_run" else name: (module, name)
           for module, names in _PARTS.items() for name in names.split()}
 

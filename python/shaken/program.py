@@ -10,7 +10,7 @@ import sys
 from typing import Callable, NoReturn, TypeVar
 
 from .errors import ShakenError
-from .tables.text import json_text, printable
+from .text import json_text, printable
 
 OK, FAILED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 _DEBIAN = {name: f"python3-{name}" for name in ("matplotlib", "numpy", "h5py", "scipy")}

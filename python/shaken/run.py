@@ -5,7 +5,6 @@ from __future__ import annotations
 import difflib
 import functools
 import json
-import math
 import re
 from pathlib import Path
 from typing import Any, Iterator, Mapping
@@ -321,33 +320,3 @@ class DirectoryRun(Run):
                 if (self.directory / "trajectory.part").exists() else
                 "the scene has no `trajectory`, which records frames"))
         return Trajectory(path)
-
-
-def open_run(run: str | Path, root: str | Path | None = None) -> Run:
-    """The run of a directory, of a file of an archive, or of a job's id (or a prefix of it, four digits at least) among
-    the runs of `root` ($SHAKEN_ROOT, else ~/.local/share/shaken, as of the daemon).
-
-    Raises ShakenError where there is no such run, or where it has not ended.
-    """
-    path = Path(run)
-    if path.is_dir():
-        return DirectoryRun(path)
-    if path.is_file():
-        from .archive import read_archived
-        return read_archived(path)
-    from .daemon import root_folder
-    runs = root_folder(root) / "runs"
-    name = str(run)
-    found = sorted(runs.glob(name + "*")) if len(name) >= 4 and math.isfinite(_hex(name)) else []
-    if len(found) == 1:
-        return DirectoryRun(found[0])
-    if found:
-        raise ShakenError(f"'{name}' fits {len(found)} runs in {runs}: write more digits")
-    raise ShakenError(f"there is no run '{name}': neither a directory, nor a file of an archive, nor a job in {runs}")
-
-
-def _hex(text: str) -> float:
-    try:
-        return int(text, 16)
-    except ValueError:
-        return NAN

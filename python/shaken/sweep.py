@@ -12,7 +12,7 @@ from .errors import ShakenError, UnknownName
 from .estimate import Estimate, replica_mean
 from .units import number_of, unit_in
 from .run import DirectoryRun, Run
-from .tables.rows import has_results, newness, swept, version_text
+from .rows import has_results, newness, swept, version_text
 
 
 class Point:

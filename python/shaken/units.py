@@ -26,11 +26,15 @@ def split_unit(name: str) -> tuple[str, str]:
     """The name without its unit, and the words of the unit: ("d_total", "mm2_s") of "d_total_mm2_s", ("g2", "") of
     "g2"."""
     words = name.split("_")
-    n = len(words)
-    while n > 1 and _UNIT.match(words[n - 1]):
-        n -= 1
-    if n > 1 and n < len(words) and words[n - 1] == "per":
-        n -= 1
+
+    def units_before(n: int) -> int:
+        while n > 1 and _UNIT.match(words[n - 1]):
+            n -= 1
+        return n
+
+    n = units_before(len(words))
+    if 1 < n < len(words) and words[n - 1] == "per":
+        n = units_before(n - 1)
     return "_".join(words[:n]), "_".join(words[n:])
 
 

@@ -13,7 +13,7 @@ from shaken.calibration.rods import Level, Measuring, NotDiffusive, Species, rod
 from shaken.calibration.search import BelowOwn, noise_for, power_law
 from shaken.errors import ShakenError
 from shaken.estimate import Estimate
-from shaken.run import open_run
+from shaken.opening import open_run
 
 from conftest import PROGRAMS
 

@@ -15,7 +15,7 @@ from figures_whole import assert_whole  # noqa: E402
 
 from shaken.estimate import Estimate, replica_mean  # noqa: E402
 from shaken.plots import names, runs, series, sweeps  # noqa: E402
-from shaken.tables.rows import Row  # noqa: E402
+from shaken.rows import Row  # noqa: E402
 
 NAN = float("nan")
 TILT = {"/tilt/n_z": [-0.1, 0.1], "/tilt/v_along_mm_s": [1.0, 2.0]}

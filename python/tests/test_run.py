@@ -26,8 +26,8 @@ CURVES = {"msd/lag_s": ([1, 2, 4], "s"), "msd/total_mm2": ([4, 8, 16], "mm2"), "
 @pytest.mark.parametrize("name, unit", [("diffusion_mm2_s", "mm2 s-1"), ("/layers/q_per_mm", "mm-1"), ("dip", "1"),
                                         ("defect_creation_rate_per_mm2_s", "mm-2 s-1"), ("tau_s", "s"),
                                         ("rotational_diffusion_rad2_s", "rad2 s-1"), ("theta_m_deg", "deg"),
-                                        ("/angles/density_per_rad", "rad-1"), ("psi_6", "1"), ("frank_floor_mm2",
-                                                                                               "mm2")])
+                                        ("/angles/density_per_rad", "rad-1"), ("psi_6", "1"),
+                                        ("slowness_s_per_mm", "s mm-1"), ("frank_floor_mm2", "mm2")])
 def test_units_are_read_off_names(name, unit):
     assert unit_of(name) == unit
 

@@ -10,10 +10,11 @@ from pathlib import Path
 
 import pytest
 
+from shaken import rows, text
 from shaken.errors import NotFound, ShakenError, nearest
 from shaken.estimate import student_factor
 from shaken.units import quantity
-from shaken.tables import app, conditions, results, rows, text
+from shaken.tables import app, conditions, results
 from shaken.tables.conditions import Condition, marked
 
 VECTORS = Path(__file__).resolve().parents[2] / "tests/vectors"

@@ -13,7 +13,7 @@ from typing import Any, Sequence
 from ..errors import ShakenError
 from ..plots.save import SUFFIXES
 from ..program import BAD_INPUT, FAILED, OK, Options, failed, run
-from ..tables import text as texts
+from .. import text as texts
 from .rods import Level, Measuring, NotDiffusive, Species, Unmet
 from .search import Calibrated, noise_for
 

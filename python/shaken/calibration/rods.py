@@ -15,7 +15,7 @@ import numpy as np
 
 from ..system import output_of, scratch_folder
 from ..errors import ShakenError
-from ..run import open_run
+from ..opening import open_run
 from .diffusion import BEYOND, Diffusion, diffusion, exponent
 
 #: Independent runs, each with a seed of its own, and rods in each. Runs are independent; rods of a run are where they

@@ -8,7 +8,7 @@ from typing import Any, Mapping, NamedTuple, Sequence
 
 import numpy as np
 
-from ..tables.text import Column, table
+from ..text import Column, table
 
 #: A row of a report of shaken-bench.
 Row = Mapping[str, Any]

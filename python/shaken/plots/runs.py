@@ -12,7 +12,7 @@ import numpy as np
 from ..errors import ShakenError
 from ..hdf5 import open_file
 from ..run import axes_of, error_name
-from ..tables.rows import newness, version_text
+from ..rows import newness, version_text
 from . import maps, names
 from .series import VERSION, Arrangement, label_of, mean_curve
 from .sheet import Sheet

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, Mapping, Sequence
 
 from ..system import scratch_folder
-from ..tables.rows import Row, error_field, has_several_versions
+from ..rows import Row, error_field, has_several_versions
 from ..units import leading_number
 from . import names, style
 from .series import VERSION, WAY, Arrangement, label_of

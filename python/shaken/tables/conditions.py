@@ -10,9 +10,9 @@ from typing import Any, Callable, Iterable, Iterator, NamedTuple, Sequence
 
 from ..catalogue import KEYS, UNITS
 from ..errors import ShakenError, nearest
+from ..rows import Row, Target, add_from_scenes, aggregated, field_named, field_names
+from ..text import printable, value_text
 from ..units import NUMBER, quantity
-from .rows import Row, Target, add_from_scenes, aggregated, field_named, field_names
-from .text import printable, value_text
 
 _COMPARE: dict[str, Callable[[Any, Any], bool]] = {
     "=": operator.eq, "==": operator.eq, "!=": operator.ne, "<": operator.lt, "<=": operator.le, ">": operator.gt,

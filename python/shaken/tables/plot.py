@@ -14,8 +14,8 @@ from ..daemon import Daemon
 from ..errors import ShakenError
 from ..plots import runs, sweeps
 from ..plots.save import origin_list
+from ..rows import Row, Target, aggregated, axes_of, resolved, target_of
 from .conditions import read, selected
-from .rows import Row, Target, aggregated, axes_of, resolved, target_of
 
 _FORMATS, _WIDTHS = ("png", "pdf", "svg"), ("89mm", "120mm", "183mm")
 

@@ -11,9 +11,9 @@ from typing import Sequence
 from ..daemon import Daemon
 from ..errors import ShakenError
 from ..estimate import MARKS
+from ..rows import Row, aggregated, axes_of, field_names, has_several_versions, resolved, short_name, swept, target_of
+from ..text import Column, in_yellow, json_text, number_text, printable, table, terminal_width, value_text
 from .conditions import read, selected
-from .rows import Row, aggregated, axes_of, field_names, has_several_versions, resolved, short_name, swept, target_of
-from .text import Column, in_yellow, json_text, number_text, printable, table, terminal_width, value_text
 
 #: Title, field and rank of what the table on a terminal shows of a summary, or of replicas.
 _COLUMNS = (("REPLICAS", "n_replicas", 4), ("DONE", "n_done", 3), ("N", "n_rods", 3), ("S", "order.mean", 0),

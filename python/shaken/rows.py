@@ -9,11 +9,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Iterable, Iterator, Mapping, Protocol, Sequence
 
-from ..catalogue import KEYS
-from ..daemon import Daemon, quoted
-from ..errors import NotFound, ShakenError, nearest
-from ..estimate import Estimate, replica_mean
-from ..units import leading_number
+from .catalogue import KEYS
+from .daemon import Daemon, quoted
+from .errors import NotFound, ShakenError, nearest
+from .estimate import Estimate, replica_mean
+from .units import leading_number
 
 Fields = dict[str, Any]
 _VERSIONS = ("versions.shaken", "versions.physics")
