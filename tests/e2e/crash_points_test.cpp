@@ -119,7 +119,10 @@ class CrashPoints : public testing::Test {
 
 TEST_F(CrashPoints, KilledAnywhereTheNextStartGoesOnToTheSameEnd) { everywhere("kill"); }
 
-TEST_F(CrashPoints, KilledAgainAfterARestartNothingStartsFromTheBeginning) { everywhere("kill", killed_midway()); }
+// What was promised is on the disk, wherever the power fails.
+TEST_F(CrashPoints, WithoutPowerNothingStartsFromTheBeginning) { everywhere("lose", killed_midway()); }
+
+TEST_F(CrashPoints, WithoutPowerAndLateRenamesNothingStartsFromTheBeginning) { everywhere("undo", killed_midway()); }
 
 TEST_F(CrashPoints, KilledInTheMiddleOfAWriteToo) { everywhere("half", killed_midway()); }
 

@@ -5,6 +5,8 @@
 //   SHAKEN_FAULT_BELOW=DIR   which files count
 //   SHAKEN_FAULT=kill:N      the process is killed at the N-th change, before it is made
 //   SHAKEN_FAULT=half:N      the same after half of the bytes, where the change is a write
+//   SHAKEN_FAULT=lose:N      the power fails at the N-th change: files keep what they had at their last fsync
+//   SHAKEN_FAULT=undo:N      the same, and what was renamed has its old name where its folder was not synced since
 //   SHAKEN_FAULT=full:N      the N-th change and all later ones fail with ENOSPC; removing is still possible
 //   SHAKEN_FAULT=once:N      the N-th change fails with EIO
 //
@@ -34,11 +36,18 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <mutex>
 #include <new>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace {
 
-enum class Fault { kNone, kKill, kHalf, kFull, kOnce };
+enum class Fault { kNone, kKill, kHalf, kLose, kUndo, kFull, kOnce };
 
 struct Order {
   Fault fault = Fault::kNone;
@@ -54,6 +63,8 @@ const Order& order() {
     if (text == nullptr || order.below == nullptr) return order;
     if (strncmp(text, "kill:", 5) == 0) order.fault = Fault::kKill;
     if (strncmp(text, "half:", 5) == 0) order.fault = Fault::kHalf;
+    if (strncmp(text, "lose:", 5) == 0) order.fault = Fault::kLose;
+    if (strncmp(text, "undo:", 5) == 0) order.fault = Fault::kUndo;
     if (strncmp(text, "full:", 5) == 0) order.fault = Fault::kFull;
     if (strncmp(text, "once:", 5) == 0) order.fault = Fault::kOnce;
     order.number = atol(text + 5);
@@ -62,18 +73,75 @@ const Order& order() {
   return kOrder;
 }
 
+std::atomic<bool> is_over{false};  // the power has failed, and what is written now is what the disk had
+
 bool counts(const char* path) {
-  return order().fault != Fault::kNone && strncmp(path, order().below, strlen(order().below)) == 0;
+  return order().fault != Fault::kNone && !is_over && strncmp(path, order().below, strlen(order().below)) == 0;
 }
 
-bool counts(int fd) {
-  if (order().fault == Fault::kNone) return false;
+std::string path_of(int fd) {
   char link[64], path[4096];
   snprintf(link, sizeof(link), "/proc/self/fd/%d", fd);
   const ssize_t length = readlink(link, path, sizeof(path) - 1);
-  if (length <= 0) return false;
-  path[length] = '\0';
-  return counts(path);
+  return length <= 0 ? "" : std::string(path, static_cast<size_t>(length));
+}
+
+bool counts(int fd) { return order().fault != Fault::kNone && !is_over && counts(path_of(fd).c_str()); }
+
+std::optional<std::string> content_of(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) return {};
+  return std::string(std::istreambuf_iterator<char>(in), {});
+}
+
+/// What is not on the disk yet, although the system shows it.
+class Unsynced {
+ public:
+  /// Is to be called before a change of its content.
+  void change(const std::string& path) {
+    if (is_kept()) on_disk_.try_emplace(path, content_of(path).value_or(""));
+  }
+  /// Before `from` is renamed.
+  void rename(const std::string& from, const std::string& to) {
+    if (!is_kept()) return;
+    renames_.push_back({from, to, content_of(to)});
+    on_disk_.erase(to);
+    if (auto content = on_disk_.extract(from)) {
+      content.key() = to;
+      on_disk_.insert(std::move(content));
+    }
+  }
+  void sync(const std::string& path) {
+    on_disk_.erase(path);
+    std::erase_if(renames_, [&](const Rename& one) { return one.to.substr(0, one.to.rfind('/')) == path; });
+  }
+  void remove(const std::string& path) { on_disk_.erase(path); }
+  void lose() {
+    is_over = true;
+    for (const auto& [path, content] : on_disk_) std::ofstream(path, std::ios::binary) << content;
+    if (order().fault != Fault::kUndo) return;
+    for (auto one = renames_.rbegin(); one != renames_.rend(); ++one) {
+      if (const auto content = content_of(one->to)) std::ofstream(one->from, std::ios::binary) << *content;
+      ::unlink(one->to.c_str());
+      if (one->replaced) std::ofstream(one->to, std::ios::binary) << *one->replaced;
+    }
+  }
+  std::mutex mutex;
+
+ private:
+  struct Rename {
+    std::string from, to;
+    std::optional<std::string> replaced;
+  };
+  static bool is_kept() { return order().fault == Fault::kLose || order().fault == Fault::kUndo; }
+
+  std::map<std::string, std::string> on_disk_;  // of files that were changed since
+  std::vector<Rename> renames_;
+};
+
+Unsynced& unsynced() {
+  static Unsynced one;
+  return one;
 }
 
 /// Counts a change; kills the process, or says with errno that the change shall fail, if it is its turn.
@@ -85,7 +153,8 @@ bool fails() {
   if (now.fault == Fault::kFull && number >= now.number) return errno = ENOSPC, true;
   if (number != now.number) return false;
   if (now.fault == Fault::kOnce) return errno = EIO, true;
-  if (now.fault == Fault::kKill) raise(SIGKILL);
+  if (now.fault == Fault::kLose || now.fault == Fault::kUndo) unsynced().lose();
+  if (now.fault == Fault::kKill || now.fault == Fault::kLose || now.fault == Fault::kUndo) raise(SIGKILL);
   return now.fault == Fault::kHalf;
 }
 
@@ -96,7 +165,9 @@ Function real(const char* name) {
 
 template <class Write>
 ssize_t guarded_write(int fd, size_t size, Write write) {
-  if (!counts(fd) || !fails()) return write(size);
+  if (!counts(fd)) return write(size);
+  const std::lock_guard lock(unsynced().mutex);
+  if (!fails()) return unsynced().change(path_of(fd)), write(size);
   if (order().fault == Fault::kHalf) {
     write(size / 2);
     raise(SIGKILL);
@@ -104,10 +175,12 @@ ssize_t guarded_write(int fd, size_t size, Write write) {
   return -1;
 }
 
-/// Of a change that is made or not.
-template <class Change>
-int guarded(bool counted, Change change) {
-  if (!counted || !fails()) return change();
+/// Of a change that is made or not; `note` tells of it before it is made.
+template <class Change, class Note>
+int guarded(bool counted, Change change, Note note) {
+  if (!counted) return change();
+  const std::lock_guard lock(unsynced().mutex);
+  if (!fails()) return note(), change();
   if (order().fault == Fault::kHalf) raise(SIGKILL);
   return -1;
 }
@@ -226,12 +299,14 @@ ssize_t pwrite64(int fd, const void* data, size_t size, off64_t offset) {
 
 int ftruncate(int fd, off_t length) noexcept {
   static const auto next = real<int (*)(int, off_t)>("ftruncate");
-  return guarded(counts(fd), [&] { return next(fd, length); });
+  return guarded(
+      counts(fd), [&] { return next(fd, length); }, [&] { unsynced().change(path_of(fd)); });
 }
 
 int ftruncate64(int fd, off64_t length) noexcept {
   static const auto next = real<int (*)(int, off64_t)>("ftruncate64");
-  return guarded(counts(fd), [&] { return next(fd, length); });
+  return guarded(
+      counts(fd), [&] { return next(fd, length); }, [&] { unsynced().change(path_of(fd)); });
 }
 
 ssize_t read(int fd, void* data, size_t size) {
@@ -289,19 +364,22 @@ int fsync(int fd) {
   static const auto next = real<int (*)(int)>("fsync");
   if (call_fails("fsync", fsyncs)) return -1;
   // what a killed process has written, the system keeps: to bring it to the disk would only take time
-  return guarded(counts(fd), [&] { return order().below == nullptr ? next(fd) : 0; });
+  return guarded(
+      counts(fd), [&] { return order().below == nullptr ? next(fd) : 0; }, [&] { unsynced().sync(path_of(fd)); });
 }
 
 int rename(const char* from, const char* to) noexcept {
   static const auto next = real<int (*)(const char*, const char*)>("rename");
   if (call_fails("rename", renames)) return -1;
-  return guarded(counts(to), [&] { return next(from, to); });
+  return guarded(
+      counts(to), [&] { return next(from, to); }, [&] { unsynced().rename(from, to); });
 }
 
 int remove(const char* path) noexcept {
   static const auto next = real<int (*)(const char*)>("remove");
   if (order().fault == Fault::kFull) return next(path);
-  return guarded(counts(path), [&] { return next(path); });
+  return guarded(
+      counts(path), [&] { return next(path); }, [&] { unsynced().remove(path); });
 }
 
 }  // extern "C"
