@@ -18,8 +18,6 @@ namespace {
 /// predecessor still holds their directory.
 constexpr int kLookAhead = 16;
 constexpr std::chrono::milliseconds kLongestPause{60'000};
-/// How much of a run's wall time is forgotten at most if the daemon is killed.
-constexpr std::chrono::seconds kCounting{10};
 
 std::string heading(int attempt) {
   const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
@@ -258,7 +256,7 @@ void Supervisor::count_wall_of_all() {
   std::vector<std::string> ids;
   for (const auto& [id, worker] : workers_) ids.push_back(id);
   count_wall(ids);
-  count_after_ = now + kCounting;
+  count_after_ = now + options_.counting;
 }
 
 void Supervisor::enforce_limits() {

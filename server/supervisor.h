@@ -39,6 +39,8 @@ struct SupervisorOptions {
   /// Before a job that could not be prepared is looked at again, others being started meanwhile; doubled each time, up
   /// to 16 times: what has waited long must not take the turns of what can start.
   std::chrono::milliseconds waiting_pause{5'000};
+  /// How much of a run's wall time is forgotten at most if the daemon is killed.
+  std::chrono::milliseconds counting{10'000};
 };
 
 /// Brings the workers in line with the queue: starts the next jobs while there are slots, stops those that are to

@@ -17,7 +17,7 @@ std::string Tickets::give(const std::string& path, const std::multimap<std::stri
   Result<std::string> ticket = make_token();
   if (!ticket) throw std::runtime_error(ticket.error().message);
   const std::lock_guard lock(mutex_);
-  const Clock::time_point now = Clock::now();
+  const Clock::time_point now = now_();
   std::erase_if(given_, [&](const auto& entry) { return entry.second.end < now; });
   given_[*ticket] = {{.method = "GET", .path = path, .query = query, .body = ""}, now + kLast};
   return *ticket;
@@ -26,7 +26,7 @@ std::string Tickets::give(const std::string& path, const std::multimap<std::stri
 std::optional<http::Request> Tickets::take(const std::string& ticket) {
   const std::lock_guard lock(mutex_);
   auto node = given_.extract(ticket);
-  if (node.empty() || node.mapped().end < Clock::now()) return std::nullopt;
+  if (node.empty() || node.mapped().end < now_()) return std::nullopt;
   return std::move(node.mapped().request);
 }
 

@@ -35,6 +35,12 @@ TEST(JobWords, ASweepHasOneId) {
   }
 }
 
+TEST(RulesTest, ARefusalPausesAtMostSixteenTimesAsLong) {
+  using std::chrono::milliseconds;
+  for (const auto& [times, factor] : {std::pair{0, 1}, {1, 2}, {4, 16}, {5, 16}, {100, 16}})
+    EXPECT_EQ(refusal_pause(milliseconds(60'000), times), factor * milliseconds(60'000)) << times;
+}
+
 TEST(RulesTest, EveryPhaseIsARowOfItsOwn) {
   for (int k = 0; k < kPhases; ++k) {
     const auto [state, hold, after_stop] = stored(static_cast<JobPhase>(k));

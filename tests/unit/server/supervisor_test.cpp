@@ -37,6 +37,7 @@ class SupervisorTest : public testing::Test {
 
   SupervisorOptions options() const {
     SupervisorOptions options{directory_ / "runs", 2, {"--no-lcm"}, kGrace};
+    options.counting = std::chrono::milliseconds(20);
     options.retry_pauses = {std::chrono::milliseconds(400), std::chrono::milliseconds(100)};
     options.confirm_within = std::chrono::milliseconds(200);
     options.waiting_pause = std::chrono::milliseconds(50);

@@ -10,35 +10,10 @@
 #include "sim/simulation.h"
 #include "sim/start/initial.h"
 #include "sim/stepping/reference_stepper.h"
-#include "tests/support/short_rods.h"
+#include "tests/support/everything_on.h"
 
 namespace shaken {
 namespace {
-
-/// A scene in which every effect is on and all kinds of contact occur within 2,000 ticks.
-System everything_on() {
-  System system = test::short_rods(57, 19);
-  system.added[0] = AddedRods{{.length = 2.5, .n_beads = 9, .profile = Profile::kPolar}, 25};
-  system.added[1] = AddedRods{{.length = 0.8, .n_beads = 1}, 10};
-  system.rod.spread = {.length = 0.05, .end_diameter = 0.1};
-  system.added[1]->rod.spread.length = 0.1;
-  system.walls = SideWalls{Arena::kSquare, 18.0, 1.0, {0.1, 0.3}};
-  system.posts = Posts{.diameter = 1.2, .columns = 2, .rows = 2, .contact = {0.1, 0.3}};
-  system.posts->contact.own[Contacts::place(0, 2)].friction = 0.4;
-  system.walls->contact.own[Contacts::place(0, 1)].restitution = 0.6;
-  system.rod_rod.own[Contacts::place(1, 1)].friction = 0.2;
-  system.rod_base.own[Contacts::place(0, 1)] = {0.1, 0.5, {}};
-  system.rod_lid.own[Contacts::place(0, 2)].restitution_speed = 20.0;
-  system.rod_rod.restitution_speed = 50;
-  system.horizontal_amplitude = 0.02;
-  system.second = SecondVibration{0.01, 340.0, 50.0};
-  system.lid_motion = LidMotion{0.03, 100.0};
-  system.inclination = 2;
-  system.rotational_noise = 0.05;
-  system.added_noise = {0.0, 0.1};
-  system.impacts = ImpactTime::kAtInstant;
-  return system;
-}
 
 Simulation stepped(const System& system, Tick ticks) {
   auto simulation = Simulation::start(system);
@@ -136,7 +111,7 @@ TEST(Effects, NamesAreUnique) {
 }
 
 TEST(Effects, WorkWhenTheyAreOn) {
-  const Simulation simulation = stepped(everything_on(), 10000);
+  const Simulation simulation = stepped(test::everything_on(), 10000);
   for (const Effect& effect : all_effects()) {
     EXPECT_TRUE(effect.is_on(simulation.world().system)) << effect.name;
     EXPECT_GT(effect.work(simulation.world()), 0) << effect.name;
@@ -147,9 +122,9 @@ class EffectOff : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(EffectOff, IsTheNeutralParameterBitForBitAndDoesNoWork) {
   const Effect& effect = effect_named(GetParam());
-  System off = everything_on();
+  System off = test::everything_on();
   effect.switch_off(off);
-  System by_hand = everything_on();
+  System by_hand = test::everything_on();
   neutral_by_hand().at(GetParam())(by_hand);
   EXPECT_EQ(off, by_hand);
   EXPECT_FALSE(effect.is_on(off));
@@ -158,7 +133,7 @@ TEST_P(EffectOff, IsTheNeutralParameterBitForBitAndDoesNoWork) {
   EXPECT_EQ(without.state_hash(), stepped(by_hand, 6000).state_hash());
   EXPECT_EQ(effect.work(without.world()), 0);
   // it mattered, so "off" was not simply the same scene
-  EXPECT_NE(without.state_hash(), stepped(everything_on(), 6000).state_hash());
+  EXPECT_NE(without.state_hash(), stepped(test::everything_on(), 6000).state_hash());
 
   // the oracle agrees
   off.stepper = StepperKind::kReference;
@@ -190,19 +165,19 @@ TEST(Effects, NoiseIsOnWhereRodsOfAnySpeciesThatIsThereHaveIt) {
 }
 
 TEST(Effects, FrictionlessRodsDoNotSpin) {
-  System system = everything_on();
+  System system = test::everything_on();
   effect_named("spin").switch_off(system);
   const Simulation without = stepped(system, 20000);
   for (const Flight& rod : without.world().rods) EXPECT_LT(std::abs(rod.spin), 1e-9);
   double fastest = 0;
-  const Simulation with = stepped(everything_on(), 20000);
+  const Simulation with = stepped(test::everything_on(), 20000);
   for (const Flight& rod : with.world().rods) fastest = std::max(fastest, std::abs(rod.spin));
   EXPECT_GT(fastest, 1.0);
 }
 
 // Without gravity nothing pulls a rod down: only the plates can turn its vertical velocity round.
 TEST(Effects, WithoutGravityARodFliesStraight) {
-  System system = everything_on();
+  System system = test::everything_on();
   system.gravity = 0;
   system.amplitude = 0;
   system.walls.reset();

@@ -137,6 +137,24 @@ TEST(Impulse, LawsHoldForTenThousandRandomContacts) {
   EXPECT_GT(n_of_paper, 500);
 }
 
+TEST(Impulse, FrictionOpposesTheSlipThatAHeadOnImpactBegins) {
+  test::Draw draw(8);
+  int n_slip = 0;
+  for (int trial = 0; trial < 1000; ++trial) {
+    const Impact impact = random_impact(draw);
+    const Mat3 K = impact.compliance();
+    const Vec3 u = -5 * impact.normal;
+    const Vec3 P = newton_coulomb_impulse(K, impact.normal, u, {0.02, 0.5});
+    const Vec3 after = u + K * P;
+    const Vec3 after_t = after - after.dot(impact.normal) * impact.normal;
+    if (after_t.norm() < 1e-9) continue;
+    ++n_slip;
+    EXPECT_LT(P.dot(after_t), 0);
+    EXPECT_NEAR((P - P.dot(impact.normal) * impact.normal).norm(), 0.02 * P.dot(impact.normal), 1e-12);
+  }
+  EXPECT_GT(n_slip, 100);
+}
+
 TEST(Impulse, ElasticFrictionlessKeepsEnergy) {
   test::Draw draw(6);
   for (int trial = 0; trial < 2000; ++trial) {

@@ -80,6 +80,17 @@ TEST(PlateMotion, MovesAlongOneDirectionOfThePlaneAheadOfItsRise) {
   }
 }
 
+/// Plates with a second vibration and, if it is given, a lid that moves by itself.
+System with_two_vibrations(double second_frequency, std::optional<LidMotion> lid) {
+  System system;
+  system.amplitude = 0.05;
+  system.frequency = 125.0;  // 2,000 ticks
+  system.dt = 4e-6;
+  system.second = SecondVibration{0.02, second_frequency, 40.0};
+  system.lid_motion = lid;
+  return system;
+}
+
 TEST(PlateMotion, WasBeforeWhatItWasAtAnEarlierTick) {
   for (const double amplitude : {0.0, 0.05}) {
     const double dt = 1e-6;
@@ -93,17 +104,23 @@ TEST(PlateMotion, WasBeforeWhatItWasAtAnEarlierTick) {
       EXPECT_NEAR(found.slide, then.slide, 1e-9);
     }
   }
+  const System system = with_two_vibrations(317.0, LidMotion{0.08, 120.0});
+  const PlateMotion plates(system);
+  for (const Tick ago : {0, 1, 50}) {
+    const PlateState then = plates.at(4321 - ago);
+    const PlateState found = plates.before(4321, static_cast<double>(ago) * system.dt);
+    EXPECT_NEAR(found.base, then.base, 1e-12);
+    EXPECT_NEAR(found.velocity, then.velocity, 1e-9);
+    EXPECT_NEAR(found.lid, then.lid, 1e-12);
+    EXPECT_NEAR(found.lid_velocity, then.lid_velocity, 1e-9);
+  }
 }
 
-/// Plates with a second vibration and, if it is given, a lid that moves by itself.
-System with_two_vibrations(double second_frequency, std::optional<LidMotion> lid) {
-  System system;
-  system.amplitude = 0.05;
-  system.frequency = 125.0;  // 2,000 ticks
-  system.dt = 4e-6;
-  system.second = SecondVibration{0.02, second_frequency, 40.0};
-  system.lid_motion = lid;
-  return system;
+TEST(PlateMotion, PeakSpeedIsThatOfTheFasterPlate) {
+  const double w = 2 * kPi * 125;
+  EXPECT_NEAR(PlateMotion(with_two_vibrations(250.0, LidMotion{0.3, 120.0})).peak_speed(), 0.3 * w, 1e-9);
+  EXPECT_NEAR(PlateMotion(with_two_vibrations(250.0, LidMotion{0.01, 120.0})).peak_speed(), 0.05 * w + 0.02 * 2 * w,
+              1e-9);
 }
 
 // The law in closed form; 250 Hz has a whole number of ticks, 317 Hz has none.

@@ -282,6 +282,8 @@ TEST(Posts, ASphereBouncesOffAPostHeadOn) {
   ASSERT_FALSE(simulation.advance_to(static_cast<Tick>(0.2 / system.dt)).has_value());
   EXPECT_EQ(simulation.world().counters.impulses_rod_post, 1);
   EXPECT_EQ(simulation.world().counters.impulses_rod_wall, 0);
+  EXPECT_GT(simulation.world().counters.max_overlap_rod_surface, 0);
+  EXPECT_LE(simulation.world().counters.max_overlap_rod_surface, 20 * system.dt * (1 + 1e-9));
   EXPECT_NEAR(simulation.world().rods[0].velocity.x(), 10, 1e-12);
   EXPECT_NEAR(simulation.snapshot().position[0].x(), 12.5 + 0.25, 1e-3);
   EXPECT_NEAR(simulation.snapshot().position[0].y(), 10, 1e-12);
@@ -388,6 +390,19 @@ TEST(Posts, NoRodStartsInOne) {
     for (const Flight& flight : world->rods)
       EXPECT_TRUE(is_clear_of_posts(posts, world->species[0], {flight.position, flight.director}));
     EXPECT_EQ(world->system, system);
+  }
+  // Long rods that lie askew reach further at one height than at another.
+  system.rod = {.length = 4.5};
+  system.gap = 2;
+  system.posts = Posts{.diameter = 2, .columns = 4, .rows = 4};
+  system.start = Start::kRandom;
+  system.n_rods = 60;
+  for (system.seed = 1; system.seed <= 5; ++system.seed) {
+    const Result<World> world = make_world(system);
+    ASSERT_TRUE(static_cast<bool>(world)) << world.error().message;
+    const PostGrid posts(standing_posts(system), system.box(), system.box().sides());
+    for (const Flight& flight : world->rods)
+      EXPECT_TRUE(is_clear_of_posts(posts, world->species[0], {flight.position, flight.director}));
   }
 }
 

@@ -118,6 +118,10 @@ TEST(Sizes, HaveTheContactsOfTheirSpecies) {
   system.rod_rod.own[Contacts::place(0, 2)].friction = 0.2;
   system.rod_rod.own[Contacts::place(2, 2)].friction = 0.4;
   system.rod_base.own[Contacts::place(0, 2)].friction = 0.7;
+  system.walls = SideWalls{Arena::kSquare, 18.0, 1.0, {0.1, 0.3}};
+  system.walls->contact.own[Contacts::place(0, 2)].friction = 0.6;
+  system.posts = Posts{.diameter = 1.2, .columns = 2, .rows = 2, .contact = {0.3, 0.3}};
+  system.posts->contact.own[Contacts::place(0, 2)].friction = 0.5;
   system.rod_rod.own[Contacts::place(0, 1)].friction = system.rod_base.own[Contacts::place(0, 1)].friction =
       9;  // of none
   const World world = empty_world(system);
@@ -126,6 +130,8 @@ TEST(Sizes, HaveTheContactsOfTheirSpecies) {
   for (int i = 0; i < 30; ++i) {
     const bool is_third = cell.species_of(static_cast<std::size_t>(i)) == 1;
     EXPECT_EQ(rules.species_of(i).base.friction, is_third ? 0.7 : 0.01);
+    EXPECT_EQ(rules.species_of(i).wall.friction, is_third ? 0.6 : 0.1);
+    EXPECT_EQ(rules.species_of(i).post.friction, is_third ? 0.5 : 0.3);
     for (int j = 0; j < 30; ++j) {
       const bool is_other_third = cell.species_of(static_cast<std::size_t>(j)) == 1;
       const double friction = is_third && is_other_third ? 0.4 : is_third || is_other_third ? 0.2 : 0.05;

@@ -22,5 +22,15 @@ TEST(Tickets, AreForOneThingOnce) {
   EXPECT_TRUE(tickets.take(one));
 }
 
+TEST(Tickets, LastAMinute) {
+  Tickets::Clock::time_point now{};
+  Tickets tickets([&] { return now; });
+  const std::string used = tickets.give("/runs/a/files/x", {}), late = tickets.give("/runs/a/files/y", {});
+  now += std::chrono::minutes(1);
+  EXPECT_TRUE(tickets.take(used));
+  now += std::chrono::milliseconds(1);
+  EXPECT_FALSE(tickets.take(late));
+}
+
 }  // namespace
 }  // namespace shaken::web
