@@ -3,6 +3,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <chrono>
 #include <shaken/job_t.hpp>
 #include <shaken/status_t.hpp>
@@ -17,7 +18,6 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kPeriod{1000};
 constexpr milliseconds kReaction{200};  ///< longest wait before a request to stop is seen
 
 /// Changes sent in one go: a submit of thousands of points must not overrun the receivers' buffers.
@@ -28,10 +28,12 @@ constexpr milliseconds kLastMessages{2000};
 
 }  // namespace
 
-StatusPublisher::StatusPublisher(const Queue& queue, std::unique_ptr<proto::Bus> bus, DaemonInfo info)
+StatusPublisher::StatusPublisher(const Queue& queue, std::unique_ptr<proto::Bus> bus, DaemonInfo info,
+                                 milliseconds period)
     : queue_(queue),
       bus_(std::move(bus)),
       info_(std::move(info)),
+      period_(period),
       last_change_(queue.last_change()),
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
@@ -49,15 +51,15 @@ void StatusPublisher::run(const std::stop_token& stop) {
       if (Clock::now() >= next_tick) {
         publish_status();
         running_is_due = true;
-        next_tick += kPeriod;
+        next_tick += period_;
       }
       if (running_is_due && publish_running()) running_is_due = false;
     } catch (const std::exception& problem) {  // the queue, memory, a thread; no result depends on live state
       spdlog::error("publisher: {}", problem.what());
-      next_tick = Clock::now() + kPeriod;
+      next_tick = Clock::now() + period_;
       std::this_thread::sleep_for(kReaction);
     }
-    queue_.wait_for_change(last_change_, kReaction);
+    queue_.wait_for_change(last_change_, std::min(kReaction, period_));
   } while (!stop.stop_requested());
   try {
     while (publish_changes() && !is_over()) continue;  // of the jobs that were stopped with the daemon

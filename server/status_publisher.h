@@ -12,12 +12,13 @@
 
 namespace shaken::server {
 
-/// Sends SHAKEN_STATUS once a second, and SHAKEN_JOB at every change of state and once a second for each job that
+/// Sends SHAKEN_STATUS once a period, and SHAKEN_JOB at every change of state and once a period for each job that
 /// runs. Its thread is the only one that touches the bus; it reads the queue and the progress files, nothing else.
 /// At its end it sends what has changed, but for some seconds at most: the other end may take nothing.
 class StatusPublisher {
  public:
-  StatusPublisher(const Queue& queue, std::unique_ptr<proto::Bus> bus, DaemonInfo info);
+  StatusPublisher(const Queue& queue, std::unique_ptr<proto::Bus> bus, DaemonInfo info,
+                  std::chrono::milliseconds period = std::chrono::seconds(1));
   ~StatusPublisher();
 
  private:
@@ -35,6 +36,7 @@ class StatusPublisher {
   const Queue& queue_;
   std::unique_ptr<proto::Bus> bus_;
   DaemonInfo info_;
+  std::chrono::milliseconds period_;
   std::int64_t status_sequence_ = 0;
   std::int64_t job_sequence_ = 0;
   std::int64_t last_change_;

@@ -10,15 +10,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::chrono::seconds kEvery{1};
-constexpr std::chrono::seconds kSeldom{60};
+constexpr int kSeldom = 60;
 /// After which nobody looks any more: a page waits again each second.
-constexpr std::chrono::seconds kLooksOn{5};
+constexpr int kLooksOn = 5;
 
 }  // namespace
 
-QueueFeed::QueueFeed(const DaemonLink& daemon, std::function<void(const std::set<std::string>&)> running)
-    : daemon_(daemon), running_(std::move(running)) {
+QueueFeed::QueueFeed(const DaemonLink& daemon, std::function<void(const std::set<std::string>&)> running,
+                     std::chrono::milliseconds every)
+    : daemon_(daemon), running_(std::move(running)), every_(every) {
   thread_ = std::jthread([this](const std::stop_token& stop) { poll(stop); });
 }
 
@@ -66,15 +66,15 @@ void QueueFeed::poll(const std::stop_token& stop) {
       ++version_;
     }
     news_.notify_all();
-    const bool is_looked_at = Clock::now() - looked_at_ < kLooksOn;
-    news_.wait_for(lock, stop, is_looked_at ? kEvery : kSeldom, [&] { return is_stale_; });
+    const bool is_looked_at = Clock::now() - looked_at_ < kLooksOn * every_;
+    news_.wait_for(lock, stop, (is_looked_at ? 1 : kSeldom) * every_, [&] { return is_stale_; });
   }
 }
 
 std::optional<std::string> QueueFeed::wait(std::int64_t& seen, std::chrono::milliseconds timeout) {
   std::unique_lock lock(mutex_);
   const auto now = Clock::now();
-  if (now - std::exchange(looked_at_, now) >= kLooksOn) {
+  if (now - std::exchange(looked_at_, now) >= kLooksOn * every_) {
     is_stale_ = true;
     news_.notify_all();
   }

@@ -17,11 +17,13 @@
 namespace shaken::web {
 
 /// The queue as it is now, asked for in a thread of its own: once a second while pages look at it, however many these
-/// are, and once a minute while none does, so that S(t) is kept of runs that begin meanwhile.
+/// are, and once a minute while none does, so that S(t) is kept of runs that begin meanwhile (with another `every`, as
+/// much faster or slower).
 class QueueFeed {
  public:
   /// `running` is told the ids of the jobs that run, after every answer.
-  QueueFeed(const DaemonLink& daemon, std::function<void(const std::set<std::string>&)> running);
+  QueueFeed(const DaemonLink& daemon, std::function<void(const std::set<std::string>&)> running,
+            std::chrono::milliseconds every = std::chrono::seconds(1));
   ~QueueFeed();
 
   /// {"status", "sweeps", "jobs": those that run} as the daemon has them (docs/protocol.md), or {"error"}. Waits for at
@@ -35,6 +37,7 @@ class QueueFeed {
 
   const DaemonLink& daemon_;
   std::function<void(const std::set<std::string>&)> running_;
+  std::chrono::milliseconds every_;
   std::mutex mutex_;
   std::condition_variable_any news_;
   std::string newest_;

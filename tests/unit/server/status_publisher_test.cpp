@@ -35,6 +35,8 @@ Recording read_log(const std::filesystem::path& file) {
   return recording;
 }
 
+constexpr std::chrono::milliseconds kPeriod{50};
+
 class PublisherTest : public testing::Test {
  protected:
   void start() {
@@ -46,7 +48,7 @@ class PublisherTest : public testing::Test {
     info.pid = 42;
     info.root = directory_.path();
     info.slots = 3;
-    publisher_.emplace(queue_, std::move(opened).value(), info);
+    publisher_.emplace(queue_, std::move(opened).value(), info, kPeriod);
   }
   Recording stop() {
     publisher_.reset();
@@ -79,10 +81,10 @@ TEST_F(PublisherTest, EveryChangeOfStateIsSent) {
   EXPECT_EQ(recording.jobs.back().attempt, 1);
 }
 
-// What runs is sent again each second, but never ahead of the changes that brought it there, nor after its end.
+// What runs is sent again each period, but never ahead of the changes that brought it there, nor after its end.
 TEST_F(PublisherTest, NoJobIsSentAheadOfItsChanges) {
   start();
-  const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(3200);
+  const auto until = std::chrono::steady_clock::now() + 10 * kPeriod;
   for (int n = 0; std::chrono::steady_clock::now() < until; ++n) {
     NewJob job = new_job('a');
     job.id = fmt::format("{:016x}", n);
@@ -110,7 +112,7 @@ TEST_F(PublisherTest, ARunningJobIsSentAgainAndAgainWithItsProgress) {
                  "sim_time_total_s": 2, "sim_rate": 0.1, "eta_s": 10, "order": 0.25, "order_running_mean": 0.2,
                  "max_overlap_mm": 0})");
   start();
-  std::this_thread::sleep_for(std::chrono::milliseconds(2500));  // LCM keeps the file's end in memory: no use to look
+  std::this_thread::sleep_for(10 * kPeriod);  // LCM keeps the file's end in memory: no use to look
   const Recording recording = stop();
   EXPECT_GE(recording.statuses.size(), 2U);
   EXPECT_GE(recording.jobs.size(), 2U);

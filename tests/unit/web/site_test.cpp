@@ -164,8 +164,9 @@ TEST(Feed, AsksSeldomWhileNobodyLooks) {
   daemon.on("GET /v1/jobs?state=running", R"({"jobs": []})");
   daemon.on("GET /v1/jobs?state=stopping", R"({"jobs": []})");
   const DaemonLink link(root.path());
-  QueueFeed feed(link, [](const std::set<std::string>&) {});
-  std::this_thread::sleep_for(std::chrono::seconds(3));
+  QueueFeed feed(
+      link, [](const std::set<std::string>&) {}, std::chrono::milliseconds(50));
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
   EXPECT_LE(daemon.requests().size(), 4u) << "once, four questions";
   daemon.on("GET /v1/sweeps", R"({"sweeps": [{"id": "s7"}]})");
   std::int64_t seen = 0;
