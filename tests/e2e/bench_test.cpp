@@ -20,7 +20,7 @@ class Bench : public ::testing::Test {
  protected:
   /// `shaken bench WORDS`, with a cache of its own where it has one.
   Finished bench(std::vector<std::string> words) const {
-    words.insert(words.begin(), {std::string(SHAKEN_BIN_DIR) + "/shaken", "bench"});
+    words.insert(words.begin(), {program("shaken"), "bench"});
     if (words[2] != "accuracy") words.insert(words.end(), {"--cache", (folder_.path() / "cache").string()});
     return run_command(words);
   }
@@ -182,7 +182,7 @@ TEST_F(Bench, EffectsAreSwitchedOffOneByOne) {
 
 TEST_F(Bench, HardScenesHaveAHistory) {
   const auto history = [&](std::vector<std::string> words) {
-    words.insert(words.begin(), {std::string(SHAKEN_BIN_DIR) + "/shaken", "bench", "hard", "--history", "0.02"});
+    words.insert(words.begin(), {program("shaken"), "bench", "hard", "--history", "0.02"});
     return run_command(words);
   };
   const Finished finished = history({"three-beads", "sticky-below", "--out", out()});

@@ -16,12 +16,10 @@
 #include "tests/e2e/run_command.h"
 
 namespace shaken::test {
-namespace {
+namespace e2e_test {
 
 using Json = nlohmann::json;
 using std::chrono::seconds;
-
-std::string program(const std::string& name) { return std::string(SHAKEN_BIN_DIR) + "/" + name; }
 
 /// LCM's multicast may only be used where it cannot leave the machine.
 bool own_network() { return std::getenv("SHAKEN_OWN_NETWORK") != nullptr; }
@@ -451,5 +449,5 @@ TEST(EndToEnd, WhatCannotBePlacedIsRefusedByEveryVerbInTheSameWords) {
   EXPECT_FALSE(std::filesystem::exists(directory));
 }
 
-}  // namespace
+}  // namespace e2e_test
 }  // namespace shaken::test

@@ -20,7 +20,7 @@ using Json = nlohmann::json;
 class Explain : public ::testing::Test {
  protected:
   Finished shaken(std::vector<std::string> words) const {
-    words.insert(words.begin(), std::string(SHAKEN_BIN_DIR) + "/shaken");
+    words.insert(words.begin(), program("shaken"));
     return run_command(words);
   }
   Json json(std::vector<std::string> words) const {

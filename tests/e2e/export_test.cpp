@@ -15,8 +15,6 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-std::string program(const std::string& name) { return std::string(SHAKEN_BIN_DIR) + "/" + name; }
-
 constexpr const char* kTwoKinds = R"({
   "rods": { "length": "4.5 mm", "count": 40 },
   "rods_2": { "length": "2.5 mm", "count": 20 },

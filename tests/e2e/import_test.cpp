@@ -14,7 +14,7 @@
 #include "tests/e2e/run_command.h"
 
 namespace shaken::test {
-namespace {
+namespace import_test {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
@@ -44,8 +44,8 @@ class Imported : public ::testing::Test {
   }
   std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
   Finished import(const std::string& file, std::vector<std::string> more = {}) const {
-    more.insert(more.begin(), {std::string(SHAKEN_BIN_DIR) + "/shaken", "import", path(file), "--scene",
-                               path("scene.json"), "--root", path("root")});
+    more.insert(more.begin(),
+                {program("shaken"), "import", path(file), "--scene", path("scene.json"), "--root", path("root")});
     return run_command(more);
   }
   Json report(const std::string& file, std::vector<std::string> more = {}) const {
@@ -56,8 +56,8 @@ class Imported : public ::testing::Test {
   }
   /// A run beside the imported ones, where it finds them without a root.
   Finished start(const std::string& id, const std::string& name, const std::string& time = "0") const {
-    return run_command({std::string(SHAKEN_BIN_DIR) + "/shaken", "run", path("scene.json"), "--out",
-                        path("root/runs/" + name), "-s", "start.run=" + id, "-s", "start.time=" + time});
+    return run_command({program("shaken"), "run", path("scene.json"), "--out", path("root/runs/" + name), "-s",
+                        "start.run=" + id, "-s", "start.time=" + time});
   }
   run::RecordedFrame frame_of(const std::string& file, std::size_t frame = 0) const {
     return run::TrajectoryReader::open(path(file)).value().recorded().frame(frame).value();
@@ -186,8 +186,7 @@ TEST_F(Imported, RodsAreNoRunThatGoesOn) {
   const std::string id = report("rods.csv")["run_id"];
   const auto before = files();
   const std::string directory = path("root/runs/" + id);
-  const Finished onto =
-      run_command({std::string(SHAKEN_BIN_DIR) + "/shaken", "run", path("scene.json"), "--out", directory});
+  const Finished onto = run_command({program("shaken"), "run", path("scene.json"), "--out", directory});
   EXPECT_EQ(onto.code, 2);
   EXPECT_THAT(onto.output, HasSubstr("holds imported rods, from which runs start: give another --out"));
   EXPECT_EQ(files(), before);
@@ -209,5 +208,5 @@ TEST_F(Imported, FlatRodsAtRestAreTold) {
               ::testing::Not(HasSubstr("at rest")));
 }
 
-}  // namespace
+}  // namespace import_test
 }  // namespace shaken::test

@@ -21,6 +21,7 @@
 #include "run/files/directory.h"
 #include "run/files/done.h"
 #include "tests/e2e/run_command.h"
+#include "tests/support/effort.h"
 
 namespace shaken::test {
 namespace {
@@ -34,8 +35,6 @@ int cycles(int usual) {
   const char* given = std::getenv("SHAKEN_KILL_CYCLES");
   return given != nullptr ? std::max(1, std::atoi(given)) : usual;
 }
-
-std::string program(const std::string& name) { return std::string(SHAKEN_BIN_DIR) + "/" + name; }
 
 /// A sweep of short runs with the seeds from `first` on.
 std::string short_runs(int first, int count) {
@@ -97,7 +96,7 @@ void wait_until(const std::function<bool()>& condition, seconds limit) {
 }
 
 TEST(KillCycles, WhatTheDaemonHasAcknowledgedIsDoneOnce) {
-  const int n_cycles = cycles(100);
+  const int n_cycles = cycles(draws(100));
   const ScratchFolder folder;
   const fs::path& root = folder.path();
   std::mt19937 random(7);

@@ -9,14 +9,13 @@
 #include <fstream>
 
 #include "tests/e2e/run_command.h"
+#include "tests/support/effort.h"
 
 namespace shaken::test {
 namespace {
 
 using namespace std::chrono_literals;
 using testing::HasSubstr;
-
-std::string program(const std::string& name) { return std::string(SHAKEN_BIN_DIR) + "/" + name; }
 
 /// The address in what shaken-web has printed.
 std::string address_in(const std::string& output) {
@@ -25,6 +24,7 @@ std::string address_in(const std::string& output) {
 }
 
 TEST(Page, IsUsedInABrowser) {
+  if (!at_night()) GTEST_SKIP() << "a browser: minutes";
   const bool live = std::getenv("SHAKEN_OWN_NETWORK") != nullptr;
   const ScratchFolder folder;
   const std::string root = (folder.path() / "root").string();

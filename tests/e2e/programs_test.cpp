@@ -83,7 +83,7 @@ TEST(Plot, SaysWhoseRunItShows) {
 }
 
 // As after `./dev demo`, which builds no benches.
-TEST(Bench, ThatIsNotBuiltSaysHowItIs) {
+TEST(Programs, BenchThatIsNotBuiltSaysHowItIs) {
   const ScratchFolder folder;
   const std::string here = "cd " + folder.path().string() + "; cp " SHAKEN_BIN_DIR "/shaken .; ";
   const Finished missing = shell(here + "./shaken bench speed 2>&1");
@@ -97,9 +97,8 @@ TEST(Bench, ThatIsNotBuiltSaysHowItIs) {
 // A relay that was stopped, or a port behind a proxy: it accepts, and never says a word.
 TEST(EveryListener, EndsOnASignalWhereTheServerOfLiveStateSaysNothing) {
   const ScratchFolder folder;
-  const LazyServer server;
+  LazyServer server;
   const std::string root = (folder / "root").string();
-  const auto program = [](const char* name) { return std::string(SHAKEN_BIN_DIR) + "/" + name; };
   Process daemon({program("shakend"), "--root", root, "--no-lcm"}, folder / "daemon.log");
   ASSERT_TRUE(daemon.wait_for("shakend ready", std::chrono::seconds(20))) << daemon.output();
   std::ofstream(folder / "scene.json") << R"({"time": {"measure": "20000 s"}})";
@@ -116,7 +115,7 @@ TEST(EveryListener, EndsOnASignalWhereTheServerOfLiveStateSaysNothing) {
       words.insert(words.end(), {"--lcm-url", server.url()});
       std::filesystem::remove(log);
       Process listener(words, folder / "listener.log");
-      std::this_thread::sleep_for(std::chrono::seconds(3));  // it is likely to wait for the server by now
+      server.wait_for_client();
       listener.signal(signal);
       EXPECT_NE(listener.wait(std::chrono::seconds(20)), -1) << words[0] << "\n" << listener.output();
     }

@@ -15,13 +15,11 @@
 #include "tests/e2e/run_command.h"
 
 namespace shaken::test {
-namespace {
+namespace relay_test {
 
 using Json = nlohmann::json;
 using std::chrono::seconds;
 using std::chrono::steady_clock;
-
-std::string program(const std::string& name) { return std::string(SHAKEN_BIN_DIR) + "/" + name; }
 
 constexpr const char* kScene = R"({
   "rods": { "length": "4.5 mm", "area_fraction": 0.5 }, "box": { "side": "20 mm" }, "time": { "measure": "4 s" },
@@ -204,5 +202,5 @@ TEST_F(RelayedRun, ARecordingHasItsLimits) {
   EXPECT_EQ(shaken({"replay-log", file("scene.json"), "--lcm-url", url_}).code, 1) << "no log";
 }
 
-}  // namespace
+}  // namespace relay_test
 }  // namespace shaken::test

@@ -12,6 +12,9 @@
 
 namespace shaken::test {
 
+/// The path of a program of this build.
+inline std::string program(const std::string& name) { return std::string(SHAKEN_BIN_DIR) + "/" + name; }
+
 /// A child process whose stdout and stderr go to files. Killed if still alive at the end.
 class Process {
  public:

@@ -9,7 +9,7 @@
 #include "tests/e2e/run_command.h"
 
 namespace shaken::test {
-namespace {
+namespace streams_test {
 
 using testing::HasSubstr;
 using testing::MatchesRegex;
@@ -19,8 +19,6 @@ constexpr const char* kScene = R"({
   "rods": { "count": 4, "length": "2.5 mm", "beads": 7 }, "box": { "side": "12 mm" },
   "time": { "step": "20 us", "measure": "2 ms", "steady": "1 ms" }, "trajectory": { "every": "1 ms" }
 })";
-
-std::string program(const std::string& name) { return std::string(SHAKEN_BIN_DIR) + "/" + name; }
 
 Finished shell(const std::string& words) { return run_command({"/bin/sh", "-c", words}); }
 
@@ -93,5 +91,5 @@ TEST(Streams, ASceneThatDoesNotEndIsRefused) {
   EXPECT_THAT(stopped.output, HasSubstr("code 124")) << "137 if only SIGKILL did";
 }
 
-}  // namespace
+}  // namespace streams_test
 }  // namespace shaken::test

@@ -12,8 +12,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-std::string program(const std::string& name) { return std::string(SHAKEN_BIN_DIR) + "/" + name; }
-
 /// Ticks 25 times too long for shaking five times too strong: rods go through each other within some 100 ticks.
 constexpr const char* kWildScene = R"({
   "rods": { "length": "2.5 mm", "area_fraction": 0.8 },

@@ -30,8 +30,6 @@ namespace {
 using std::chrono::seconds;
 using std::chrono::steady_clock;
 
-std::string program_in(const std::string& name) { return std::string(SHAKEN_BIN_DIR) + "/" + name; }
-
 /// LCM's multicast may only be used where it cannot leave the machine.
 bool has_own_network() { return std::getenv("SHAKEN_OWN_NETWORK") != nullptr; }
 
@@ -176,7 +174,7 @@ constexpr const char* kLongRun = R"({
 class WatchOnATerminal : public ::testing::Test {
  protected:
   explicit WatchOnATerminal(const std::vector<std::string>& live = {}) {
-    std::vector<std::string> command{program_in("shakend"), "--root", root(), "--slots", "1"};
+    std::vector<std::string> command{program("shakend"), "--root", root(), "--slots", "1"};
     if (!live.empty()) {
       command.insert(command.end(), live.begin(), live.end());
     } else if (has_own_network()) {
@@ -189,7 +187,7 @@ class WatchOnATerminal : public ::testing::Test {
     EXPECT_TRUE(daemon_->wait_for("shakend ready", seconds(20))) << daemon_->output();
     std::ofstream(directory_.path() / "long.json") << kLongRun;
     const Finished submitted = run_command(
-        {program_in("shaken"), "submit", (directory_.path() / "long.json").string(), "--root", root()}, seconds(60));
+        {program("shaken"), "submit", (directory_.path() / "long.json").string(), "--root", root()}, seconds(60));
     EXPECT_EQ(submitted.code, 0) << submitted.output;
   }
   ~WatchOnATerminal() override {
@@ -197,7 +195,7 @@ class WatchOnATerminal : public ::testing::Test {
     daemon_->wait(seconds(30));
   }
   std::string root() const { return directory_.path().string(); }
-  std::vector<std::string> watch_command() const { return {program_in("shaken"), "watch", "--root", root()}; }
+  std::vector<std::string> watch_command() const { return {program("shaken"), "watch", "--root", root()}; }
 
   ScratchFolder directory_;
   std::unique_ptr<Process> daemon_;

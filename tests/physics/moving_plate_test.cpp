@@ -7,7 +7,7 @@
 #include "sim/simulation.h"
 
 namespace shaken {
-namespace {
+namespace moving_plate_test {
 
 constexpr RodShape kSphere{.length = 0.8, .n_beads = 1};
 constexpr RodShape kFlatRod{.length = 2.5, .n_beads = 9};
@@ -112,5 +112,5 @@ TEST(MovingPlate, GivesTheEnergyThatTheBudgetSays) {
               impulse * b.plate - 0.5 * mass * (1 - 0.25) * 30 * 30, 1e-8 * mass * 900);
 }
 
-}  // namespace
+}  // namespace moving_plate_test
 }  // namespace shaken

@@ -14,7 +14,7 @@
 #include "tests/support/short_rods.h"
 
 namespace shaken {
-namespace {
+namespace turned_rods_test {
 
 // ---- whole runs: their twins with rods turned end for end are the same, bit by bit
 
@@ -191,5 +191,5 @@ TEST(TurnedRods, PlatesPushApolarRodsNeitherWayAndTiltedOnesOppositely) {
   EXPECT_LT(std::abs(up.value() + down.value()), 4 * odd_error);
 }
 
-}  // namespace
+}  // namespace turned_rods_test
 }  // namespace shaken

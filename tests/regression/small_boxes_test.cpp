@@ -11,7 +11,7 @@
 #include "tests/support/random_rods.h"
 
 namespace shaken {
-namespace {
+namespace small_boxes_test {
 
 using test::compare;
 using test::problem;
@@ -159,5 +159,5 @@ TEST(SmallBoxes, BelowTheLeastNoRunStarts) {
   }
 }
 
-}  // namespace
+}  // namespace small_boxes_test
 }  // namespace shaken

@@ -9,7 +9,7 @@
 #include "tests/support/compare_steppers.h"
 
 namespace shaken {
-namespace {
+namespace steppers_agree_test {
 
 using test::compare;
 using test::compare_threads;
@@ -238,5 +238,5 @@ TEST(SteppersAgreeProperty, RandomScenes) {
   EXPECT_GE(tally.part_in_full(), 0.9);
 }
 
-}  // namespace
+}  // namespace steppers_agree_test
 }  // namespace shaken

@@ -2,6 +2,8 @@
 // How often a property is tried.
 #pragma once
 
+#include <cstdlib>
+
 namespace shaken::test {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -16,8 +18,11 @@ inline constexpr bool kSanitized = false;
 inline constexpr bool kSanitized = false;
 #endif
 
-/// Of `n` draws, as many as this build makes. Sanitizers look at what the code touches, and a tenth of the draws
-/// touches it all; that a law holds in every one of them is for the build without to show.
-constexpr int draws(int n) { return kSanitized ? n / 10 : n; }
+/// Whether all that takes long is tried as well: `./dev test all`.
+inline bool at_night() { return std::getenv("SHAKEN_NIGHT") != nullptr; }
+
+/// Of `n` draws, as many as are made now. A tenth of them touches all the code; that a law holds in every one of them
+/// is for the night to show.
+inline int draws(int n) { return at_night() ? n : n / 10; }
 
 }  // namespace shaken::test

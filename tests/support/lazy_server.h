@@ -33,9 +33,14 @@ class LazyServer {
     for (const int fd : {connection_, listener_}) close(fd);
   }
   const std::string& url() const { return url_; }
+  /// Waits for one client; who came before is left.
+  void wait_for_client() {
+    close(connection_);
+    connection_ = accept(listener_, nullptr, nullptr);
+  }
   /// Waits for one client, and says no more to it than that this is LCM's tcpq.
   void greet() {
-    connection_ = accept(listener_, nullptr, nullptr);
+    wait_for_client();
     const std::array<std::uint32_t, 2> greeting{htonl(0x287617fa), htonl(0x0100)};
     EXPECT_EQ(send(connection_, greeting.data(), sizeof(greeting), 0), static_cast<ssize_t>(sizeof(greeting)));
   }

@@ -12,7 +12,7 @@
 #include "tests/unit/analysis/state_checks.h"
 
 namespace shaken::analysis {
-namespace {
+namespace clusters_test {
 
 constexpr double kBox = 20;
 constexpr ClusterRule kRule{.distance = 1};
@@ -168,5 +168,5 @@ TEST(ClusterSeries, KeepsLargestAndMean) {
   EXPECT_EQ(series.sizes(), (std::vector<double>{2.5, 2}));
 }
 
-}  // namespace
+}  // namespace clusters_test
 }  // namespace shaken::analysis

@@ -11,7 +11,7 @@
 #include "tests/unit/analysis/analysis_samples.h"
 
 namespace shaken::analysis {
-namespace {
+namespace defect_maps_test {
 
 constexpr double kBox = 60.0, kRange = 8.0, kCore = 2.0, kStep = 0.1;
 constexpr int kBins = 21;
@@ -332,5 +332,5 @@ TEST(DefectMaps, TakeVelocitiesAboutTheSampleInTheMiddle) {
   EXPECT_EQ(maps.sums().after(2 * kStep).samples(), 2);
 }
 
-}  // namespace
+}  // namespace defect_maps_test
 }  // namespace shaken::analysis

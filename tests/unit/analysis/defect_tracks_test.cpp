@@ -8,7 +8,7 @@
 #include "tests/unit/analysis/analysis_samples.h"
 
 namespace shaken::analysis {
-namespace {
+namespace defect_tracks_test {
 
 constexpr double kBox = 40, kArea = kBox * kBox, kInterval = 0.1;
 
@@ -277,5 +277,5 @@ TEST(DefectTracks, NothingAndOddCharges) {
   EXPECT_THROW(tracks.accumulate(4 * kInterval, {}), std::logic_error);
 }
 
-}  // namespace
+}  // namespace defect_tracks_test
 }  // namespace shaken::analysis

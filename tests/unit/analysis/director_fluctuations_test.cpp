@@ -9,7 +9,7 @@
 #include "tests/unit/analysis/state_checks.h"
 
 namespace shaken::analysis {
-namespace {
+namespace director_fluctuations_test {
 
 constexpr double kBox = 80;
 constexpr int kLattice = 30;
@@ -177,5 +177,5 @@ TEST(DirectorFluctuations, Merge) {
   EXPECT_EQ(state(straight), state(first));
 }
 
-}  // namespace
+}  // namespace director_fluctuations_test
 }  // namespace shaken::analysis

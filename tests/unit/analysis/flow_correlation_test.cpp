@@ -8,7 +8,7 @@
 #include "tests/unit/analysis/analysis_samples.h"
 
 namespace shaken::analysis {
-namespace {
+namespace flow_correlation_test {
 
 constexpr double kBox = 20;
 
@@ -204,5 +204,5 @@ TEST(FlowCorrelation, TakesDisplacementsFromSampleToSample) {
   EXPECT_THROW(flow.accumulate(2, std::vector<Vec3>(1), std::vector<Vec3>(1), 0, kBox), std::logic_error);
 }
 
-}  // namespace
+}  // namespace flow_correlation_test
 }  // namespace shaken::analysis

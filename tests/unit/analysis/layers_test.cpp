@@ -8,7 +8,7 @@
 #include "tests/unit/analysis/analysis_samples.h"
 
 namespace shaken::analysis {
-namespace {
+namespace layers_test {
 
 constexpr double kBox = 60;
 
@@ -197,5 +197,5 @@ TEST(LayerOrder, MergeAndOddInput) {
   EXPECT_TRUE(std::isfinite(odd.peak()->wavelength));
 }
 
-}  // namespace
+}  // namespace layers_test
 }  // namespace shaken::analysis

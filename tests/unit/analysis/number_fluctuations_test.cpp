@@ -9,7 +9,7 @@
 #include "tests/unit/analysis/state_checks.h"
 
 namespace shaken::analysis {
-namespace {
+namespace number_fluctuations_test {
 
 constexpr double kBox = 60;
 
@@ -201,5 +201,5 @@ TEST(NumberFluctuations, Merge) {
   EXPECT_THROW(other.merge(straight), std::logic_error);
 }
 
-}  // namespace
+}  // namespace number_fluctuations_test
 }  // namespace shaken::analysis

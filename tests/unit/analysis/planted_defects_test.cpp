@@ -34,7 +34,7 @@ TEST(PlantedDefects, AreFoundWhereTheyWerePlanted) {
   int n_planted = 0, n_found = 0;
   for (const double aspect : {1.0, 2.0}) {
     for (const double angle : {0.0, 90.0}) {
-      for (std::uint64_t seed = 1; seed <= (test::kSanitized ? 2 : 5); ++seed) {
+      for (std::uint64_t seed = 1; seed <= (test::at_night() ? 5 : 2); ++seed) {
         System system;
         system.rod = {.length = 3.5, .n_beads = 11};
         system.box_side = aspect == 1 ? 33 : 24;
@@ -98,14 +98,14 @@ TrackSummary tracks_among_straying_rods(double velocity, std::size_t n_samples) 
 // The director's noise moves a defect and turns its axis alike forwards and backwards in time: it makes no velocity
 // along the axis, at a jitter as fast as that of dilute rods in docs/findings.md. A drift as slow as theirs is seen.
 TEST(PlantedDefects, NoiseAloneMakesNoVelocityAlongTheAxis) {
-  constexpr std::size_t kSamples = test::kSanitized ? 400 : 2000;
+  const std::size_t n_samples = test::at_night() ? 2000 : 400;
   for (const double velocity : {0.0, 0.67}) {
-    const TrackSummary::Tracks tracks = tracks_among_straying_rods(velocity, kSamples).lasting;
+    const TrackSummary::Tracks tracks = tracks_among_straying_rods(velocity, n_samples).lasting;
     const Estimate along = tracks.along[kTrackSpan];
     std::printf("planted %.2f mm/s: %.3f +- %.3f mm/s along, speed %.2f mm/s, %.2f defects per cm2\n", velocity,
                 along.value, along.sem, tracks.speed_plus[kTrackSpan].value, 100 * tracks.density.value);
     EXPECT_LT(std::abs(along.value - velocity), 3 * along.sem);
-    EXPECT_LT(along.sem, test::kSanitized ? 0.4 : 0.15);
+    EXPECT_LT(along.sem, test::at_night() ? 0.15 : 0.4);
     EXPECT_GT(tracks.speed_plus[kTrackSpan].value, 2);
   }
 }

@@ -93,8 +93,9 @@ TEST(TwoPeaks, MaximumOfTheCurveItself) {
 
 // 60 experiments: the jackknife's error of the maximum is its scatter (chi^2 / n, 18 % itself, and 32 blocks' own).
 TEST(TwoPeaks, MaximumHasTheErrorOfItsScatter) {
+  if (!test::at_night()) GTEST_SKIP() << "statistics of a minute";
   Draw draw(124);
-  constexpr int kRepeats = test::draws(60);
+  constexpr int kRepeats = 60;
   const double known = maximum_of_mixture(10, 7);
   double chi2 = 0, off = 0, sem = 0;
   int n = 0;
@@ -115,7 +116,6 @@ TEST(TwoPeaks, MaximumHasTheErrorOfItsScatter) {
     sem += maximum.sem;
     ++n;
   }
-  if (test::kSanitized) return;  // too few to judge by
   ASSERT_GT(n, 50);
   chi2 /= n;
   sem /= n;

@@ -11,7 +11,7 @@
 #include "tests/unit/render/render_support.h"
 
 namespace shaken::render {
-namespace {
+namespace gap_view_test {
 
 constexpr int kWidth = 900, kHeight = 450;
 constexpr double kBox = 100;  // so wide that no image is seen
@@ -158,5 +158,5 @@ TEST(GapView, AnEmptyGapAndADegenerateOne) {
   }
 }
 
-}  // namespace
+}  // namespace gap_view_test
 }  // namespace shaken::render

@@ -18,7 +18,7 @@
 #include "tests/unit/render/render_support.h"
 
 namespace shaken::render {
-namespace {
+namespace movie_test {
 
 using Rgb = std::array<std::uint8_t, 3>;
 constexpr std::array<Rgb, 4> kColours = {Rgb{230, 20, 25}, Rgb{190, 20, 180}, Rgb{30, 160, 60}, Rgb{240, 240, 240}};
@@ -330,5 +330,5 @@ TEST(MakeMovie, StoppingAndFailingFramesLeaveNoMovie) {
   EXPECT_EQ(listing(folder), "");
 }
 
-}  // namespace
+}  // namespace movie_test
 }  // namespace shaken::render

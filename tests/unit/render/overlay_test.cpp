@@ -16,7 +16,7 @@
 #include "tests/unit/render/render_support.h"
 
 namespace shaken::render {
-namespace {
+namespace overlay_test {
 
 constexpr int kSide = 720;  // of a bare picture: one unit is one pixel
 constexpr double kBox = 20;
@@ -290,5 +290,5 @@ TEST(Overlay, AFilmHasABarThatGrows) {
   EXPECT_EQ(dark(style), 0);
 }
 
-}  // namespace
+}  // namespace overlay_test
 }  // namespace shaken::render

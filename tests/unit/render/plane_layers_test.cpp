@@ -14,7 +14,7 @@
 #include "tests/unit/render/render_support.h"
 
 namespace shaken::render {
-namespace {
+namespace plane_layers_test {
 
 constexpr double kBox = 60;
 constexpr int kSide = 720;
@@ -302,5 +302,5 @@ TEST(FlatRods, HaveTheOutlineThatTheRasterisedOnesHave) {
   EXPECT_LT(differ, 0.001 * rods) << "but where two round beads meet";
 }
 
-}  // namespace
+}  // namespace plane_layers_test
 }  // namespace shaken::render

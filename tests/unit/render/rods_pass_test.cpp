@@ -12,7 +12,7 @@
 #include "tests/unit/render/render_support.h"
 
 namespace shaken::render {
-namespace {
+namespace rods_pass_test {
 
 constexpr int kSide = 1000;
 constexpr double kBox = 10, kScale = kSide / kBox;  // pixels per mm
@@ -371,5 +371,5 @@ TEST(RodsPass, RefusesWhatCannotBeDrawn) {
   EXPECT_EQ(message(red_picture()), "drawn");
 }
 
-}  // namespace
+}  // namespace rods_pass_test
 }  // namespace shaken::render

@@ -7,7 +7,7 @@
 #include "tests/unit/scene/scene_support.h"
 
 namespace shaken::scene {
-namespace {
+namespace rods_of_species_test {
 
 constexpr const char* kMixture = R"({
   "rods": {"length": 3, "count": 20, "length_spread": 0.1}, "rods_3": {"length": 2, "count": 7, "profile": "polar"},
@@ -46,5 +46,5 @@ TEST(RodsOfSpecies, CanBeWrittenAndReadAgain) {
   }
 }
 
-}  // namespace
+}  // namespace rods_of_species_test
 }  // namespace shaken::scene

@@ -11,7 +11,7 @@
 #include "tests/unit/server/server_support.h"
 
 namespace shaken::server {
-namespace {
+namespace job_end_test {
 
 using enum JobEnd::Outcome;
 
@@ -94,5 +94,5 @@ TEST_F(VerdictTest, OnlyTheProgressOfThisWorkerExplains) {
   EXPECT_EQ(exit(1).reason, "exit 1: rod 3 is not finite");
 }
 
-}  // namespace
+}  // namespace job_end_test
 }  // namespace shaken::server

@@ -19,7 +19,7 @@
 #include "tests/support/random_rods.h"
 
 namespace shaken {
-namespace {
+namespace posts_test {
 
 constexpr double kG = 9810;
 
@@ -430,5 +430,5 @@ TEST(Posts, ARunGoesOnOnlyAmongTheSamePosts) {
   EXPECT_EQ(start_mismatch(system, other), "the posts");
 }
 
-}  // namespace
+}  // namespace posts_test
 }  // namespace shaken

@@ -522,7 +522,7 @@ TEST(SafeTime, BoundsAreTight) {
     if (contact >= kHorizon) continue;
     share.push_back(bound / contact);
   }
-  ASSERT_GT(share.size(), test::kSanitized ? 30u : 300u);
+  ASSERT_GT(share.size(), static_cast<std::size_t>(test::draws(300)));
   std::sort(share.begin(), share.end());
   std::printf("bound / true time to contact: median %.3f, lower quartile %.3f, lowest %.3f (%zu pairs)\n",
               share[share.size() / 2], share[share.size() / 4], share.front(), share.size());

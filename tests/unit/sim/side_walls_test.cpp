@@ -14,7 +14,7 @@
 #include "tests/support/random_rods.h"
 
 namespace shaken {
-namespace {
+namespace side_walls_test {
 
 constexpr double kG = 9810;
 
@@ -433,5 +433,5 @@ TEST(SideWalls, AChannelGoesOnAcrossTheBorder) {
   EXPECT_NEAR(shown.position[1].x() + 12.0 * shown.image[1][0], 4 - 2.5 + 1.5, 1e-3);
 }
 
-}  // namespace
+}  // namespace side_walls_test
 }  // namespace shaken

@@ -7,7 +7,7 @@
 #include <shaken/frame_static_t.hpp>
 
 namespace shaken::web {
-namespace {
+namespace live_feed_test {
 
 using namespace std::chrono_literals;
 
@@ -124,5 +124,5 @@ TEST(LiveFeed, AListenerIsWokenByWhatComes) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, 300s) << "woken, not timed out";
 }
 
-}  // namespace
+}  // namespace live_feed_test
 }  // namespace shaken::web
