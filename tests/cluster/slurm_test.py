@@ -2,9 +2,10 @@
 """A sweep in a real Slurm, through all that can happen to it there, gives what it gives locally.
 
 usage: slurm_test.py FOLDER-OF-PROGRAMS [TEST ...]
-Exits 77 where no Slurm can be started here, and says why."""
+Exits 77 where no Slurm can be started here, and says why. Without SHAKEN_NIGHT the long tests are skipped."""
 import http.client
 import json
+import os
 import pathlib
 import signal
 import socket
@@ -25,6 +26,7 @@ SCENE = {"rods": {"length": "2.5 mm", "start": "random"}, "box": {"side": "20 mm
          "measure": {"order": {}}}  # `measure` [s] is set to what takes CPU_OF_A_RUN
 POINTS = {"grid": {"rods.area_fraction": [0.25, 0.3, 0.35], "plates.gamma": [6, 7]}, "replicas": 2}
 N_POINTS = 12
+night = unittest.skipUnless(os.environ.get("SHAKEN_NIGHT"), "`./dev test all`")
 
 
 class Connection(http.client.HTTPConnection):
@@ -150,13 +152,18 @@ class InSlurm(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory(prefix="shaken slurm '")  # words to quote
         cls.base = pathlib.Path(cls.folder.name)
-        scene = cls.base / "scene.json"
-        scene.write_text(json.dumps(dict(SCENE, rods=dict(SCENE["rods"], area_fraction=0.3))))
-        subprocess.run([PROGRAMS / "shaken", "run", scene, "--out", cls.base / "trial"], check=True,
-                       stdin=subprocess.DEVNULL, capture_output=True)
-        cpu = json.loads((cls.base / "trial" / "summary.json").read_text())["cpu_seconds"]
+        cpu = cls.run_here(dict(SCENE, rods=dict(SCENE["rods"], area_fraction=0.3)))["cpu_seconds"]
         SCENE["time"]["measure"] *= round(CPU_OF_A_RUN / cpu, 1)
         print(f"runs of {SCENE['time']['measure']:.1f} s", flush=True)
+
+    @classmethod
+    def run_here(cls, scene):
+        """The summary of a run without a daemon."""
+        file, out = cls.base / "scene.json", cls.base / f"run-{scene['time']['seed']}"
+        file.write_text(json.dumps(scene))
+        subprocess.run([PROGRAMS / "shaken", "run", file, "--out", out], check=True, stdin=subprocess.DEVNULL,
+                       capture_output=True)
+        return json.loads((out / "summary.json").read_text())
 
     @classmethod
     def tearDownClass(cls):
@@ -187,6 +194,7 @@ class InSlurm(unittest.TestCase):
             ends = [line for line in daemon.get(f"/v1/jobs/{job['id']}/history")["changes"] if line["to"] == "done"]
             self.assertEqual(len(ends), 1, job)
 
+    @night
     def test_a_sweep_survives_what_happens_in_a_cluster(self):
         with Daemon(self.base / "everything") as daemon:
             daemon.submit(sweep_of(executor="slurm", slurm={"runs_per_task": 3}))
@@ -239,6 +247,7 @@ class InSlurm(unittest.TestCase):
             self.assert_done_once(daemon)
             eventually(lambda: not list((daemon.root / "slurm").iterdir()), "nothing of the batches is left")
 
+    @night
     def test_what_is_preempted_goes_on_when_it_has_its_turn_again(self):
         scene = dict(SCENE, time=dict(SCENE["time"], measure=3 * SCENE["time"]["measure"]))  # Slurm may take its time
         sweep = sweep_of(scene, {"grid": {"rods.area_fraction": [0.3], "plates.gamma": [6]}, "replicas": 2})
@@ -287,7 +296,11 @@ class InSlurm(unittest.TestCase):
             log = {sweep: (daemon.root / "runs" / daemon.jobs(sweep)[0]["id"] / "worker.log").read_text()
                    for sweep in ("s2", "s3")}
             self.assertTrue(all("attempt 1" in text for text in log.values()), log)
+            in_slurm = daemon.jobs("s2")[0]["id"]
+            self.assertEqual(daemon.hashes()[in_slurm], self.run_here(dict(short, time=dict(short["time"], seed=3)))["state_hash"],
+                             "Slurm gives what a run gives locally")
 
+    @night
     def test_rods_of_a_node_are_live_where_the_daemon_says(self):
         with socket.create_server(("127.0.0.1", 0)) as free:
             address = f"127.0.0.1:{free.getsockname()[1]}"
@@ -320,6 +333,7 @@ class InSlurm(unittest.TestCase):
         said = {check["check"]: check for check in json.loads(finished.stdout)["checks"]}
         self.assertIn("does not exist yet", said["shared root"]["message"])
 
+    @night
     def test_figures_are_drawn_from_runs_in_slurm(self):
         def ended():
             return set(CLUSTER.run("squeue", "-h", "-r", "-t", "COMPLETED", "-o", "%F_%K").stdout.split())
@@ -335,6 +349,7 @@ class InSlurm(unittest.TestCase):
             self.assertEqual(daemon.counts()["done"], 6)
             eventually(lambda: len(ended() - before) == 6, "each run had a task of its own")
 
+    @night
     def test_a_time_limit_costs_nothing_but_another_task(self):
         with Daemon(self.base / "limit", "--executor", "slurm") as daemon:
             daemon.submit(sweep_of(slurm={"runs_per_task": N_POINTS, "time": "1 min"}))

@@ -7,7 +7,7 @@
 SOURCE is the source tree, BIN the folder of the programs. The commands are those of the pages' indented blocks that
 begin with a program of Shaken. They are typed as they stand, but for what SHORTENED says: lengths of runs, and names
 that stand for something ("JOB"). A command of the docs is either typed or listed in LEFT_OUT with the reason; one that
-is neither, and an entry that fits none, fails the test.
+is neither, and an entry that fits none, fails the test. Without SHAKEN_NIGHT, those of README.md are typed and no others.
 """
 import os
 import re
@@ -221,8 +221,9 @@ with tempfile.TemporaryDirectory(prefix="shaken docs ") as name:
     try:
         a_job = type_readme(shell)
         cites_as_the_file_says(shell)
-        record_live(shell)
-        type_docs(shell, a_job)
+        if os.environ.get("SHAKEN_NIGHT"):
+            record_live(shell)
+            type_docs(shell, a_job)
     finally:
         shell.close()
 sys.exit(f"{len(problems)} problems:\n" + "\n".join(problems) if problems else 0)
