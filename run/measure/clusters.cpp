@@ -67,7 +67,7 @@ std::unique_ptr<Measurement> measure_clusters(const MeasureContext& context) {
 MeasurementKind clusters_kind() {
   return {
       .name = "clusters",
-      .sources = "clusters, segment_distance, region",
+      .sources = "clusters, geometry/segment_distance, geometry/region",
       .make = measure_clusters,
       .arrays =
           {

@@ -83,7 +83,7 @@ std::unique_ptr<Measurement> measure_defect_maps(const MeasureContext& context) 
 MeasurementKind defect_maps_kind() {
   return {
       .name = "defect_maps",
-      .sources = "defect_maps, defects, director_field, region",
+      .sources = "defect_maps, defects, geometry/director_field, geometry/region",
       .make = measure_defect_maps,
       .arrays =
           {

@@ -52,7 +52,7 @@ std::unique_ptr<Measurement> measure_density(const MeasureContext& context) {
 MeasurementKind density_kind() {
   return {
       .name = "density",
-      .sources = "density_maps, region",
+      .sources = "density_maps, geometry/region",
       .make = measure_density,
       .arrays =
           {

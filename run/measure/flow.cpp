@@ -43,7 +43,7 @@ std::unique_ptr<Measurement> measure_flow(const MeasureContext& context) {
 MeasurementKind flow_kind() {
   return {
       .name = "flow",
-      .sources = "flow_correlation, region",
+      .sources = "flow_correlation, geometry/region",
       .make = measure_flow,
       .only_steady = true,
       .arrays =

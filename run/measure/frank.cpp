@@ -37,7 +37,7 @@ std::unique_ptr<Measurement> measure_frank(const MeasureContext& context) {
 MeasurementKind frank_kind() {
   return {
       .name = "frank",
-      .sources = "director_fluctuations, wave_sums",
+      .sources = "director_fluctuations, geometry/wave_sums",
       .make = measure_frank,
       .arrays =
           {

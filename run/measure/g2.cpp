@@ -41,7 +41,7 @@ std::unique_ptr<Measurement> measure_g2(const MeasureContext& context) {
 MeasurementKind g2_kind() {
   return {
       .name = "g2",
-      .sources = "g2, region",
+      .sources = "g2, geometry/region",
       .make = measure_g2,
       .arrays =
           {

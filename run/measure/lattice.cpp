@@ -36,7 +36,7 @@ std::unique_ptr<Measurement> measure_lattice(const MeasureContext& context) {
 MeasurementKind lattice_kind() {
   return {
       .name = "lattice",
-      .sources = "lattice, wave_sums",
+      .sources = "lattice, geometry/wave_sums",
       .make = measure_lattice,
       .numbers =
           {

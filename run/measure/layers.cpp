@@ -47,7 +47,7 @@ std::unique_ptr<Measurement> measure_layers(const MeasureContext& context) {
 MeasurementKind layers_kind() {
   return {
       .name = "layers",
-      .sources = "layers, wave_sums",
+      .sources = "layers, geometry/wave_sums",
       .make = measure_layers,
       .arrays =
           {

@@ -94,7 +94,7 @@ void MeasuredDefects::restore(StateReader& reader) {
 MeasurementKind defects_kind() {
   return {
       .name = "defects",
-      .sources = "defects, director_field, defect_series, defect_tracks",
+      .sources = "defects, geometry/director_field, defect_series, defect_tracks",
       .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
         return std::make_unique<MeasuredDefects>(context);
       },

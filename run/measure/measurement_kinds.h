@@ -48,7 +48,7 @@ constexpr Output over(std::string_view key, Output output, int times = 1) {
 /// One thing that can be measured, the block "measure.NAME" of a scene, and all that becomes of it.
 struct MeasurementKind {
   std::string_view name;     ///< as in scene/keys/observables.cpp
-  std::string_view sources;  ///< files of analysis/, "tilt, tilt_summary"
+  std::string_view sources;  ///< files of analysis/, "msd, lags/lag_fits"
   std::unique_ptr<Measurement> (*make)(const MeasureContext&) = nullptr;
   bool only_steady = false;  ///< samples before a given time.steady are left out
   std::vector<Output> arrays = {};

@@ -58,7 +58,7 @@ std::unique_ptr<Measurement> measure_mixing(const MeasureContext& context) {
 MeasurementKind mixing_kind() {
   return {
       .name = "mixing",
-      .sources = "mixing, pair_bins, region",
+      .sources = "mixing, geometry/pair_bins, geometry/region",
       .make = measure_mixing,
       .arrays =
           {

@@ -61,7 +61,7 @@ std::unique_ptr<Measurement> measure_msd(const MeasureContext& context) {
 MeasurementKind msd_kind() {
   return {
       .name = "msd",
-      .sources = "msd, lag_fits, lag_average",
+      .sources = "msd, lags/lag_fits, lags/lag_average",
       .make = measure_msd,
       .only_steady = true,
       .arrays =

@@ -35,7 +35,7 @@ std::unique_ptr<Measurement> measure_rotation(const MeasureContext& context) {
 MeasurementKind rotation_kind() {
   return {
       .name = "rotation",
-      .sources = "rotation, lag_fits, lag_average",
+      .sources = "rotation, lags/lag_fits, lags/lag_average",
       .make = measure_rotation,
       .only_steady = true,
       .arrays =

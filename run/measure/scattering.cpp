@@ -51,7 +51,7 @@ constexpr const char* kNotRelaxed = "F_s does not fall to 1/e within the lags me
 MeasurementKind scattering_kind() {
   return {
       .name = "scattering",
-      .sources = "self_scattering, lag_average",
+      .sources = "self_scattering, lags/lag_average",
       .make = measure_scattering,
       .only_steady = true,
       .arrays =

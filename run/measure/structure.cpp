@@ -35,7 +35,7 @@ std::unique_ptr<Measurement> measure_structure(const MeasureContext& context) {
 MeasurementKind structure_kind() {
   return {
       .name = "structure",
-      .sources = "structure_factor, wave_sums",
+      .sources = "structure_factor, geometry/wave_sums",
       .make = measure_structure,
       .arrays = {called("wave number", "q", {"q_per_mm", "wave numbers 2πk/L, L being the longer side of the box"}),
                  {"factor", "S(q) of the centres, mean over all directions of q", kWithError},

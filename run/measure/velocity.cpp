@@ -43,7 +43,7 @@ std::unique_ptr<Measurement> measure_velocity(const MeasureContext& context) {
 MeasurementKind velocity_kind() {
   return {
       .name = "velocity",
-      .sources = "velocity_correlation, lag_average",
+      .sources = "velocity_correlation, lags/lag_average",
       .make = measure_velocity,
       .only_steady = true,
       .arrays =
