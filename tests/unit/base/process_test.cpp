@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sched.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,8 +13,12 @@
 #include <fstream>
 #include <string>
 #include <thread>
+#include <vector>
 
+#include "base/core/cgroup.h"
 #include "base/descriptor.h"
+#include "base/peak_memory.h"
+#include "base/processor.h"
 
 namespace shaken {
 namespace {
@@ -132,6 +137,56 @@ TEST(ProcessEnd, InWords) {
   EXPECT_EQ((ProcessEnd{0, 9}.text()), "was ended by signal 9");
   EXPECT_EQ((ProcessEnd{0, 9}.shell_code()), 137);
   EXPECT_TRUE((ProcessEnd{0, 0}.is_success()));
+}
+
+TEST(PeakMemory, IsWhatWasHeldAtMost) {
+  constexpr std::size_t kMuch = 80'000'000;
+  const double before = peak_memory();
+  EXPECT_GT(before, 1e5);
+  {
+    const std::string much(kMuch, 'x');
+    EXPECT_EQ(much.back(), 'x');
+  }
+  const double after = peak_memory();
+  EXPECT_GT(after, kMuch) << "though it has been given back";
+  EXPECT_EQ(run_captured({"true"}).exit_code, 0);
+  EXPECT_GT(children_peak_memory(), 1e5);
+  EXPECT_LT(peak_memory(), after + kMuch) << "a child holds its own";
+}
+
+// What the scheduler and its groups give to a process.
+
+TEST(CgroupFiles, AreThoseOfTheGroupAndAllAroundIt) {
+  using Files = std::vector<std::filesystem::path>;
+  const CgroupLimit memory{"memory", "memory.max", "memory.limit_in_bytes"};
+  EXPECT_EQ(cgroup_files("0::/user.slice/one.service", memory),
+            (Files{"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/user.slice/memory.max",
+                   "/sys/fs/cgroup/user.slice/one.service/memory.max"}));
+  EXPECT_EQ(cgroup_files("0::/", memory), Files{"/sys/fs/cgroup/memory.max"});
+  EXPECT_EQ(cgroup_files("4:cpu,memory:/a", memory),
+            (Files{"/sys/fs/cgroup/memory/memory.limit_in_bytes", "/sys/fs/cgroup/memory/a/memory.limit_in_bytes"}));
+  EXPECT_EQ(cgroup_files("4:cpu,memory2:/a", memory), Files{});
+  EXPECT_EQ(cgroup_files("nonsense", memory), Files{});
+}
+
+TEST(AllowedCores, AreThoseOfTheScheduler) {
+  cpu_set_t before, one;
+  ASSERT_EQ(sched_getaffinity(0, sizeof(before), &before), 0);
+  CPU_ZERO(&one);
+  for (int core = 0; core < CPU_SETSIZE && CPU_COUNT(&one) == 0; ++core) {
+    if (CPU_ISSET(core, &before)) CPU_SET(core, &one);
+  }
+  EXPECT_LE(allowed_cores(), CPU_COUNT(&before));
+  ASSERT_EQ(sched_setaffinity(0, sizeof(one), &one), 0);
+  EXPECT_EQ(allowed_cores(), 1) << "as under `taskset -c 0`";
+  sched_setaffinity(0, sizeof(before), &before);
+}
+
+TEST(AllowedCores, OfAQuota) {
+  EXPECT_EQ(cores_of_quota("150000 100000"), 1.5);
+  EXPECT_EQ(cores_of_quota("max 100000"), std::nullopt);
+  EXPECT_EQ(cores_of_quota("-1 100000"), std::nullopt) << "none, in version 1";
+  EXPECT_EQ(cores_of_quota(""), std::nullopt);
 }
 
 }  // namespace

@@ -8,6 +8,11 @@
 #include <ctime>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "base/help_text.h"
+#include "base/progress_line.h"
+#include "base/table.h"
 
 namespace shaken {
 namespace {
@@ -125,6 +130,93 @@ TEST(Base64, IsThatOfRfc4648) {
                                                           {"foobar", "Zm9vYmFy"}};
   for (const auto& [bytes, text] : kVectors) EXPECT_EQ(base64(bytes), text);
   EXPECT_EQ(base64("\xFF\xFE\xFD"), "//79");
+}
+
+TEST(WrappedHelp, LeavesWhatFits) {
+  const std::string text = "Usage: shaken\n\n  -o,--out FILE   Where to write\n";
+  EXPECT_EQ(wrapped_help(text), text);
+}
+
+TEST(WrappedHelp, DescriptionsGoOnBelowThemselves) {
+  EXPECT_EQ(wrapped_help("  -o FILE    where the picture goes\n  -x    y\n", 25),
+            "  -o FILE    where the\n             picture goes\n  -x    y\n");
+}
+
+TEST(WrappedHelp, ADescriptionFarToTheRightGetsLinesOfItsOwn) {
+  EXPECT_EQ(
+      wrapped_help("  shaken picture RUN RUN RUN --style layers -o x.png   three runs side by side, one headline", 60),
+      "  shaken picture RUN RUN RUN --style layers -o x.png\n"
+      "                              three runs side by side, one\n                              headline");
+}
+
+TEST(WrappedHelp, ProseIsBrokenAndCommandsAreNot) {
+  EXPECT_EQ(wrapped_help("one two three four", 9), "one two\nthree\nfour");
+  EXPECT_EQ(wrapped_help("  shaken submit scene.json", 10), "  shaken submit scene.json");
+  EXPECT_EQ(wrapped_help("µµµ µµµ µµµ", 7), "µµµ µµµ\nµµµ") << "columns, not bytes";
+}
+
+TEST(TableText, AlignsColumns) {
+  Table table({{"NAME"}, {"N", Table::Align::kRight}});
+  table.add_row({"Γ", "5"});
+  table.add_row({"longer", "12345"});
+  EXPECT_EQ(table.text(0),
+            "NAME        N\n"
+            "Γ           5\n"
+            "longer  12345\n");
+}
+
+TEST(TableText, NarrowTerminalShortensTheWidestColumn) {
+  Table table({{"ID"}, {"POINT"}});
+  table.add_row({"1f0c", "rods.length=2.5 rods.area_fraction=0.6"});
+  const std::string text = table.text(20);
+  EXPECT_EQ(text, "ID    POINT\n1f0c  rods.length=2…\n");
+  // No column becomes narrower than 4, whatever the terminal.
+  EXPECT_EQ(table.text(1), "ID    POI…\n1f0c  rod…\n");
+}
+
+TEST(TableText, NumbersAndNamesAreLeftOutWholeButNeverCut) {
+  using Align = Table::Align;
+  Table table({{"JOB"}, {"S", Align::kRight}, {"OVERLAP", Align::kRight, 2}, {"CPU s", Align::kRight, 1}});
+  table.add_row({"1f0c5e2a", "0.9496", "0.003418", "12.25"});
+  EXPECT_EQ(table.text(33), "JOB            S   OVERLAP  CPU s\n1f0c5e2a  0.9496  0.003418  12.25\n");
+  EXPECT_EQ(table.text(32), "JOB            S  CPU s\n1f0c5e2a  0.9496  12.25\n");
+  EXPECT_EQ(table.left_out(32), std::vector<std::string>{"OVERLAP"});
+  EXPECT_EQ(table.text(5), "JOB            S\n1f0c5e2a  0.9496\n") << "what has to stay, stays whole";
+  EXPECT_TRUE(table.left_out(0).empty());
+}
+
+TEST(ProgressLine, IsWrittenOverOnATerminalAndWipedAtTheEnd) {
+  std::ostringstream out;
+  {
+    ProgressLine line(out, true, 12, 0);
+    line.show("a long line of text");
+    EXPECT_EQ(out.str(), "\ra long lin…\x1b[K");
+    line.show("too soon after the last one");
+    EXPECT_EQ(out.str(), "\ra long lin…\x1b[K");
+  }
+  EXPECT_EQ(out.str(), "\ra long lin…\x1b[K\r\x1b[K");
+}
+
+TEST(ProgressLine, TheLastOneStaysAndIsNeverTooSoon) {
+  std::ostringstream out;
+  ProgressLine line(out, true, 80, 0);
+  line.show("half");
+  line.end_with("done");
+  EXPECT_EQ(out.str(), "\rhalf\x1b[K\r\x1b[Kdone\n");
+}
+
+TEST(ProgressLine, LogsGetALineNowAndThenOrNone) {
+  std::ostringstream often, never;
+  ProgressLine every_nanosecond(often, false, 0, 1e-9);
+  every_nanosecond.show(
+      "a line that is longer than a terminal is wide, which a log does not mind at all, whatever it says");
+  EXPECT_EQ(often.str(),
+            "a line that is longer than a terminal is wide, which a log does not mind at all, whatever it says\n");
+  ProgressLine none(never, false, 0, 0);
+  none.show("half");
+  EXPECT_EQ(never.str(), "");
+  none.end_with("done");
+  EXPECT_EQ(never.str(), "done\n");
 }
 
 }  // namespace
