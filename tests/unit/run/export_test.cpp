@@ -455,18 +455,6 @@ TEST_F(ExportedFrames, EndWhereTheCallerSaysSo) {
   EXPECT_EQ(n_pieces, 4);
 }
 
-TEST_F(ExportedFrames, DamageIsNamed) {
-  std::string bytes = *read_file(file_);
-  bytes[bytes.size() - 5000] = static_cast<char>(bytes[bytes.size() - 5000] ^ 1);
-  ASSERT_TRUE(write_file(file_, bytes));
-  const TrajectoryReader trajectory = open();
-  const auto format = make_beads_xyz(trajectory.header());
-  const Sink sink = [&](std::string_view) -> Result<void> { return {}; };
-  const auto n = export_frames(trajectory, {0, 21, 1}, *format, sink, [](std::size_t) { return true; });
-  ASSERT_FALSE(n);
-  EXPECT_THAT(n.error().message, HasSubstr("trajectory.part: frame 19 is damaged"));
-}
-
 Observables some_arrays() {
   const double nan = std::nan("");
   return {{"/order/time_s", {0, 0.5}},       {"/order/order", {0.25, nan}},     {"/order/director_rad", {1e-7, -3}},

@@ -579,6 +579,11 @@ TEST(Measurements, SteadyStateIsGivenFoundOrHalfTheRun) {
   EXPECT_EQ(assumed.reduce(0.1).t_steady, 0.05);
 }
 
+void expect_same(double found, double expected, const std::string& what) {
+  EXPECT_TRUE(found == expected || (std::isnan(found) && std::isnan(expected)))
+      << what << ": " << found << ", not " << expected;
+}
+
 TEST(Measurements, GoOnBitwiseAfterASaveAtAnyTime) {
   Measurements straight(plan());
   measure(straight, 0, 20000);
@@ -590,6 +595,14 @@ TEST(Measurements, GoOnBitwiseAfterASaveAtAnyTime) {
     measure(second, stop + 1, 20000);
     EXPECT_EQ(second.save(), straight.save()) << stop;
     EXPECT_EQ(second.counts(), straight.counts()) << stop;
+    // what is not saved is not missed either
+    const Reduction whole = straight.reduce(0.2), resumed = second.reduce(0.2);
+    for (const auto& [path, values] : whole.arrays) {
+      EXPECT_TRUE(std::equal(values.begin(), values.end(), resumed.arrays.at(path).begin(),
+                             [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }))
+          << path << " after " << stop;
+    }
+    for (const auto& [name, scalar] : whole.scalars) expect_same(resumed.scalars.at(name).value, scalar.value, name);
   }
 }
 
@@ -644,11 +657,6 @@ struct Mixture {
     return measurements.reduce(0.2);
   }
 };
-
-void expect_same(double found, double expected, const std::string& what) {
-  EXPECT_TRUE(found == expected || (std::isnan(found) && std::isnan(expected)))
-      << what << ": " << found << ", not " << expected;
-}
 
 // Each rod with its own mass, inertia and length, whichever of two species is measured.
 TEST(Measurements, OfRodsThatDifferAreThoseOfEachRodsOwnSize) {
