@@ -15,8 +15,8 @@ namespace {
 
 const std::filesystem::path kFolder = SHAKEN_SOURCE_DIR "/configs/hard";
 
-/// Rods times ticks that the reference stepper goes through in one case: about one second of CPU time.
-constexpr Tick kAffordable = test::kSanitized ? 60'000 : 2'500'000;
+/// Rods times ticks that the reference stepper goes through in one case: about one second of CPU time, at night.
+const Tick kAffordable = test::draws(2'500'000);
 
 /// Ticks to be compared, of each of `n_worlds` alike.
 Tick stretch(const World& world, Tick at_most, std::size_t n_worlds = 1) {
