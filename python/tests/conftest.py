@@ -20,6 +20,10 @@ import shaken  # noqa: E402  (the package of this tree, whatever is installed)
 #: Where the programs are; tests that need them are skipped where there are none.
 PROGRAMS = Path(os.environ.get("SHAKEN_PROGRAMS", Path(__file__).resolve().parents[2] / "build" / "release" / "bin"))
 
+#: Whether all that takes long is tried as well.
+NIGHT = bool(os.environ.get("SHAKEN_NIGHT"))
+night = pytest.mark.skipif(not NIGHT, reason="./dev test all")
+
 
 def made_up_run(directory, *, run_id="0123456789abcdef", seed=1, order=0.8, sem=0.01, steady=True, state="done",
                 seconds=10.0, arrays=None, frames=0, measured=None, scene=None, version=("0.1.0", 3), aspect=1):

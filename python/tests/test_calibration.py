@@ -15,7 +15,7 @@ from shaken.errors import ShakenError
 from shaken.estimate import Estimate
 from shaken.opening import open_run
 
-from conftest import PROGRAMS
+from conftest import PROGRAMS, night
 
 LAGS = np.array(sorted({k * 2**j for j in range(16) for k in (4, 5, 6, 7)} | {1, 2, 3})) * 5e-3
 SCENE = {"rods": {"length": 4.5, "count": 9, "area_fraction": 0.7}, "box": {"side": 10.0, "gap": 1.2},
@@ -311,6 +311,7 @@ needs_programs = pytest.mark.skipif(not (PROGRAMS / "shaken").exists(), reason="
 
 
 # More rods, one seed, and D_r as the run's own analysis has it.
+@night
 @needs_programs
 def test_a_plain_run_with_the_noise_that_was_found_has_the_wanted_d_r(tmp_path):
     settings = ["-s", "rods.length=2.5", "-s", "time.step=16us"]

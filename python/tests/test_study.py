@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """`shaken figures` with the real programs: runs, archives, goes on, draws from the archive alone."""
+import io
 import json
 import os
 import re
@@ -7,8 +8,10 @@ import signal
 import subprocess
 import sys
 import time
+from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 from types import SimpleNamespace
+from unittest import mock
 
 import numpy as np
 import pytest
@@ -19,6 +22,7 @@ from shaken.daemon import Daemon
 from shaken.errors import ShakenError
 from shaken.estimate import Estimate
 from shaken.study import running, sets, time_step
+from shaken.study.app import main
 from shaken.study.evidence import Evidence
 from shaken.study.figures import FIGURES
 from shaken.study.material import defects_of
@@ -29,10 +33,15 @@ SOURCE = Path(__file__).resolve().parents[2]
 
 
 def figures(programs, *arguments, check=True):
-    done = subprocess.run([sys.executable, SOURCE / "python/shaken/study/__main__.py", "--root", programs.root,
-                           "--scale", "tiny", *map(str, arguments)], capture_output=True, text=True, timeout=300,
-                          env={**os.environ, "SHAKEN_PROGRAM": str(PROGRAMS / "shaken"),
-                               "SHAKEN_CONFIGS": str(SOURCE / "configs")})
+    """`shaken figures` in this process, which has read matplotlib and scipy already."""
+    out, err = io.StringIO(), io.StringIO()
+    given = {"SHAKEN_PROGRAM": str(PROGRAMS / "shaken"), "SHAKEN_CONFIGS": str(SOURCE / "configs")}
+    with mock.patch.dict(os.environ, given), redirect_stdout(out), redirect_stderr(err):
+        try:
+            code = main(["--root", str(programs.root), "--scale", "tiny", *map(str, arguments)])
+        except SystemExit as ended:
+            code = ended.code
+    done = SimpleNamespace(returncode=code, stdout=out.getvalue(), stderr=err.getvalue())
     assert done.returncode == 0 or not check, done.stderr
     return done
 

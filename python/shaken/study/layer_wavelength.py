@@ -52,12 +52,16 @@ def peak_of(q: np.ndarray, power: np.ndarray) -> float:
     q, wave, power = q[chosen], wave[chosen], power[chosen] / np.median(power[chosen])
 
     def expected(fitted: np.ndarray) -> np.ndarray:
-        floor, bending, layers, peak = np.exp(np.clip(fitted[:4], -30, 30))
+        floor, bending, layers, peak = np.exp(np.minimum(np.maximum(fitted[:4], -30), 30))
         return expected_power(q, floor, bending, layers, peak, _width(fitted[4]))
 
     def best(start: Sequence[float], model: Callable[[np.ndarray], np.ndarray]) -> tuple[float, np.ndarray]:
-        fit = minimize(lambda fitted: float(np.sum(np.log(model(fitted)) + power / model(fitted))), start,
-                       method="Nelder-Mead", options={"maxiter": 4000, "xatol": 1e-4, "fatol": 1e-4})
+        def unlikeliness(fitted: np.ndarray) -> float:
+            expected = model(fitted)
+            return float(np.sum(np.log(expected) + power / expected))
+
+        fit = minimize(unlikeliness, start, method="Nelder-Mead",
+                       options={"maxiter": 4000, "xatol": 1e-4, "fatol": 1e-4})
         return float(fit.fun), fit.x
 
     low, high = np.percentile(power, 10), power[np.argmax(wave)]
