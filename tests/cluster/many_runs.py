@@ -66,7 +66,7 @@ def main():
                 subprocess.run([programs / "shaken", "--root", root, "submit", base / "sweep.json"], check=True,
                                stdout=subprocess.DEVNULL)
                 print(f"queued after {time.monotonic() - begin:.0f} s", flush=True)
-                begin, cpu = time.monotonic(), os.times()
+                begin = time.monotonic()
                 done = 0
                 while done < arguments.runs:
                     time.sleep(1)

@@ -17,7 +17,7 @@ import unittest
 from unittest import mock
 
 import little_cluster
-from little_cluster import LittleCluster, Unavailable
+from little_cluster import Unavailable
 
 PROGRAMS = None  # folder
 PROGRAM = pathlib.Path(little_cluster.__file__)

@@ -32,7 +32,7 @@ import scipy.sparse.csgraph
 import scipy.spatial
 
 warnings.filterwarnings("ignore")
-import xdrlib  # noqa: E402, F401  MDAnalysis does, with a warning that it lets through
+__import__("xdrlib")  # MDAnalysis does, with a warning that it lets through
 import emcee.autocorr  # noqa: E402
 import MDAnalysis  # noqa: E402
 import MDAnalysis.analysis.msd  # noqa: E402
@@ -415,7 +415,7 @@ def two_gaussians(theta, density):
             best = (misfit, found)
     if best is None:
         return none
-    at, sigma, height, background = np.abs(best[1][0]), np.abs(best[1][1]), best[1][2], best[1][3]
+    at, sigma = np.abs(best[1][:2])
     reach = min(max(1, int(np.floor(sigma / 4 / width + 0.5))), len(theta) // 2)
     both = density + density[::-1]
     length = (len(theta) % 2) + 2 * reach

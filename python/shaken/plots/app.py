@@ -17,8 +17,8 @@ def _work(options: argparse.Namespace) -> None:
         raise ShakenError(missing)
     logging.getLogger("matplotlib").setLevel(logging.ERROR)  # that it lists the fonts, the first time
     if options.command == "check":
-        import h5py  # noqa: F401, which must go with the same numpy
         import matplotlib
+        __import__("h5py")  # which must go with the same numpy
         print(f"matplotlib {matplotlib.__version__} of {sys.executable}")
     elif options.command == "verdict":
         from .accuracy import verdict_text
