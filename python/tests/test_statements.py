@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from conftest import night
 from shaken.estimate import Estimate, replica_mean
 from shaken.run import Arrays, Run
 from shaken.study import (figures_motion, figures_order, late_lags, layer_checks, order_checks, report, rules, scaling,
@@ -470,8 +471,9 @@ def strips(wavelength, dips, **more):
     return Runs(made)
 
 
-@pytest.mark.parametrize("known, width, bias", [(11.0, 0.2, 0.0), (14.0, 0.2, 0.0), (18.0, 0.2, 0.0), (15.0, 0.1, 1.0),
-                                                (15.0, 0.35, 1.0)])
+@pytest.mark.parametrize("known, width, bias", [
+    (14.0, 0.2, 0.0), (15.0, 0.35, 1.0), pytest.param(11.0, 0.2, 0.0, marks=night),
+    pytest.param(18.0, 0.2, 0.0, marks=night), pytest.param(15.0, 0.1, 1.0, marks=night)])
 def test_the_wavelength_in_a_strip_is_that_of_the_peak(known, width, bias):
     """Of layers of a usual width within its error, of others within 1 mm more."""
     of_strips = strips(known, [LAYERED] * 12, width=width)
@@ -480,6 +482,7 @@ def test_the_wavelength_in_a_strip_is_that_of_the_peak(known, width, bias):
     assert found.value == pytest.approx(known, abs=3 * found.error + bias) and found.error < 0.06 * known
 
 
+@night
 def test_a_spectrum_without_a_peak_has_no_wavelength():
     of_noise = [layer_checks.wavelength(run) for run in strips(14.0, [LAYERED] * 20, layers=0.0)]
     assert sum(found.is_known for found in of_noise) <= 3
@@ -605,6 +608,7 @@ def test_a_step_back_by_three_errors_breaks_a_trend_of_few_replicas_too():
     assert rules.trend([few[0], few[1], (3, replace(few[2][1], value=1.3)), few[3]], rising=True).word is True
 
 
+@night
 def test_the_rule_for_few_replicas_is_wrong_as_rarely_as_that_for_many():
     """Of three replicas each of two state points that do not differ one in 22 may be told apart at two errors."""
     draw, told_apart, n = np.random.default_rng(7), 0, 4000

@@ -16,7 +16,7 @@ from unittest import mock
 import numpy as np
 import pytest
 
-from conftest import PROGRAMS, made_up_run
+from conftest import PROGRAMS, made_up_run, night
 from shaken.archive import Snapshot, add_run, archived_runs
 from shaken.daemon import Daemon
 from shaken.errors import ShakenError
@@ -154,7 +154,7 @@ def test_every_set_has_its_sweep_at_every_scale(programs):
             programs.shaken("validate", file)
 
 
-@pytest.mark.parametrize("scale", ["desk", "tiny"])
+@pytest.mark.parametrize("scale", [pytest.param("desk", marks=night), "tiny"])
 def test_what_is_missing_is_what_is_submitted(programs, tmp_path, scale):
     program = str(PROGRAMS / "shaken")
     every = running.Plan(program, sets.sweeps(SOURCE / "configs" / "figures" / "desk", sets.SCALES[scale]), tmp_path)
