@@ -5,11 +5,17 @@
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <fstream>
+#include <sstream>
+#include <string>
 
 #include "base/process.h"
 #include "client/arguments.h"
+#include "client/catalogue.h"
+#include "client/console.h"
 #include "client/live/json.h"
+#include "client/picture_options.h"
 #include "client/verb.h"
+#include "tests/support/generated_page.h"
 #include "tests/unit/client/fake_daemon.h"
 #include "tests/unit/client/run_client.h"
 
@@ -347,6 +353,136 @@ TEST(Completion, BashScriptCompletesVerbsAndOptions) {
   EXPECT_EQ(of_sweeps("'two\\ w'"), "[two words]");
   EXPECT_EQ(of_sweeps("s"), "[s1]");
   EXPECT_EQ(of_sweeps("two"), "[two words][two $(touch x)]") << "as it is: readline quotes what it puts in";
+}
+
+TEST(Agrees, AsksUntilTheAnswerIsClear) {
+  std::ostringstream out;
+  std::istringstream answers("perhaps\nn\n\ny\n");
+  const Console console{.out = out, .err = out, .in = &answers};
+  EXPECT_FALSE(console.agrees("Go on?", true));
+  EXPECT_EQ(out.str(), "Go on? [Y/n] Go on? [Y/n] ");
+  EXPECT_TRUE(console.agrees("Go on?", true)) << "an empty answer";
+  EXPECT_TRUE(console.agrees("Go on?", false));
+  EXPECT_FALSE(console.agrees("Go on?", false)) << "no answer at all";
+}
+
+TEST(Painted, ColoursOnlyWhereWanted) {
+  std::ostringstream out;
+  Console console{.out = out, .err = out};
+  EXPECT_EQ(console.painted(Colour::kRed, "x"), "x");
+  console.colour = true;
+  EXPECT_EQ(console.painted(Colour::kRed, "x"), "\x1b[31mx\x1b[0m");
+  EXPECT_EQ(console.painted(Colour::kPlain, "x"), "x");
+}
+
+TEST(PictureOptions, GoOnAsTheyWereGiven) {
+  CLI::App app;
+  Arguments arguments(app);
+  PictureOptions options;
+  options.declare(arguments, true);
+  app.parse("1f0c --style mine.json --colour tilt --range=-0.2,0.2 --no-legend --defects --bare -o x.png");
+  EXPECT_EQ(options.jobs, std::vector<std::string>{"1f0c"});
+  EXPECT_EQ(options.out, "x.png");
+  EXPECT_EQ(options.words({"rods.length=2.5"}),
+            (std::vector<std::string>{"--style=mine.json", "--colour=tilt", "--range=-0.2,0.2", "--defects",
+                                      "--no-legend", "--label=rods.length=2.5", "--bare"}));
+}
+
+TEST(PictureOptions, TheLabelOfTheCommandLineComesFirst) {
+  CLI::App app;
+  Arguments arguments(app);
+  PictureOptions options;
+  options.declare(arguments, true);
+  app.parse("1f0c --label mine");
+  EXPECT_EQ(options.words({"rods.length=2.5"}), (std::vector<std::string>{"--label=mine"}));
+}
+
+TEST(PictureOptions, EachOfSeveralRunsHasItsHeadline) {
+  CLI::App app;
+  Arguments arguments(app);
+  PictureOptions options;
+  options.declare(arguments, true);
+  app.parse("1f0c 22ab");
+  EXPECT_EQ(options.jobs, (std::vector<std::string>{"1f0c", "22ab"}));
+  EXPECT_EQ(options.words({"rods.length=2.5", ""}), (std::vector<std::string>{"--label=rods.length=2.5", "--label="}));
+  EXPECT_EQ(options.words({"", ""}), std::vector<std::string>{});
+  EXPECT_EQ(labels_of({{.directory = "a", .name = "a"}, {.directory = "b", .name = "b", .label = "x"}}),
+            (std::vector<std::string>{"a", "x"}))
+      << "panels without a headline cannot be told apart";
+  EXPECT_EQ(labels_of({{.directory = "a", .name = "a"}}), std::vector<std::string>{""});
+}
+
+TEST(SweepInset, HasThePointsOfTheSweepAndWhereTheRunsAre) {
+  ScratchFolder root;
+  FakeDaemon daemon(root.path());
+  Json rows = Json::array();
+  const auto add = [&](const char* id, Json parameters, const Json& summary) {
+    rows.push_back({{"job", id},
+                    {"sweep", "s1"},
+                    {"state", summary.is_null() ? "queued" : "done"},
+                    {"label", ""},
+                    {"replica", 1},
+                    {"parameters", std::move(parameters)},
+                    {"summary", summary}});
+  };
+  add("a", {{"rods.area_fraction", 0.45}, {"rods.length", "2.5 mm"}}, {{"order", {{"mean", 0.25}}}});
+  add("b", {{"rods.area_fraction", 0.75}, {"rods.length", "4.5 mm"}}, nullptr);
+  add("c", {{"rods.area_fraction", 0.75}, {"rods.length", "2.5 mm"}}, nullptr);
+  daemon.on("GET /v1/sweeps/s1", Json{{"sweep", {{"id", "s1"}, {"name", "x"}}}, {"jobs", Json::array()}}.dump());
+  daemon.on("GET /v1/results?sweep=s1", Json{{"rows", rows}}.dump());
+  std::ostringstream out;
+  Console console{.out = out, .err = out};
+  const CLI::App app;
+  const Context context{console, root.path().string(), app};
+  const auto drawn = [](const char* id, const char* sweep) {
+    return Drawn{.directory = "", .name = id, .id = id, .sweep = sweep};
+  };
+  const Json said = Json::parse(sweep_of(context, {drawn("b", "s1"), drawn("a", "s1")}));
+  EXPECT_EQ(said.at("x"), "rods.area_fraction");
+  EXPECT_EQ(said.at("y"), "rods.length");
+  EXPECT_EQ(said.at("points"), (Json{{0.45, 2.5, 0.25}, {0.75, 4.5, nullptr}, {0.75, 2.5, nullptr}}));
+  EXPECT_EQ(said.at("here"), (Json{{0.75, 4.5}, {0.45, 2.5}}));
+  EXPECT_THROW(sweep_of(context, {drawn("d", "s1")}), Failure) << "of another sweep";
+  EXPECT_THROW(sweep_of(context, {drawn("a", "")}), Failure) << "a run directory";
+  daemon.on("GET /v1/results?sweep=s1", Json{{"rows", {rows[0]}}}.dump());
+  EXPECT_THROW(sweep_of(context, {drawn("a", "s1")}), Failure) << "nothing differs";
+}
+
+// The catalogue that Python reads is that of the programs. To write it anew: SHAKEN_UPDATE_DOCS=1 and run these tests.
+
+TEST(Catalogue, IsTheOneThatPythonReads) {
+  const std::string file = SHAKEN_SOURCE_DIR "/python/shaken/catalogue.json";
+  if (std::getenv("SHAKEN_UPDATE_DOCS") != nullptr) std::ofstream(file) << catalogue();
+  EXPECT_TRUE(content_of(file) == catalogue()) << file << ": run this test with SHAKEN_UPDATE_DOCS=1";
+}
+
+TEST(Catalogue, SaysOfEveryQuantityWhatItIs) {
+  const Json all = Json::parse(catalogue());
+  std::size_t n_titles = 0;
+  for (const char* section : {"keys", "style_keys", "observables", "arrays", "numbers", "effects"}) {
+    for (const auto& [name, row] : all[section].items()) {
+      EXPECT_FALSE(row["doc"].get<std::string>().empty()) << name;
+      if (!row.contains("unit")) continue;
+      const std::string unit = row["unit"], title = row["title"], symbol = row["symbol"];
+      EXPECT_EQ(symbol.find('$'), std::string::npos) << name << ": figures set it in mathematics";
+      EXPECT_FALSE(title.empty() && !symbol.empty()) << name << " has a symbol without a name";
+      EXPECT_EQ(unit.empty(), row.value("of", "") == "plain number" && unit.empty()) << name << " has no unit";
+      n_titles += title.empty() ? 0 : 1;
+    }
+  }
+  EXPECT_GE(n_titles, 130U);
+}
+
+TEST(Catalogue, NamesAxesThatAreArraysWithoutAxes) {
+  const Json arrays = Json::parse(catalogue())["arrays"];
+  for (const auto& [name, row] : arrays.items()) {
+    for (const Json& axis : row["axes"]) EXPECT_TRUE(arrays[axis.get<std::string>()]["axes"].empty()) << name;
+  }
+  EXPECT_EQ(arrays["/density/area_fraction"]["axes"], Json({"/density/time_s", "/density/y_mm", "/density/x_mm"}));
+  EXPECT_EQ(arrays["/tilt/folded/v_along_mm_s"]["axes"], Json({"/tilt/folded/n_z"}));
+  EXPECT_EQ(arrays["/defects/tracks/lasting/speed_plus_mm_s"]["axes"], Json({"/defects/tracks/span_s"}));
+  EXPECT_EQ(arrays["/scattering/alpha_2"]["axes"], Json({"/scattering/lag_s"}));
+  EXPECT_TRUE(arrays["/defects/list/charge"]["axes"].empty());
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 
 #include "base/text.h"
 #include "client/live/json.h"
+#include "client/waiting_reasons.h"
 #include "proto/bus.h"
 #include "tests/unit/client/fake_daemon.h"
 #include "tests/unit/client/run_client.h"
@@ -166,53 +167,38 @@ TEST_F(Verbs, AnswersOfAnotherShapeAreNamedAsSuch) {
   EXPECT_THAT(outcome.err, HasSubstr("another version"));
 }
 
-TEST_F(Verbs, SubmitSendsTheFileAndShowsThePoints) {
+TEST_F(Verbs, SubmitSendsTheFileWithAllThatIsAskedAndShowsThePoints) {
   const std::string file = (root_.path() / "scene.json").string();
   std::ofstream(file) << R"({"box": {"side": 30}})";
   Json answer = sweep({job("1f0c000000000000", "queued"), job("2a0c000000000000", "done")});
   answer["jobs"][1]["created_utime"] = 500;
   answer["counts"] = {{"new", 1}, {"requeued", 0}, {"done", 1}, {"running", 0}, {"queued", 1}};
   daemon_.on("POST /v1/sweeps", {{201, text(answer)}});
-  const Outcome outcome = run({"submit", file, "-s", "rods.length=2.5,3.5", "--replicas", "2", "--name", "phases"});
+  const Outcome outcome = run({"submit",       file,        "-s",           "rods.length=2.5,3.5",
+                               "--replicas",   "2",         "--name",       "phases",
+                               "--priority",   "10",        "--soft-limit", "10min",
+                               "--time-limit", "1.5 d",     "--at-once",    "4",
+                               "--after",      "s3",        "--after",      "1f0c",
+                               "--stop-if",    "failed>10%"});
   EXPECT_EQ(outcome.code, ExitCode::kOk) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("sweep s1 (phases): 2 points: 1 new, 1 done\n"));
   EXPECT_THAT(outcome.out, HasSubstr("1f0c0000  new"));
   EXPECT_THAT(outcome.out, HasSubstr("2a0c0000  done"));
+  const Json asked{{"text", R"({"box": {"side": 30}})"},
+                   {"file", file},
+                   {"settings", {"rods.length=2.5,3.5"}},
+                   {"replicas", 2},
+                   {"name", "phases"},
+                   {"priority", 10},
+                   {"soft_limit_s", 600.0},
+                   {"time_limit_s", 129600.0},
+                   {"at_most", 4},
+                   {"after", {"s3", "1f0c"}},
+                   {"stop_if", "failed>10%"}};
   const Json sent = Json::parse(daemon_.requests().back().body);
-  EXPECT_EQ(sent.at("text"), R"({"box": {"side": 30}})");
-  EXPECT_EQ(sent.at("file"), file);
-  EXPECT_EQ(sent.at("settings"), Json::array({"rods.length=2.5,3.5"}));
-  EXPECT_EQ(sent.at("replicas"), 2);
-  EXPECT_EQ(sent.at("name"), "phases");
-}
-
-TEST_F(Verbs, SubmitHandsThePriorityOn) {
-  const std::string file = (root_.path() / "scene.json").string();
-  std::ofstream(file) << R"({"box": {"side": 30}})";
-  Json answer = sweep({job("1f0c000000000000", "queued")});
-  answer["counts"] = {{"new", 1}, {"queued", 1}};
-  daemon_.on("POST /v1/sweeps", {{201, text(answer)}});
-  EXPECT_EQ(run({"submit", file, "--priority", "10"}).code, ExitCode::kOk);
-  EXPECT_EQ(Json::parse(daemon_.requests().back().body).at("priority"), 10);
+  for (const auto& [key, value] : asked.items()) EXPECT_EQ(sent.at(key), value) << key;
   EXPECT_EQ(run({"submit", file}).code, ExitCode::kOk);
   EXPECT_FALSE(Json::parse(daemon_.requests().back().body).contains("priority"));
-}
-
-TEST_F(Verbs, SubmitHandsTheTermsOn) {
-  const std::string file = (root_.path() / "scene.json").string();
-  std::ofstream(file) << R"({"box": {"side": 30}})";
-  Json answer = sweep({job("1f0c000000000000", "queued")});
-  answer["counts"] = {{"new", 1}, {"queued", 1}};
-  daemon_.on("POST /v1/sweeps", {{201, text(answer)}});
-  const Outcome outcome = run({"submit", file, "--soft-limit", "10min", "--time-limit", "1.5 d", "--at-once", "4",
-                               "--after", "s3", "--after", "1f0c", "--stop-if", "failed>10%"});
-  ASSERT_EQ(outcome.code, ExitCode::kOk) << outcome.err;
-  const Json sent = Json::parse(daemon_.requests().back().body);
-  EXPECT_EQ(sent.at("soft_limit_s"), 600.0);
-  EXPECT_EQ(sent.at("time_limit_s"), 129600.0);
-  EXPECT_EQ(sent.at("at_most"), 4);
-  EXPECT_EQ(sent.at("after"), Json({"s3", "1f0c"}));
-  EXPECT_EQ(sent.at("stop_if"), "failed>10%");
   for (const char* time : {"soon", "0", "-3min", "5 mm", "1e999", "nan"}) {
     const Outcome refused = run({"submit", file, "--time-limit", time});
     EXPECT_EQ(refused.code, ExitCode::kBadInput) << time;
@@ -611,6 +597,45 @@ TEST_F(Verbs, CompletionKnowsTheIds) {
   daemon_.on("GET /v1/sweeps", text({{"sweeps", {sweep({}).at("sweep")}}}));
   daemon_.on("GET /v1/jobs", text({{"jobs", {job("1f0c000000000000", "done")}}}));
   EXPECT_EQ(run({"completion", "ids"}).out, "phases\ns1\n1f0c0000\n");
+}
+
+using std::chrono::seconds;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+const std::string kRefused = "could not be started: sbatch: error: invalid partition. Next attempt at ";
+
+std::vector<Json> jobs(int n, const std::string& state, const std::string& reason) {
+  return std::vector<Json>(static_cast<std::size_t>(n),
+                           Json{{"state", state}, {"ended", state == "failed"}, {"reason", reason}});
+}
+
+TEST(WaitingReasons, TellsEachOnceWhenItStands) {
+  WaitingReasons reasons;
+  const WaitingReasons::Clock::time_point start{};
+  EXPECT_THAT(reasons.news(jobs(3, "queued", kRefused + "12:01"), start), IsEmpty()) << "it may be on its way";
+  EXPECT_THAT(reasons.news(jobs(3, "queued", kRefused + "12:01"), start + seconds(3)),
+              ElementsAre("3 jobs queued: " + kRefused + "12:01"));
+  EXPECT_THAT(reasons.news({}, start + seconds(60)), IsEmpty());
+  EXPECT_THAT(reasons.news(jobs(3, "queued", kRefused + "12:03"), start + seconds(62)), IsEmpty()) << "tried meanwhile";
+  EXPECT_THAT(reasons.news(jobs(2, "queued", kRefused + "13:00"), start + seconds(200)), IsEmpty());
+  EXPECT_THAT(reasons.news(jobs(2, "queued", kRefused + "13:00"), start + seconds(204)),
+              ElementsAre("2 jobs queued: " + kRefused + "13:00"));
+}
+
+TEST(WaitingReasons, GroupsByWhatIsTheSameButForItsNumbers) {
+  WaitingReasons reasons;
+  std::vector<Json> all = jobs(1, "running", "waits as Slurm job 7_0 (Priority)");
+  all.push_back(jobs(1, "running", "waits as Slurm job 7_11 (Priority)").front());
+  all.push_back(jobs(1, "held", "held on request").front());
+  all.push_back(jobs(1, "queued", "waits for s1: 3 of 4 done").front());
+  all.push_back(jobs(1, "running", "").front());
+  all.push_back(jobs(1, "failed", "exit 1").front());
+  const WaitingReasons::Clock::time_point start{};
+  reasons.news(all, start);
+  EXPECT_THAT(reasons.news(all, start + seconds(5)),
+              ElementsAre("2 jobs handed over: waits as Slurm job 7_0 (Priority)", "1 job held: held on request",
+                          "1 job queued: waits for s1: 3 of 4 done"));
 }
 
 }  // namespace

@@ -185,6 +185,8 @@ TEST(LiveRods, WhatNoSceneHasIsRefused) {
   EXPECT_TRUE(refused([](frame_static_t& m) { m.box_x_mm = kNaN; }));
   EXPECT_TRUE(refused([](frame_static_t& m) { m.box_x_mm = 1e9; }));
   EXPECT_TRUE(refused([](frame_static_t& m) { m.box_y_mm = 0.5; }));
+  EXPECT_TRUE(refused([](frame_static_t& m) { m.gap_mm = 0; }));
+  EXPECT_TRUE(refused([](frame_static_t& m) { m.bead_radius_mm[1] = 1e4; }));
   EXPECT_TRUE(refused([](frame_static_t& m) { m.n_rods = -1; }));
   EXPECT_TRUE(refused([](frame_static_t& m) { m.n_rods = 500000; })) << "twenty layers of rods";
   EXPECT_TRUE(refused([](frame_static_t& m) { m.species_beads = {}; }));
