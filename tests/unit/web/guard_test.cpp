@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "web/guard.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "web/tickets.h"
+#include "web/token.h"
 
 namespace shaken::web {
 namespace {
@@ -78,6 +82,53 @@ TEST(Guard, AnotherPageChangesNothing) {
                              "https://127.0.0.1:8642", "http://"}) {
     EXPECT_EQ(post(origin), 403) << origin;
   }
+}
+
+TEST(Token, IsAnotherOneEachTime) {
+  const auto one = make_token(), other = make_token();
+  ASSERT_TRUE(one && other);
+  EXPECT_THAT(*one, testing::MatchesRegex("[0-9a-f]+"));
+  EXPECT_EQ(one->size(), 32u);
+  EXPECT_NE(*one, *other);
+}
+
+TEST(Token, OnlyTheWholeOneFits) {
+  const std::string token(32, 'a');
+  EXPECT_TRUE(is_token(token, token));
+  EXPECT_FALSE(is_token(std::string(31, 'a'), token));
+  EXPECT_FALSE(is_token(std::string(33, 'a'), token));
+  EXPECT_FALSE(is_token("", token));
+  for (std::size_t i = 0; i < token.size(); ++i) {
+    std::string other = token;
+    other[i] = 'b';
+    EXPECT_FALSE(is_token(other, token)) << i;
+  }
+}
+
+TEST(Tickets, AreForOneThingOnce) {
+  Tickets tickets;
+  const std::string one = tickets.give("/runs/a/files/x", {}),
+                    other = tickets.give("/runs/a/picture", {{"frame", "3"}});
+  EXPECT_NE(one, other);
+  EXPECT_FALSE(tickets.take("0123456789abcdef0123456789abcdef"));
+  EXPECT_FALSE(tickets.take(""));
+  const auto meant = tickets.take(other);
+  ASSERT_TRUE(meant);
+  EXPECT_EQ(meant->method, "GET");
+  EXPECT_EQ(meant->path, "/runs/a/picture");
+  EXPECT_EQ(meant->parameter("frame"), "3");
+  EXPECT_FALSE(tickets.take(other)) << "it has been used";
+  EXPECT_TRUE(tickets.take(one));
+}
+
+TEST(Tickets, LastAMinute) {
+  Tickets::Clock::time_point now{};
+  Tickets tickets([&] { return now; });
+  const std::string used = tickets.give("/runs/a/files/x", {}), late = tickets.give("/runs/a/files/y", {});
+  now += std::chrono::minutes(1);
+  EXPECT_TRUE(tickets.take(used));
+  now += std::chrono::milliseconds(1);
+  EXPECT_FALSE(tickets.take(late));
 }
 
 }  // namespace

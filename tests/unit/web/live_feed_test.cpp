@@ -3,8 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <limits>
+#include <nlohmann/json.hpp>
+#include <numbers>
 #include <shaken/frame_static_t.hpp>
+
+#include "web/packed_frame.h"
 
 namespace shaken::web {
 namespace live_feed_test {
@@ -122,6 +127,107 @@ TEST(LiveFeed, AListenerIsWokenByWhatComes) {
   const auto start = std::chrono::steady_clock::now();
   EXPECT_TRUE(feed.wait(kRun, seen, 600s).observables);
   EXPECT_LT(std::chrono::steady_clock::now() - start, 300s) << "woken, not timed out";
+}
+
+/// A little-endian number at byte `at`.
+std::uint16_t u16(const std::string& bytes, std::size_t at) {
+  return static_cast<std::uint16_t>(static_cast<unsigned char>(bytes.at(at)) |
+                                    static_cast<unsigned char>(bytes.at(at + 1)) << 8);
+}
+std::int16_t i16(const std::string& bytes, std::size_t at) { return static_cast<std::int16_t>(u16(bytes, at)); }
+
+client::RodFrame some_frame(std::size_t n_rods) {
+  client::RodFrame frame;
+  frame.time = 1.5;
+  frame.cell.box = 20;
+  frame.order = 0.75;
+  frame.director = 0.25;
+  frame.outlines = {{2, 0.4, 0.2}};
+  for (std::size_t i = 0; i < n_rods; ++i) {
+    frame.rods.push_back({5 + 0.001 * static_cast<double>(i), 15, std::numbers::pi / 4, -0.5});
+  }
+  return frame;
+}
+
+TEST(PackedFrame, HoldsRodsInTheUnitsOfTheBus) {
+  const std::string bytes = packed(some_frame(3));
+  const std::size_t size = u16(bytes, 0) | static_cast<std::size_t>(u16(bytes, 2)) << 16;
+  EXPECT_EQ(size % 4, 0u) << "numbers of two bytes follow at an even place";
+  const auto head = nlohmann::json::parse(bytes.substr(4, size));
+  EXPECT_EQ(head["n_rods"], 3);
+  EXPECT_EQ(head["time_s"], 1.5);
+  EXPECT_EQ(head["outlines"], nlohmann::json({{2, 0.4, 0.2}}));
+  EXPECT_TRUE(head["walls"].is_null());
+  const std::size_t begin = 4 + size;
+  ASSERT_EQ(bytes.size(), begin + 4 * 2 * 3);
+  EXPECT_EQ(i16(bytes, begin), -16384) << "x = 5 mm of 20 mm";
+  EXPECT_EQ(i16(bytes, begin + 2 * 3), 16384) << "y = 15 mm";
+  EXPECT_EQ(i16(bytes, begin + 2 * 6), 8192) << "an eighth of a turn";
+  EXPECT_NEAR(i16(bytes, begin + 2 * 9), -16384, 1) << "n_z = -1/2";
+}
+
+TEST(PackedFrame, HeightsAreThereWhereTheyAreKnown) {
+  client::RodFrame frame = some_frame(4);
+  frame.cell.gap = 2;
+  frame.heights = {1, 2, 0, 99};
+  const std::string bytes = packed(frame);
+  const std::size_t begin = 4 + u16(bytes, 0) + 8 * 4;
+  ASSERT_EQ(bytes.size(), begin + 2 * 4);
+  const auto head = nlohmann::json::parse(bytes.substr(4, u16(bytes, 0)));
+  EXPECT_EQ(head["gap_mm"], 2);
+  EXPECT_EQ(head["has_heights"], true);
+  EXPECT_EQ(i16(bytes, begin), 0) << "half way between the plates";
+  EXPECT_NEAR(i16(bytes, begin + 2), 16384, 1) << "at the lid";
+  EXPECT_NEAR(i16(bytes, begin + 4), -16384, 1) << "on the base";
+  EXPECT_EQ(i16(bytes, begin + 6), 32767) << "further than there is room for";
+}
+
+TEST(PackedFrame, RodsOfManyMessagesFollowEachOther) {
+  const std::size_t n = proto::kRodsPerChunk + 10;
+  const std::string bytes = packed(some_frame(n));
+  const std::size_t begin = 4 + (u16(bytes, 0) | static_cast<std::size_t>(u16(bytes, 2)) << 16);
+  ASSERT_EQ(bytes.size(), begin + 8 * n);
+  for (std::size_t i = 1; i < n; ++i) {
+    ASSERT_GE(i16(bytes, begin + 2 * i), i16(bytes, begin + 2 * (i - 1))) << "x grows with the rod's number, " << i;
+    ASSERT_EQ(i16(bytes, begin + 2 * (n + i)), 16384) << i;
+  }
+}
+
+TEST(PackedFrame, SpeciesAndWallsAreThereWhereTheyAreInTheRun) {
+  client::RodFrame frame = some_frame(2);
+  frame.outlines.push_back({0, 0.5, 0.5});
+  frame.cell.shape_of_rod = {1, 0};
+  frame.cell.walls.emplace();
+  frame.cell.walls->arena = Arena::kAnnulus;
+  frame.cell.walls->size = 18;
+  frame.cell.walls->inner = 6;
+  const std::string bytes = packed(frame);
+  const std::size_t size = u16(bytes, 0);
+  const auto head = nlohmann::json::parse(bytes.substr(4, size));
+  frame.cell.walls = SideWalls{.arena = Arena::kStadium, .size = 8, .length = 5};
+  const std::string other = packed(frame);
+  EXPECT_EQ(nlohmann::json::parse(other.substr(4, u16(other, 0)))["walls"]["length_mm"], 5);
+  frame.cell.walls = SideWalls{.arena = Arena::kWedge, .size = 8, .inner = 0, .length = 5, .narrow = 2};
+  const std::string wedge = packed(frame);
+  EXPECT_EQ(nlohmann::json::parse(wedge.substr(4, u16(wedge, 0)))["walls"],
+            nlohmann::json({{"arena", "wedge"}, {"size_mm", 8}, {"inner_mm", 0}, {"length_mm", 5}, {"narrow_mm", 2}}));
+  EXPECT_EQ(head["walls"], nlohmann::json({{"arena", "annulus"}, {"size_mm", 18}, {"inner_mm", 6}}));
+  EXPECT_EQ(bytes.substr(4 + size + 16), std::string("\x01\x00", 2));
+  EXPECT_EQ(head["species_of_outline"], nlohmann::json::array());
+  frame.cell.species_of_shape = {0, 0};
+  const std::string of_sizes = packed(frame);
+  EXPECT_EQ(nlohmann::json::parse(of_sizes.substr(4, u16(of_sizes, 0)))["species_of_outline"], nlohmann::json({0, 0}));
+}
+
+TEST(PackedFrame, PostsAreThereWhereTheyAreInTheRun) {
+  client::RodFrame frame = some_frame(1);
+  const auto head = [&] {
+    const std::string bytes = packed(frame);
+    return nlohmann::json::parse(bytes.substr(4, u16(bytes, 0)));
+  };
+  EXPECT_TRUE(head()["posts"].is_null());
+  frame.cell.posts = {.diameter = 3, .centres = {{1, 2}, {5, 6}}};
+  EXPECT_EQ(head()["posts"], nlohmann::json({{"diameter_mm", 3.0}, {"centres_mm", {{1.0, 2.0}, {5.0, 6.0}}}}));
 }
 
 }  // namespace live_feed_test

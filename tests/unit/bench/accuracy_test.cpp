@@ -8,6 +8,65 @@
 namespace shaken::bench {
 namespace {
 
+World two_rods() {
+  System scene;
+  scene.n_rods = 2;
+  scene.box_side = 20;
+  World world = empty_world(scene);
+  world.rods.resize(2);
+  for (Flight& flight : world.rods) {
+    flight.position = {1, 10, 1};
+    flight.velocity = {30, 0, 0};
+    flight.prepare();
+  }
+  return world;
+}
+
+TEST(Errors, AreNoneBetweenEquals) { EXPECT_EQ(errors_between(two_rods(), two_rods()), (Errors{0, 0, 0})); }
+
+TEST(Errors, OfPositionsAreRootMeanSquares) {
+  World moved = two_rods();
+  moved.rods[1].position += Vec3(0, 3e-3, 4e-3);
+  EXPECT_NEAR(errors_between(moved, two_rods())[0], 5e-3 / std::sqrt(2), 1e-15);
+}
+
+TEST(Errors, AreOfUnwrappedPositions) {
+  // 0.5 mm apart, across the box's border
+  World truth = two_rods();
+  World moved = two_rods();
+  for (int i = 0; i < 2; ++i) {
+    truth.rods[i].position.x() = 0.25;
+    moved.rods[i].position.x() = 19.75;
+    moved.rods[i].image[0] = -1;
+  }
+  EXPECT_NEAR(errors_between(moved, truth)[0], 0.5, 1e-12);
+  moved.rods[0].image[0] = moved.rods[1].image[0] = 0;  // as far apart as it looks
+  EXPECT_NEAR(errors_between(moved, truth)[0], 19.5, 1e-12);
+}
+
+TEST(Errors, OfDirectorsAreAngles) {
+  for (const double angle : {1e-9, 0.1, 2.0}) {
+    World turned = two_rods();
+    for (Flight& flight : turned.rods) {
+      flight.director = {std::cos(angle), std::sin(angle), 0};
+      flight.prepare();
+    }
+    EXPECT_NEAR(errors_between(turned, two_rods())[1], angle, 1e-12 * angle);
+  }
+}
+
+TEST(Errors, OfEnergyAreRelative) {
+  World faster = two_rods();
+  for (Flight& flight : faster.rods) flight.velocity *= 1.1;
+  EXPECT_NEAR(errors_between(faster, two_rods())[2], 0.21, 1e-12);
+}
+
+TEST(Quartiles, AreBetweenNeighbours) {
+  EXPECT_EQ(quartiles_of({4, 1, 3, 2}), Json::parse(R"({"lower": 1.75, "median": 2.5, "upper": 3.25})"));
+  EXPECT_EQ(quartiles_of({7}).at("upper"), 7);
+  EXPECT_TRUE(quartiles_of({}).at("median").is_null());
+}
+
 TEST(StartCases, LastWholeNumbersOfTheLongestStep) {
   for (const StartCase& start : start_cases()) {
     const double steps = start.duration / kLongestStep;
