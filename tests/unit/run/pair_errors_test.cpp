@@ -10,7 +10,7 @@
 #include "run/measure/measurements.h"
 
 namespace shaken::run {
-namespace {
+namespace pair_errors_test {
 
 constexpr double kDt = 1e-3;
 constexpr int kSamples = 320, kRuns = 60;
@@ -76,5 +76,5 @@ TEST(PairErrors, AreTheScatterOfIndependentRuns) {
   }
 }
 
-}  // namespace
+}  // namespace pair_errors_test
 }  // namespace shaken::run
