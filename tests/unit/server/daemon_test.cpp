@@ -183,15 +183,6 @@ TEST_F(DaemonTest, AfterAKillTheNextOneStartsTheJobAgain) {
   EXPECT_TRUE(eventually([&] { return kill(worker, 0) != 0; })) << "the old worker was told by the kernel";
 }
 
-TEST_F(DaemonTest, TheJobOfAKilledWorkerWaitsToBeTriedAgain) {
-  setenv("FAKE_WORKER", "run", 1);
-  Daemon shakend = daemon();
-  kill(run_one(shakend), SIGKILL);
-  EXPECT_TRUE(becomes(shakend, "queued"));
-  EXPECT_EQ(shakend.job()["reason"], "worker was killed by signal 9 (SIGKILL); is tried again after 5.0 s");
-  EXPECT_EQ(shakend.call("/v1/status")["jobs"]["failed"], 0);
-}
-
 TEST_F(DaemonTest, ASecondSignalKillsDeafWorkers) {
   setenv("FAKE_WORKER", "deaf", 1);
   Daemon shakend = daemon();

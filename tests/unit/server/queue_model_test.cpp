@@ -553,6 +553,8 @@ TEST_F(QueueModelTest, EveryOperationInEveryPhaseDoesWhatTheModelSays) {
       {{kSubmit, 'a'}, {kBegin, 'a'}, {kStopAll, 'a'}},
       {{kSubmit, 'a'}, {kBegin, 'a'}, {kSubmit, 'b'}, {kGiveWay, 'a'}},
       {{kSubmit, 'a'}, {kBegin, 'a'}, {kCancel, 'a'}},
+      // asked for again, when its worker may have done what it was asked for before
+      {{kSubmit, 'a'}, {kBegin, 'a'}, {kCancel, 'a'}, {kSubmit, 'a'}},
       {{kSubmit, 'a'}, {kBegin, 'a'}, {kHold, 'a'}},
       {{kSubmit, 'a'}, {kBegin, 'a'}, {kTimeOut, 'a'}},
       {{kSubmit, 'a'}, {kBegin, 'a'}, {Operation::kDone, 'a'}},

@@ -101,98 +101,12 @@ TEST_F(QueueTest, ARunningJobIsDoneWithItsAttemptCounted) {
   EXPECT_THROW(queue_.ended(a_, JobEvent::kWorkerFailed, "too late"), std::logic_error);
 }
 
-TEST_F(QueueTest, AFailedJobIsTriedAgainWhenAskedForAndADoneOneIsNot) {
-  const std::vector<NewJob> jobs{new_job('a'), new_job('b')};
-  queue_.submit("s", 0, jobs);
-  begin(queue_, a_);
-  queue_.ended(a_, JobEvent::kWorkerFailed, "exit 1: why");
-  EXPECT_EQ(queue_.job(a_)->reason, "exit 1: why");
-  begin(queue_, b_);
-  queue_.ended(b_, JobEvent::kWorkerDone);
-
-  const Submitted again = queue_.submit("s", 0, jobs);
-  EXPECT_EQ(again.n_requeued, 1);
-  EXPECT_EQ(state('a'), kQueued);
-  EXPECT_EQ(queue_.job(a_)->reason, "");
-  EXPECT_EQ(state('b'), kDone);
-  EXPECT_EQ(begin(queue_, a_), 2);
-}
-
-TEST_F(QueueTest, ADoneJobWhoseResultsAreLostIsDoneAgain) {
-  std::vector<NewJob> jobs{new_job('a')};
-  queue_.submit("s", 0, jobs);
-  begin(queue_, a_);
-  queue_.ended(a_, JobEvent::kWorkerDone);
-  jobs[0].has_results = false;
-  EXPECT_EQ(queue_.submit("s", 0, jobs).n_requeued, 1);
-  EXPECT_EQ(state('a'), kQueued);
-}
-
-TEST_F(QueueTest, CancelEndsQueuedJobsAndStopsRunningOnes) {
-  const auto sweep = queue_.submit("s", 0, std::vector{new_job('a'), new_job('b'), new_job('c')}).sweep;
-  begin(queue_, a_);
-  begin(queue_, b_);
-  queue_.ended(b_, JobEvent::kWorkerDone);
-  EXPECT_EQ(queue_.cancel(sweep), 2);
-  EXPECT_EQ(state('a'), kStopping);
-  EXPECT_EQ(state('b'), kDone);
-  EXPECT_EQ(state('c'), kCancelled);
-  EXPECT_EQ(queue_.cancel(sweep), 0);
-
-  queue_.ended(a_, JobEvent::kWorkerStopped, "checkpoint");
-  EXPECT_EQ(state('a'), kCancelled);
-  EXPECT_EQ(queue_.job(a_)->reason, "cancelled on request");
-  EXPECT_THAT(transitions('a'), ElementsAre(">queued", "queued>running", "running>stopping", "stopping>cancelled"));
-}
-
 TEST_F(QueueTest, CancelLeavesOtherSweepsAlone) {
   queue_.submit("one", 0, std::vector{new_job('a')});
   const auto two = queue_.submit("two", 0, std::vector{new_job('b')}).sweep;
   EXPECT_EQ(queue_.cancel(two), 1);
   EXPECT_EQ(state('a'), kQueued);
   EXPECT_EQ(queue_.cancel("nobody"), 0);
-}
-
-TEST_F(QueueTest, TheNextJobIsTheOldestOfTheHighestPriority) {
-  queue_.submit("low", 0, std::vector{new_job('c'), new_job('a')});
-  queue_.submit("high", 5, std::vector{new_job('d'), new_job('b')});
-  std::string order;
-  for (const Job& job : queue_.next(10)) order += job.id.front();
-  EXPECT_EQ(order, "dbca");
-  EXPECT_EQ(queue_.next(1).size(), 1U);
-
-  queue_.submit("urgent", 9, std::vector{new_job('a')});
-  EXPECT_EQ(queue_.next(1).front().id, a_);
-}
-
-TEST_F(QueueTest, ARunWhoseSoftLimitIsOverGivesWayToThoseThatWait) {
-  queue_.submit("s", 0, std::vector{new_job('a')}, {.soft_limit = std::chrono::minutes(1)});
-  EXPECT_EQ(queue_.job(a_)->soft_limit, std::chrono::minutes(1));
-  begin(queue_, a_);
-  EXPECT_FALSE(queue_.preempt(a_)) << "nobody waits";
-  queue_.submit("low", -1, std::vector{new_job('b')});
-  EXPECT_FALSE(queue_.preempt(a_)) << "it would start again before that one";
-  queue_.submit("same", 0, std::vector{new_job('c'), new_job('d')});
-  EXPECT_TRUE(queue_.preempt(a_));
-  EXPECT_EQ(state('a'), kStopping);
-  EXPECT_FALSE(queue_.preempt(a_));
-  queue_.ended(a_, JobEvent::kWorkerStopped, "checkpoint");
-  EXPECT_EQ(state('a'), kQueued);
-  queue_.submit("later", 0, std::vector{new_job('e')});
-  std::string order;
-  for (const Job& job : queue_.next(10)) order += job.id.front();
-  EXPECT_EQ(order, "cdaeb") << "behind all of its priority that wait by then";
-  EXPECT_EQ(queue_.history(a_)[2].cause, "its soft limit is over: it gives way to others");
-}
-
-TEST_F(QueueTest, NoMoreRunsGiveWayThanOthersWait) {
-  queue_.submit("s", 0, std::vector{new_job('a'), new_job('b'), new_job('c')});
-  begin(queue_, a_);
-  begin(queue_, b_);
-  EXPECT_TRUE(queue_.preempt(a_));
-  EXPECT_FALSE(queue_.preempt(b_)) << "a makes room for the one that waits";
-  queue_.submit("s2", 0, std::vector{new_job('d')});
-  EXPECT_TRUE(queue_.preempt(b_));
 }
 
 TEST_F(QueueTest, ARunIsTimedOutAndARetryGivesItAsMuchTimeAgain) {
@@ -267,26 +181,6 @@ TEST_F(QueueTest, ALongerSceneExtendsTheJobThatIsThere) {
   EXPECT_EQ(seconds_asked(queue_, short_one.id), 4);
 }
 
-TEST_F(QueueTest, AJobThatRunsIsExtendedWhenItsWorkerIsDone) {
-  const NewJob job = job_of("2");
-  queue_.submit("s", 0, std::vector{job});
-  begin(queue_, job.id);
-  EXPECT_EQ(queue_.extend(std::vector{std::pair{job.id, job_of("4").scene}}), 1);
-  EXPECT_EQ(queue_.job(job.id)->state, kRunning);
-  queue_.ended(job.id, JobEvent::kWorkerDone);
-  EXPECT_EQ(queue_.job(job.id)->state, kQueued);
-  begin(queue_, job.id);
-  queue_.ended(job.id, JobEvent::kWorkerDone);
-  EXPECT_EQ(queue_.job(job.id)->state, kDone) << "the second worker knew";
-  // asked for while it is to stop
-  queue_.extend(std::vector{std::pair{job.id, job_of("5").scene}});
-  begin(queue_, job.id);
-  queue_.hold(job.id);
-  queue_.extend(std::vector{std::pair{job.id, job_of("6").scene}});
-  queue_.ended(job.id, JobEvent::kWorkerDone);
-  EXPECT_EQ(queue_.job(job.id)->state, kHeld);
-}
-
 TEST_F(QueueTest, AJobIsLaunchedWithTheSceneOfThatMoment) {
   const NewJob job = job_of("2");
   queue_.submit("s", 0, std::vector{job});
@@ -333,81 +227,20 @@ TEST_F(QueueTest, ACancelledJobIsDoneAgainForAsLongAsItIsAskedForThen) {
   EXPECT_EQ(seconds_asked(queue_, job.id), 5);
 }
 
-TEST_F(QueueTest, ALongerSubmissionReachesAWorkerThatIsBeingCancelledAndEndsAllTheSame) {
-  const NewJob job = job_of("10");
-  queue_.submit("s", 0, std::vector{job});
-  begin(queue_, job.id);
-  queue_.cancel(job.id);
-  queue_.submit("s", 0, std::vector{job_of("20")});
-  queue_.ended(job.id, JobEvent::kWorkerDone);
-  EXPECT_EQ(queue_.job(job.id)->state, kQueued) << "10 s are done, 20 s are asked for";
-}
-
-TEST_F(QueueTest, ExtendingAFailedJobLeavesItFailed) {
-  const NewJob job = job_of("2");
-  queue_.submit("s", 0, std::vector{job});
-  begin(queue_, job.id);
-  queue_.ended(job.id, JobEvent::kWorkerFailed, "trouble");
-  EXPECT_EQ(queue_.extend(std::vector{std::pair{job.id, job_of("4").scene}}), 1);
-  EXPECT_EQ(queue_.job(job.id)->state, kFailed);
-  EXPECT_EQ(queue_.retry(job.id), 1);
-  EXPECT_EQ(seconds_asked(queue_, job.id), 4);
-}
-
-/// A chain of jobs: each starts from the one before.
-std::vector<NewJob> chain(const std::string& digits) {
-  std::vector<NewJob> jobs;
-  for (const char digit : digits) {
-    const std::string former = jobs.empty() ? "" : jobs.back().id;
-    jobs.push_back(new_job(digit));
-    jobs.back().starts_from = former;
-  }
-  return jobs;
-}
-
-TEST_F(QueueTest, AJobStartsOnceTheRunThatItStartsFromIsDone) {
-  queue_.submit("s", 0, chain("abc"));
-  EXPECT_EQ(queue_.next(10).size(), 1U);
+// The model does not read words.
+TEST_F(QueueTest, AJobSaysWhatItWaitsForAndWhyItIsHeldOrGaveWay) {
+  std::vector<NewJob> jobs{new_job('a'), new_job('b'), new_job('c')};
+  jobs[1].starts_from = a_;
+  jobs[2].starts_from = std::string(16, 'f');
+  queue_.submit("s", 0, jobs);
   EXPECT_EQ(queue_.job(b_)->reason, "waits for run aaaaaaaaaaaaaaaa, from which it starts");
-  EXPECT_EQ(begin(queue_, b_), std::nullopt);
   begin(queue_, a_);
-  queue_.ended(a_, JobEvent::kWorkerDone);
-  EXPECT_EQ(queue_.job(b_)->reason, "");
-  EXPECT_EQ(queue_.next(10).size(), 1U) << "and the third waits for the second";
-  EXPECT_EQ(begin(queue_, b_), 1);
-  // one that is known already, and done, keeps nobody waiting; nor does one that is not in the queue
-  std::vector<NewJob> more = chain("ad");
-  queue_.submit("t", 0, more);
-  EXPECT_EQ(begin(queue_, more[1].id), 1);
-  NewJob other = new_job('e');
-  other.starts_from = std::string(16, 'f');
-  queue_.submit("u", 0, std::vector{other});
-  EXPECT_EQ(begin(queue_, other.id), 1);
-}
-
-TEST_F(QueueTest, AChainIsHeldWhereARunOfItFailsAndGoesOnWhenThatIsTriedAgain) {
-  const auto sweep = queue_.submit("s", 0, chain("abc")).sweep;
-  begin(queue_, a_);
+  EXPECT_TRUE(queue_.preempt(a_));
+  EXPECT_EQ(queue_.history(a_).back().cause, "its soft limit is over: it gives way to others");
   queue_.ended(a_, JobEvent::kWorkerFailed, "exit 1");
-  EXPECT_EQ(state('b'), kHeld);
+  EXPECT_EQ(queue_.job(a_)->reason, "exit 1");
   EXPECT_EQ(queue_.job(b_)->reason, "it is to start from run aaaaaaaaaaaaaaaa: failed");
-  EXPECT_EQ(state('c'), kHeld) << "so does nothing come of what follows";
-  EXPECT_EQ(queue_.resume(Target(b_)), 1);
-  EXPECT_EQ(state('b'), kHeld) << "there is nothing to start from";
-  EXPECT_EQ(queue_.retry(Target(sweep)), 1) << "the others follow";
-  EXPECT_EQ(state('a'), kQueued);
-  EXPECT_EQ(state('b'), kQueued);
-  EXPECT_EQ(state('c'), kQueued);
-  EXPECT_EQ(queue_.next(10).size(), 1U) << "one after the other, as before";
-  queue_.cancel(Target(a_));
-  EXPECT_EQ(state('c'), kHeld);
-  queue_.submit("s", 0, chain("abc"));
-  EXPECT_EQ(state('c'), kQueued);
-}
-
-TEST_F(QueueTest, AJobDoesNotWaitForWhatStartsFromIt) {
-  queue_.submit("s", 0, chain("ab"));
-  EXPECT_THROW(queue_.submit("t", 0, std::vector{new_job('a')}, Terms{.after = {Target(b_)}}), Conflict);
+  EXPECT_EQ(begin(queue_, jobs[2].id), 1) << "nobody waits for a run that is not in the queue";
 }
 
 TEST_F(QueueTest, IdsAreFoundByTheirBeginning) {

@@ -47,15 +47,17 @@ class SupervisorTest : public testing::Test {
   Job job(char digit) const { return *queue_.job(id(digit)); }
   std::filesystem::path directory(char digit) const { return directory_ / "runs" / id(digit); }
   void submit(char digit, const std::string& label) { queue_.submit(label, 0, std::vector{new_job(digit, label)}); }
-  bool step_until(const std::function<bool()>& condition) {
+  static bool step_until(Supervisor& supervisor, const std::function<bool()>& condition) {
     return eventually([&] {
-      supervisor_.step();
+      supervisor.step();
       return condition();
     });
   }
-  bool step_until(char digit, JobState state) {
-    return step_until([&] { return job(digit).state == state; });
+  bool step_until(Supervisor& supervisor, char digit, JobState state) const {
+    return step_until(supervisor, [&] { return job(digit).state == state; });
   }
+  bool step_until(const std::function<bool()>& condition) { return step_until(supervisor_, condition); }
+  bool step_until(char digit, JobState state) { return step_until(supervisor_, digit, state); }
   /// Runs until the worker listens to signals.
   bool step_until_up(char digit) {
     return step_until([&] { return std::filesystem::exists(directory(digit) / "up"); });
@@ -122,10 +124,7 @@ TEST_F(RefusedTest, WhatIsRefusedIsTriedAgainMoreAndMoreRarely) {
   }
   // once it is taken, the next refusal is the first
   told_.report = {};
-  ASSERT_TRUE(eventually([&] {
-    supervisor.step();
-    return job('a').state == kRunning && job('a').reason.empty();
-  }));
+  ASSERT_TRUE(step_until(supervisor, [&] { return job('a').state == kRunning && job('a').reason.empty(); }));
   supervisor.step();
   told_.report = refusal_;
   const int accepted = job('a').attempt;
@@ -233,23 +232,14 @@ TEST_F(SupervisorTest, ASummaryThatIsSeenLateIsLookedForAgain) {
   for (int i = 0; i < 5; ++i) supervisor.step();
   EXPECT_EQ(job('a').state, kRunning) << "what cannot be read does not say that it is not done";
   write_text(directory('a') / "summary.json", R"({"run_id": ")" + id('a') + R"(", "exit": {"state": "done"}})");
-  EXPECT_TRUE(eventually([&] {
-    supervisor.step();
-    return job('a').state == kDone;
-  }));
+  EXPECT_TRUE(step_until(supervisor, 'a', kDone));
   EXPECT_EQ(job('a').attempt, 1);
 
   // later than that it goes back into the queue, where the next worker finds that it is done
   submit('b', "done");
-  EXPECT_TRUE(eventually([&] {
-    supervisor.step();
-    return job('b').state == kQueued && job('b').attempt == 1;
-  }));
+  EXPECT_TRUE(step_until(supervisor, [&] { return job('b').state == kQueued && job('b').attempt == 1; }));
   write_text(directory('b') / "summary.json", R"({"run_id": ")" + id('b') + R"(", "exit": {"state": "done"}})");
-  EXPECT_TRUE(eventually([&] {
-    supervisor.step();
-    return job('b').state == kDone;
-  }));
+  EXPECT_TRUE(step_until(supervisor, 'b', kDone));
 }
 
 TEST_F(SupervisorTest, WhatCannotStartHoldsUpNoOthersHoweverMuchOfItThereIs) {
@@ -262,16 +252,10 @@ TEST_F(SupervisorTest, WhatCannotStartHoldsUpNoOthersHoweverMuchOfItThereIs) {
     submit(digit, "done");
   }
   submit('a', "done");
-  EXPECT_TRUE(eventually([&] {
-    supervisor.step();
-    return job('a').state == kDone;
-  }));
+  EXPECT_TRUE(step_until(supervisor, 'a', kDone));
   EXPECT_EQ(job('Z').state, kQueued);
   EXPECT_THAT(job('Z').reason, HasSubstr(id('Z')));
-  EXPECT_TRUE(eventually([&] {
-    supervisor.step();
-    return supervisor.idle();
-  }));
+  EXPECT_TRUE(step_until(supervisor, [&] { return supervisor.idle(); }));
 }
 
 TEST_F(SupervisorTest, WhatCannotStartIsLookedAtMoreAndMoreRarely) {
@@ -295,10 +279,7 @@ TEST_F(SupervisorTest, WhatCannotStartIsLookedAtMoreAndMoreRarely) {
   };
   for (const int doublings : {0, 1, 2, 3, 4, 4}) EXPECT_GE(next_pause(), 20'000 << doublings);
   std::filesystem::remove(directory('a'));
-  EXPECT_TRUE(eventually([&] {
-    supervisor.step();
-    return job('a').state == kDone;
-  }));
+  EXPECT_TRUE(step_until(supervisor, 'a', kDone));
 }
 
 TEST_F(SupervisorTest, WhatIsStoppedFurtherOnEachTimeGoesOn) {
@@ -441,21 +422,15 @@ TEST_F(SupervisorTest, ARunGivesWayOnceItsSoftLimitIsOver) {
   one.slots = 1;
   Supervisor supervisor(queue_, executor_, one);
   queue_.submit("long", 0, std::vector{new_job('a', "run")}, {.soft_limit = std::chrono::milliseconds(1)});
-  const auto until = [&](const std::function<bool()>& condition) {
-    return eventually([&] {
-      supervisor.step();
-      return condition();
-    });
-  };
-  ASSERT_TRUE(until([&] { return std::filesystem::exists(directory('a') / "up"); }));
+  ASSERT_TRUE(step_until(supervisor, [&] { return std::filesystem::exists(directory('a') / "up"); }));
   for (int i = 0; i < 5; ++i) supervisor.step();
   EXPECT_EQ(job('a').state, kRunning) << "nobody waits";
   submit('b', "done");
-  ASSERT_TRUE(until([&] { return job('b').state == kDone && job('a').state == kRunning; }));
+  ASSERT_TRUE(step_until(supervisor, [&] { return job('b').state == kDone && job('a').state == kRunning; }));
   EXPECT_EQ(job('a').attempt, 2);
   EXPECT_GT(job('a').wall.count(), 0) << "the first attempt has been counted";
   supervisor.shut_down();
-  ASSERT_TRUE(until([&] { return supervisor.idle(); }));
+  ASSERT_TRUE(step_until(supervisor, [&] { return supervisor.idle(); }));
 }
 
 TEST_F(SupervisorTest, NobodyGivesWayToWhatFindsAFreeSlot) {
@@ -558,10 +533,7 @@ TEST_F(SupervisorTest, AProgramThatIsAwayCostsNoJob) {
   EXPECT_EQ(job('b').attempt, 0);
   EXPECT_THAT(job('a').reason, HasSubstr("away cannot be run: No such file"));
   std::filesystem::copy_file(write_fake_worker(directory_.path()), directory_ / "away");
-  EXPECT_TRUE(eventually([&] {
-    supervisor.step();
-    return queue_.counts()[kDone] == 4;
-  }));
+  EXPECT_TRUE(step_until(supervisor, [&] { return queue_.counts()[kDone] == 4; }));
 }
 
 class LocalExecutorTest : public testing::Test {

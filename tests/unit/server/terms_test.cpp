@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
-// The terms of submissions: what waits for what, how many run at once, when a sweep is stopped.
+// The terms of submissions: what their words, sweeps and percentages mean. What they do to jobs is in
+// queue_model_test.cpp.
 #include "server/queue/terms.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "server/queue/queue.h"
+#include "server/queue/stop_rule.h"
 #include "tests/unit/server/server_support.h"
 
 namespace shaken::server {
 namespace {
 
 using enum JobState;
-using testing::HasSubstr;
 
 class TermsTest : public testing::Test {
  protected:
@@ -61,24 +62,6 @@ TEST_F(TermsTest, NoMoreOfASweepRunThanMay) {
   EXPECT_EQ(queue_.sweep(1)->at_most, 2);
 }
 
-TEST_F(TermsTest, ARunGivesWayToAnotherOfItsFullSweep) {
-  submit("ab", {.at_most = 1});
-  begin(queue_, id('a'));
-  EXPECT_EQ(next(), "");
-  EXPECT_TRUE(queue_.preempt(id('a')));
-  queue_.ended(id('a'), JobEvent::kWorkerStopped, "checkpoint");
-  EXPECT_EQ(next(), "ba");
-}
-
-TEST_F(TermsTest, AJobObeysTheTermsOfTheLastSweepThatAskedForIt) {
-  submit("ab", {.at_most = 1}, "one");
-  submit("ab", {}, "two");
-  begin(queue_, id('a'));
-  EXPECT_EQ(next(), "b");
-  submit("ab", {.at_most = 1}, "two");
-  EXPECT_EQ(next(), "") << "the same sweep again, on other terms";
-}
-
 TEST_F(TermsTest, WhatComesAfterASweepWaitsUntilItIsDone) {
   const auto first = submit("abc");
   submit("de", {.after = {first, id('c')}});
@@ -98,69 +81,22 @@ TEST_F(TermsTest, WhatComesAfterASweepWaitsUntilItIsDone) {
   EXPECT_THAT(queue_.sweep(2)->after, testing::ElementsAre("s1", "cccccccccccccccc"));
 }
 
-TEST_F(TermsTest, WhatIsDoneAlreadyIsNotWaitedFor) {
-  const auto first = submit("a");
-  end('a', kDone);
-  submit("b", {.after = {first}});
-  EXPECT_EQ(next(), "b");
-}
-
-TEST_F(TermsTest, WhatComesAfterSomethingThatCameToNothingIsHeld) {
-  for (const JobState end_state : {kFailed, kCancelled, kTimedOut}) {
-    const ScratchFolder directory;
-    Queue queue(directory / "queue.db");
-    const auto first = queue.submit("one", 0, std::vector{new_job('a'), new_job('b')}).sweep;
-    queue.submit("two", 0, std::vector{new_job('c')}, {.after = {first}});
-    queue.submit("three", 0, std::vector{new_job('d')}, {.after = {id('c')}});
-    if (end_state == kCancelled) {
-      queue.cancel(id('a'));
-    } else {
-      begin(queue, id('a'));
-      if (end_state == kFailed) queue.ended(id('a'), JobEvent::kWorkerFailed, "why");
-      if (end_state == kTimedOut) queue.time_out(id('a'));
-      if (end_state == kTimedOut) queue.ended(id('a'), JobEvent::kWorkerStopped, "checkpoint");
-    }
-    const Job held = *queue.job(id('c'));
-    EXPECT_EQ(held.state, kHeld);
-    EXPECT_EQ(held.phase, JobPhase::kHeldForOthers);
-    EXPECT_EQ(held.reason, "it was to come after s1: 1 of 2 " + std::string(to_word(end_state)));
-    EXPECT_EQ(queue.history(id('c')).back().cause, held.reason);
-    EXPECT_EQ(queue.job(id('d'))->state, kQueued) << "that one may still be resumed";
-    EXPECT_EQ(queue.resume(id('c')), 1);
-    EXPECT_EQ(begin(queue, id('c')), 1) << "to resume is to do it all the same";
-    // Where the end was there first.
-    queue.submit("four", 0, std::vector{new_job('e')}, {.after = {id('a')}});
-    EXPECT_EQ(queue.job(id('e'))->state, kHeld);
-    EXPECT_THAT(queue.job(id('e'))->reason, HasSubstr("after aaaaaaaaaaaaaaaa: "));
-  }
-}
-
-TEST_F(TermsTest, ToHoldAndResumeWhatWaitsDoesNotEndTheWaiting) {
-  submit("a");
-  submit("b", {.after = {id('a')}});
-  queue_.hold(id('b'));
-  queue_.resume(id('b'));
-  EXPECT_EQ(job('b').reason, "waits for aaaaaaaaaaaaaaaa");
-  queue_.hold(id('b'));
+TEST_F(TermsTest, WhatComesAfterSomethingThatCameToNothingSaysSo) {
+  const auto first = submit("ab");
+  submit("c", {.after = {first}});
+  submit("d", {.after = {id('a')}});
   end('a', kFailed);
-  EXPECT_EQ(job('b').reason, "held on request");
-  queue_.resume(id('b'));
-  EXPECT_EQ(job('b').phase, JobPhase::kHeldForOthers);
-  queue_.cancel(id('b'));
-  submit("b");
-  EXPECT_EQ(next(), "b") << "asked for anew, without a wait";
+  EXPECT_EQ(job('c').reason, "it was to come after s1: 1 of 2 failed");
+  EXPECT_EQ(queue_.history(id('c')).back().cause, job('c').reason);
+  EXPECT_EQ(job('d').reason, "it was to come after aaaaaaaaaaaaaaaa: failed");
 }
 
-TEST_F(TermsTest, NothingCanWaitForItself) {
+TEST_F(TermsTest, NothingCanWaitForItselfByWayOfASweep) {
   const auto one = submit("a");
   const auto two = submit("b", {.after = {one}});
-  EXPECT_THROW(submit("ca", {.after = {one}}), Conflict);
-  EXPECT_THROW(submit("ca", {.after = {two}}), Conflict) << "by way of b";
-  EXPECT_THROW(submit("ca", {.after = {id('b')}}), Conflict);
+  EXPECT_THROW(submit("ca", {.after = {two}}), Conflict);
   EXPECT_THROW(submit("b", {.after = {two}}), Conflict) << "the same sweep again";
-  EXPECT_EQ(queue_.sweeps().size(), 2U);
   EXPECT_FALSE(queue_.job(id('c')).has_value()) << "nothing has happened";
-  EXPECT_EQ(next(), "a");
   end('a', kDone);
   submit("ca", {.after = {one}});
   EXPECT_EQ(next(), "bc") << "what is done does not wait";
@@ -200,23 +136,50 @@ TEST_F(TermsTest, ASweepThatFailsTooOftenIsHeld) {
   EXPECT_EQ(job('g').state, kHeld);
 }
 
-TEST_F(TermsTest, AStopRuleHoldsOnlyWhatObeysIt) {
-  submit("ab", {.stop_if = *StopRule::parse("failed>0")}, "ruled");
-  submit("b", {}, "free");
-  end('a', kFailed);
-  EXPECT_EQ(job('b').state, kQueued);
+bool is_broken(const std::string& rule, std::int64_t done, std::int64_t failed) {
+  JobCounts counts;
+  counts[JobState::kDone] = done;
+  counts[JobState::kFailed] = failed;
+  counts[JobState::kQueued] = 100;
+  counts[JobState::kCancelled] = 100;
+  return StopRule::parse(rule)->is_broken(counts);
 }
 
-TEST_F(TermsTest, WhatWasHeldForAnotherGoesOnWhenThatIsTriedAgain) {
-  const auto first = submit("a");
-  submit("b", {.after = {first}});
-  end('a', kFailed);
-  EXPECT_EQ(queue_.job(id('b'))->state, kHeld);
-  EXPECT_EQ(queue_.retry(id('a')), 1);
-  EXPECT_EQ(queue_.job(id('b'))->state, kQueued);
-  EXPECT_EQ(next(), "a") << "it waits as before";
-  end('a', kDone);
-  EXPECT_EQ(next(), "b");
+TEST(StopRuleTest, ANumberIsJudgedAtOnce) {
+  EXPECT_FALSE(is_broken("failed>3", 0, 3));
+  EXPECT_TRUE(is_broken("failed>3", 0, 4));
+  EXPECT_TRUE(is_broken("failed>0", 0, 1));
+  EXPECT_FALSE(is_broken("failed>0", 100, 0));
+}
+
+TEST(StopRuleTest, APercentageIsJudgedOnceFiveHaveEnded) {
+  EXPECT_FALSE(is_broken("failed>10%", 0, 4));
+  EXPECT_TRUE(is_broken("failed>10%", 0, 5));
+  EXPECT_TRUE(is_broken("failed>10%", 4, 1));
+  EXPECT_FALSE(is_broken("failed>10%", 9, 1)) << "no more than 10 %";
+  EXPECT_TRUE(is_broken("failed>10%", 8, 1));
+  EXPECT_FALSE(is_broken("failed>0%", 5, 0));
+  EXPECT_TRUE(is_broken("failed>12.5%", 6, 1));
+  EXPECT_FALSE(is_broken("failed>12.5%", 7, 1));
+}
+
+TEST(StopRuleTest, ItsTextGivesItAgain) {
+  for (const char* text : {"failed>10%", "failed>0%", "failed>12.5%", "failed>3", "failed>0", "failed>1000000"}) {
+    const auto rule = StopRule::parse(text);
+    ASSERT_TRUE(rule) << text;
+    EXPECT_EQ(StopRule::parse(rule->text())->text(), rule->text());
+  }
+  EXPECT_EQ(StopRule::parse(" failed > 10 % ")->text(), "failed>10%");
+}
+
+TEST(StopRuleTest, AnythingElseIsRefusedWithAnExample) {
+  for (const char* text : {"", "failed", "failed>", "failed>%", "done>3", "failed<3", "failed>=3", "failed>-1",
+                           "failed>-0", "failed>100%", "failed>2.5", "failed>1e3", "failed>nan", "failed>inf%",
+                           "failed>3%%", "failed>99999999999999999999", "FAILED>3", "failed>3 jobs"}) {
+    const auto rule = StopRule::parse(text);
+    ASSERT_FALSE(rule) << text;
+    EXPECT_THAT(rule.error().message, testing::HasSubstr("failed>10%"));
+  }
 }
 
 }  // namespace
