@@ -4,6 +4,7 @@
 #include <set>
 
 #include "scene/canonical.h"
+#include "scene/settings.h"
 #include "tests/support/generated_page.h"
 #include "tests/unit/scene/scene_support.h"
 
@@ -62,6 +63,67 @@ TEST(Fields, SuggestPaths) {
 // The table in docs/scene.md. To write it anew: SHAKEN_UPDATE_DOCS=1 and run this test.
 TEST(Fields, TheReferenceIsUpToDate) {
   expect_generated(SHAKEN_SOURCE_DIR "/docs/scene.md", "keys", fields().as_markdown());
+}
+
+TEST(Settings, ReplaceWhatTheFileSays) {
+  const std::string text = R"({"rods": {"length": 4.5}, "time": {"seed": 3}})";
+  EXPECT_EQ(plan_of(text, {"rods.length=2.5 mm"}).system.rod.length, 2.5);
+  EXPECT_EQ(plan_of(text, {"rods.length=2.5"}).system.rod.length, 2.5);
+  EXPECT_EQ(plan_of(text, {"rods.length=\"2500 um\""}).system.rod.length, 2.5);
+  EXPECT_EQ(plan_of(text, {" rods.length = 2.5 ", "rods.length=3.5"}).system.rod.length, 3.5);
+  EXPECT_EQ(plan_of(text, {"time.steady=auto"}).steady, std::nullopt);
+  EXPECT_EQ(plan_of(text, {"time.steady=2 s"}).steady, 2.0);
+  EXPECT_EQ(plan_of(text, {"rods.start=random", "rods.area_fraction=0.1"}).system.start, Start::kRandom);
+  EXPECT_EQ(plan_of(text, {"contacts.rod_rod={\"friction\":0.2}"}).system.rod_rod, (Contacts{0.2, 0.3}));
+}
+
+TEST(Settings, SwitchBlocksOnAndOff) {
+  const RunPlan on = plan_of("{}", {"measure.tilt={}", "movie.size=[640,480]", "trajectory.every=2 ms"});
+  EXPECT_TRUE(on.order);  // a setting adds to what is there
+  EXPECT_TRUE(on.tilt);
+  EXPECT_EQ(on.movie, (Movie{0.05, 640, 480}));
+  EXPECT_EQ(on.trajectory, Trajectory{0.002});
+  const RunPlan off = plan_of(R"({"movie": {}, "measure": {"msd": {}}})", {"movie=null", "stream=false", "measure={}"});
+  EXPECT_FALSE(off.movie || off.stream || off.msd || off.order);
+}
+
+TEST(Settings, NullTakesAKeyBack) {
+  const std::string text = R"({"rods": {"area_fraction": 0.5}, "box": {"side": 40}})";
+  EXPECT_EQ(plan_of(text, {"rods.area_fraction=null", "rods.count=300"}).system.n_rods, 300);
+  EXPECT_NEAR(plan_of(text, {"box.side=null", "rods.count=300"}).system.box_side, 38.67, 0.01);
+}
+
+TEST(Settings, ProblemsNameTheSetting) {
+  EXPECT_EQ(problem_of("{}", {"rods.lenght=2"}),
+            "-s rods.lenght=2: /rods/lenght: unknown key; did you mean rods.length?");
+  EXPECT_EQ(problem_of("{}", {"lengh=2"}), "-s lengh=2: /lengh: unknown key");
+  EXPECT_EQ(problem_of("{}", {"rods.length"}), "-s rods.length: expected path=value, for example rods.length=2.5");
+  EXPECT_EQ(problem_of("{}", {"=3"}), "-s =3: expected path=value, for example rods.length=2.5");
+  EXPECT_EQ(problem_of("{}", {"box.gap=0.7"}),
+            "-s box.gap=0.7: /box/gap: a gap of 0.7 mm is too small for rods 0.8 mm thick");
+  EXPECT_EQ(problem_of("{}", {"movie={\"size\": [2,"}),
+            "-s movie={\"size\": [2,: /movie: expected an object, not the text \"{\"size\": [2,\"");
+  EXPECT_EQ(problem_of("{}", {"rods.length=2.5,3.5"}),
+            "-s rods.length=2.5,3.5: /rods/length: 2 values make a sweep; a single scene takes one");
+  EXPECT_EQ(problem_of("{}", {"rods.length=2.5:4.5:0.5"}),
+            "-s rods.length=2.5:4.5:0.5: /rods/length: 5 values make a sweep; a single scene takes one");
+  EXPECT_EQ(problem_of("{}", {"rods.length="}), "-s rods.length=: /rods/length: \"\" is not a number");
+}
+
+TEST(Settings, ADecimalCommaIsNotTakenForTwoValues) {
+  EXPECT_EQ(problem_of("{}", {"box.gap=1,3 mm"}),
+            "-s box.gap=1,3 mm: /box/gap: one number with a decimal comma, or two values? Write 1.3 mm, or 1 mm,3 mm");
+  EXPECT_EQ(problem_of("{}", {"box.gap=1,3"}),
+            "-s box.gap=1,3: /box/gap: 2 values make a sweep; a single scene takes one")
+      << "a list, as ever";
+}
+
+TEST(Settings, CommasInsideOfBracketsAndQuotesDoNotSeparate) {
+  std::vector<Problem> problems;
+  EXPECT_EQ(parse_setting("a=[1,2],{\"b\":[3,4]},\"x,y\"", problems)->value.items.size(), 3u);
+  EXPECT_EQ(parse_setting("a=\"x\\\",y\"", problems)->value.kind, Node::Kind::kString);
+  EXPECT_EQ(parse_setting("a=b=c", problems)->value.text, "b=c");
+  EXPECT_TRUE(problems.empty());
 }
 
 }  // namespace

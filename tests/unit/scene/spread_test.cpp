@@ -2,11 +2,14 @@
 // Rods of one species that differ in size: what follows from rods.length_spread and rods.end_diameter_spread, and what
 // is refused.
 #include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "scene/canonical.h"
+#include "scene/derived.h"
 #include "scene/keys/derived.h"
+#include "scene/rods_of_species.h"
 #include "sim/rod/sizes.h"
 #include "sim/rod/species.h"
 #include "sim/world.h"
@@ -92,6 +95,43 @@ TEST(Spread, OfTheEndsNeedsAProfile) {
       problem_of(
           R"({"rods": {"bead_diameters": [0.8, 0.8, 0.8, 0.8, 0.8, 0.8, 0.8, 0.8], "end_diameter_spread": 0.1}})"),
       HasSubstr("not of beads one by one; remove it"));
+}
+
+constexpr const char* kMixture = R"({
+  "rods": {"length": 3, "count": 20, "length_spread": 0.1}, "rods_3": {"length": 2, "count": 7, "profile": "polar"},
+  "box": {"side": 40, "gap": 1.5}, "gravity": 9000, "walls": {"friction": 0.4},
+  "plates": {"gamma": 5, "noise": 0.02, "rods_3": {"noise": 0.07}},
+  "contacts": {"rod_base": {"friction": 0.1, "rods_3": {"friction": 0.3}}, "rod_lid": {"restitution": 0.5},
+               "rod_rod": {"friction": 0.2, "rods_rods_3": {"friction": 0.6}, "rods_3_rods_3": {"friction": 0.8}},
+               "law": "poisson"},
+  "time": {"step": "8 us", "impacts": "at_instant", "seed": 5},
+  "measure": {"msd": {}}, "trajectory": {}, "movie": {}})";
+
+TEST(RodsOfSpecies, AreTheMeanRodsWithTheContactsAndTheNoiseOfTheirSpecies) {
+  const RunPlan third = rods_of_species(plan_of(kMixture), 2);
+  // written out by hand
+  EXPECT_EQ(third, plan_of(R"({
+    "rods": {"length": 2, "count": 7, "profile": "polar", "start": "random"}, "box": {"side": 40, "gap": 1.5},
+    "gravity": 9000, "plates": {"gamma": 5, "noise": 0.07},
+    "contacts": {"rod_base": {"friction": 0.3}, "rod_lid": {"restitution": 0.5}, "rod_rod": {"friction": 0.8},
+                 "law": "poisson"},
+    "time": {"step": "8 us", "impacts": "at_instant", "seed": 5}, "measure": {"order": null}, "stream": null})"));
+
+  const RunPlan first = rods_of_species(plan_of(kMixture), 0);
+  EXPECT_FALSE(first.system.rod.spread.is_any());
+  EXPECT_EQ(first.system.rod.length, 3);
+  EXPECT_EQ(first.system.n_rods, 20);
+  EXPECT_EQ(first.system.rotational_noise, 0.02);
+  EXPECT_EQ(first.system.rod_base.friction, 0.1);
+  EXPECT_EQ(first.system.rod_rod.friction, 0.2);
+  EXPECT_FALSE(first.system.walls.has_value());
+}
+
+TEST(RodsOfSpecies, CanBeWrittenAndReadAgain) {
+  for (const std::size_t number : {0, 2}) {
+    const RunPlan alone = rods_of_species(plan_of(kMixture), number);
+    EXPECT_EQ(plan_of(to_json(alone).dump()), alone);
+  }
 }
 
 }  // namespace
