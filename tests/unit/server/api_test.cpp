@@ -79,6 +79,19 @@ class ApiTest : public testing::Test {
     return ids;
   }
 
+  /// Runs a job to its end, which takes so long.
+  void finish(const std::string& id, std::chrono::milliseconds wall = {}) {
+    begin(queue_, id);
+    queue_.add_wall(std::vector{std::pair{id, wall}});
+    queue_.ended(id, JobEvent::kWorkerDone);
+  }
+  std::filesystem::path run_folder(const std::string& id) const { return directory_ / "runs" / id; }
+  /// What a run leaves in its folder.
+  void leave(const std::string& id, const std::string& name, const std::string& text) const {
+    std::filesystem::create_directories(run_folder(id));
+    write_text(run_folder(id) / name, text);
+  }
+
   /// The part that jobs have in the work of their sweep s1.
   double part(std::initializer_list<std::string> ids) const {
     double work = 0, all = 0;
@@ -206,8 +219,7 @@ TEST_F(ApiTest, TheSameSubmitAgainDoesNothingTwice) {
   const auto ids = submit_four();
   begin(queue_, ids[0]);
   begin(queue_, ids[1]);
-  std::filesystem::create_directories(directory_ / "runs" / ids[1]);
-  write_text(directory_ / "runs" / ids[1] / "summary.json", done_summary(ids[1]));
+  leave(ids[1], "summary.json", done_summary(ids[1]));
   queue_.ended(ids[1], JobEvent::kWorkerDone);
   begin(queue_, ids[2]);
   queue_.ended(ids[2], JobEvent::kWorkerFailed, "why");
@@ -220,7 +232,7 @@ TEST_F(ApiTest, TheSameSubmitAgainDoesNothingTwice) {
       R"({"queued":2,"held":0,"running":1,"stopping":0,"done":1,"failed":0,"timed out":0,"cancelled":0,"new":0,"requeued":1,"extended":0,"found":0})");
 
   // A done job whose results were deleted is done again.
-  std::filesystem::remove_all(directory_ / "runs" / ids[1]);
+  std::filesystem::remove_all(run_folder(ids[1]));
   EXPECT_EQ(submit({{"text", kSweep}, {"name", "four"}}).json["counts"]["requeued"], 1);
 }
 
@@ -230,8 +242,7 @@ TEST_F(ApiTest, ADoneJobWhoseResultsAreDamagedOrAnothersIsDoneAgain) {
   for (const std::string& damaged :
        {std::string(), std::string("{torn"), std::string("{}"), done_summary("fedcba9876543210")}) {
     write_text(directory_ / "runs" / id / "summary.json", damaged);
-    begin(queue_, id);
-    queue_.ended(id, JobEvent::kWorkerDone);
+    finish(id);
     EXPECT_TRUE(get("/v1/results?state=done").json["rows"][0]["summary"].is_null()) << damaged;
     EXPECT_EQ(submit({{"text", kSweep}, {"name", "four"}}).json["counts"]["requeued"], 1) << damaged;
   }
@@ -239,12 +250,10 @@ TEST_F(ApiTest, ADoneJobWhoseResultsAreDamagedOrAnothersIsDoneAgain) {
 
 TEST_F(ApiTest, ASummaryNestedTooDeepIsNoDanger) {
   const std::string id = submit_four()[0];
-  std::filesystem::create_directories(directory_ / "runs" / id);
-  write_text(directory_ / "runs" / id / "summary.json", R"({"run_id": ")" + id + R"(", "n_rods": 7, "deep": )" +
-                                                            std::string(200'000, '[') + std::string(200'000, ']') +
-                                                            "}");
-  begin(queue_, id);
-  queue_.ended(id, JobEvent::kWorkerDone);
+  leave(id, "summary.json",
+        R"({"run_id": ")" + id + R"(", "n_rods": 7, "deep": )" + std::string(200'000, '[') + std::string(200'000, ']') +
+            "}");
+  finish(id);
   EXPECT_EQ(get("/v1/results?state=done").json["rows"][0]["summary"]["n_rods"], 7);
 }
 
@@ -356,8 +365,7 @@ TEST_F(ApiTest, TermsOfASweepAreTakenAndShown) {
 
 TEST_F(ApiTest, ResultsThatAreThereAreFoundByANewQueue) {
   const std::string id = submit_four()[0];
-  std::filesystem::create_directories(directory_ / "runs" / id);
-  write_text(directory_ / "runs" / id / "summary.json", done_summary(id));
+  leave(id, "summary.json", done_summary(id));
   Queue empty(directory_ / "empty.db");
   const Api api(empty, info());
   const http::Reply reply = api.handle({"POST", "/v1/sweeps", {}, Json({{"text", kSweep}}).dump()});
@@ -385,8 +393,7 @@ TEST_F(ApiTest, CleaningRemovesWhatFitsAndWhatItIsAllowedTo) {
   begin(queue_, ids[0]);
   queue_.ended(ids[0], JobEvent::kWorkerFailed, "why");
   queue_.cancel(ids[1]);
-  begin(queue_, ids[2]);
-  queue_.ended(ids[2], JobEvent::kWorkerDone);
+  finish(ids[2]);
 
   const Json dry = post("/v1/clean", R"({"dry_run": true})").json;
   ASSERT_EQ(dry["runs"].size(), 3U) << dry;
@@ -552,7 +559,7 @@ TEST_F(ApiTest, ARunningJobShowsItsProgress) {
   const auto ids = submit_four();
   begin(queue_, ids[0]);
   EXPECT_TRUE(get("/v1/jobs/" + ids[0]).json["job"]["progress"].is_null());
-  const auto file = directory_ / "runs" / ids[0] / "progress.json";
+  const auto file = run_folder(ids[0]) / "progress.json";
   write_progress(file);
   EXPECT_EQ(get("/v1/jobs/" + ids[0]).json["job"]["progress"]["order"], 0.25);
   EXPECT_DOUBLE_EQ(get("/v1/sweeps/s1").json["sweep"]["progress"].get<double>(), 0.5 * part({ids[0]}));
@@ -561,8 +568,7 @@ TEST_F(ApiTest, ARunningJobShowsItsProgress) {
   EXPECT_EQ(post("/v1/sweeps/held/hold").status, 200);
   EXPECT_EQ(get("/v1/sweeps/held").json["sweep"]["eta_s"], -1.0) << "what is held has no end in sight";
 
-  begin(queue_, ids[1]);
-  queue_.ended(ids[1], JobEvent::kWorkerDone);
+  finish(ids[1]);
   queue_.cancel(ids[2]);
   queue_.cancel(ids[3]);
   const Json sweep = get("/v1/sweeps/s1").json["sweep"];
@@ -583,7 +589,7 @@ void set_age(const std::filesystem::path& file, std::chrono::seconds age) {
 TEST_F(ApiTest, ProgressNeverFallsWhileTheEndOfARunIsNotSeenYet) {
   const auto ids = submit_four();
   begin(queue_, ids[0]);
-  const auto folder = directory_ / "runs" / ids[0];
+  const auto folder = run_folder(ids[0]);
   std::filesystem::create_directories(folder);
   write_text(folder / "scene.json", "{}");
   write_text(folder / "progress.json",
@@ -603,7 +609,7 @@ TEST_F(ApiTest, ProgressNeverFallsWhileTheEndOfARunIsNotSeenYet) {
 TEST_F(ApiTest, WhatARunHasDoneCountsWhileItIsHandedOn) {
   const auto ids = submit_four();
   begin(queue_, ids[0]);
-  write_progress(directory_ / "runs" / ids[0] / "progress.json");
+  write_progress(run_folder(ids[0]) / "progress.json");
   const double half = 0.5 * part({ids[0]});
   EXPECT_DOUBLE_EQ(get("/v1/sweeps/s1").json["sweep"]["progress"].get<double>(), half);
   queue_.ended(ids[0], JobEvent::kWorkerStopped, "its task is over");
@@ -616,7 +622,7 @@ TEST_F(ApiTest, ARunThatTellsOfItsWorkDoesNotWaitForItsTurn) {
   begin(queue_, ids[0]);
   queue_.set_notes(std::vector{std::pair{ids[0], std::string("waits as Slurm job 7_0 (Priority)")}});
   const auto reason = [&] { return get("/v1/jobs/" + ids[0]).json["job"]["reason"]; };
-  const auto folder = directory_ / "runs" / ids[0];
+  const auto folder = run_folder(ids[0]);
   write_progress(folder / "progress.json");
   write_text(folder / "scene.json", "{}");
   set_age(folder / "progress.json", std::chrono::seconds(100));
@@ -630,12 +636,10 @@ TEST_F(ApiTest, ARunThatTellsOfItsWorkDoesNotWaitForItsTurn) {
 // As in a cluster, where runs that are handed over wait for nodes.
 TEST_F(ApiTest, RunsThatWaitElsewhereCountAsWaitingForThoseAtWork) {
   const auto ids = submit_four();
-  begin(queue_, ids[0]);
-  queue_.add_wall(std::vector{std::pair{ids[0], std::chrono::milliseconds(30'000)}});
-  queue_.ended(ids[0], JobEvent::kWorkerDone);
+  finish(ids[0], std::chrono::milliseconds(30'000));
   for (const auto& id : {ids[1], ids[2], ids[3]}) begin(queue_, id);
   EXPECT_EQ(get("/v1/sweeps/s1").json["sweep"]["eta_s"], -1.0) << "none is at work";
-  const auto file = directory_ / "runs" / ids[1] / "progress.json";
+  const auto file = run_folder(ids[1]) / "progress.json";
   write_progress(file);
   EXPECT_DOUBLE_EQ(get("/v1/sweeps/s1").json["sweep"]["eta_s"].get<double>(),
                    10.0 + 30.0 * part({ids[2], ids[3]}) / part({ids[0]}))
@@ -653,9 +657,7 @@ TEST_F(ApiTest, ProgressAndEtaOfASweepCountItsWorkAndNotItsJobs) {
   }
   queue_.submit("chains", 0, jobs);
   for (const int k : {0, 1}) {
-    begin(queue_, jobs[k].id);
-    queue_.add_wall(std::vector{std::pair{jobs[k].id, std::chrono::milliseconds(40'000)}});
-    queue_.ended(jobs[k].id, JobEvent::kWorkerDone);
+    finish(jobs[k].id, std::chrono::milliseconds(40'000));
   }
   const auto sweep = [&] { return get("/v1/sweeps/s1").json["sweep"]; };
   EXPECT_DOUBLE_EQ(sweep()["progress"].get<double>(), 800.0 / 8800.0);
@@ -687,9 +689,7 @@ TEST_F(ApiTest, EtaCountsWhatOtherSweepsHaveBeforeIt) {
     return jobs;
   };
   const auto ours = submit("ours", 0, "1234");
-  begin(queue_, ours[0].id);
-  queue_.add_wall(std::vector{std::pair{ours[0].id, std::chrono::milliseconds(30'000)}});
-  queue_.ended(ours[0].id, JobEvent::kWorkerDone);
+  finish(ours[0].id, std::chrono::milliseconds(30'000));
   const auto eta = [&] { return get("/v1/sweeps/ours").json["sweep"]["eta_s"].get<double>(); };
   const auto eta_in_the_list = [&] { return get("/v1/sweeps").json["sweeps"][0]["eta_s"].get<double>(); };
   EXPECT_DOUBLE_EQ(eta(), 3 * 30.0 / 3);
@@ -716,9 +716,7 @@ TEST_F(ApiTest, EtaOfAChainDoesNotShareItsStagesOutToSlots) {
     if (digit > '1') jobs.back().starts_from = jobs[jobs.size() - 2].id;
   }
   queue_.submit("chain", 0, jobs);
-  begin(queue_, jobs[0].id);
-  queue_.add_wall(std::vector{std::pair{jobs[0].id, std::chrono::milliseconds(40'000)}});
-  queue_.ended(jobs[0].id, JobEvent::kWorkerDone);
+  finish(jobs[0].id, std::chrono::milliseconds(40'000));
   const auto eta = [&] { return get("/v1/sweeps/s1").json["sweep"]["eta_s"].get<double>(); };
   EXPECT_DOUBLE_EQ(eta(), 3 * 40.0) << "three slots, but one after the other";
   begin(queue_, jobs[1].id);
@@ -730,8 +728,7 @@ TEST_F(ApiTest, EtaOfAChainDoesNotShareItsStagesOutToSlots) {
 TEST_F(ApiTest, ALogIsReadPieceByPiece) {
   const auto ids = submit_four();
   EXPECT_EQ(get("/v1/jobs/" + ids[0] + "/log").json.dump(), R"({"text":"","offset":0,"state":"queued","ended":false})");
-  std::filesystem::create_directories(directory_ / "runs" / ids[0]);
-  write_text(directory_ / "runs" / ids[0] / "worker.log", "one\ntwo\n\xff");
+  leave(ids[0], "worker.log", "one\ntwo\n\xff");
   const Response log = get("/v1/jobs/" + ids[0] + "/log?offset=4");
   EXPECT_EQ(log.json["text"], "two\n\ufffd") << "what is not UTF-8 is replaced";
   EXPECT_EQ(log.json["offset"], 9);
@@ -744,8 +741,7 @@ TEST_F(ApiTest, ALogIsReadPieceByPiece) {
 TEST_F(ApiTest, ResultsAreARowPerJob) {
   const auto ids = submit_four();
   begin(queue_, ids[0]);
-  std::filesystem::create_directories(directory_ / "runs" / ids[0]);
-  write_text(directory_ / "runs" / ids[0] / "summary.json", done_summary(ids[0]));
+  leave(ids[0], "summary.json", done_summary(ids[0]));
   queue_.ended(ids[0], JobEvent::kWorkerDone);
   const Response results = get("/v1/results?sweep=four");
   ASSERT_EQ(results.json["rows"].size(), 4U);
@@ -987,8 +983,7 @@ TEST_F(ApiTest, ARunThatStartsFromAnotherWaitsForIt) {
   EXPECT_EQ(job["reason"], "waits for run " + parent + ", from which it starts");
   EXPECT_EQ(job["starts_from"], parent);
   EXPECT_FALSE(begin(queue_, job["id"]));
-  begin(queue_, parent);
-  queue_.ended(parent, JobEvent::kWorkerDone);
+  finish(parent);
   EXPECT_TRUE(begin(queue_, job["id"]));
 
   const std::string unknown = R"({"start": {"run": "0123456789abcdef", "time": 10}})";
@@ -1007,8 +1002,7 @@ TEST_F(ApiTest, ARunStartsFromImportedRodsAtZero) {
     return submit({{"text", R"({"start": {"run": ")" + id + R"(", "time": )" + time + "}}"}});
   };
   EXPECT_THAT(start("0").error(), HasSubstr("no run 0123456789abcdef is known here"));
-  std::filesystem::create_directories(directory_ / "runs" / id);
-  write_text(directory_ / "runs" / id / "scene.json", "{}");
+  leave(id, "scene.json", "{}");
   write_text(directory_ / "runs" / id / "imported.json", "{}");
   const Response submitted = start("0");
   ASSERT_EQ(submitted.status, 201) << submitted.error();
@@ -1034,9 +1028,7 @@ TEST_F(ApiTest, ARunStartsOnlyWhereItsParentWithAConditionCanHaveEnded) {
   };
   EXPECT_EQ(start("3").status, 201);
   EXPECT_THAT(start("9").error(), HasSubstr("ends at the latest at 8 s, so it has no state at start.time 9 s"));
-  std::filesystem::create_directories(directory_ / "runs" / parent);
-  write_text(directory_ / "runs" / parent / "summary.json",
-             R"({"run_id": ")" + parent + R"(", "exit": {"state": "done", "tick": 1000000}})");
+  leave(parent, "summary.json", R"({"run_id": ")" + parent + R"(", "exit": {"state": "done", "tick": 1000000}})");
   EXPECT_EQ(start("4").status, 201);
   EXPECT_THAT(start("3").error(), HasSubstr("ended at 4 s"));
 }
@@ -1053,8 +1045,7 @@ TEST_F(ApiTest, StagesAreChainsThatRunBesideEachOther) {
     EXPECT_EQ(jobs[i]["parameters"]["stage"], 1 + i / 2);
   }
   EXPECT_EQ(queue_.next(10).size(), 2U) << "the first stage of each";
-  begin(queue_, jobs[0]["id"]);
-  queue_.ended(jobs[0]["id"], JobEvent::kWorkerDone);
+  finish(jobs[0]["id"]);
   EXPECT_TRUE(begin(queue_, jobs[2]["id"])) << "whatever the other replica does";
   EXPECT_FALSE(begin(queue_, jobs[3]["id"]));
 
@@ -1099,8 +1090,7 @@ TEST_F(ApiTest, ARunEndsWhereOthersStartFromIt) {
   EXPECT_EQ(chain[0]["id"], parent);
   for (const bool is_done : {false, true}) {
     if (is_done) {
-      begin(queue_, parent);
-      queue_.ended(parent, JobEvent::kWorkerDone);
+      finish(parent);
     }
     const Response longer = submit({{"text", R"({"time": {"measure": "9 s"}})"}});
     EXPECT_EQ(longer.status, 409);
@@ -1114,9 +1104,7 @@ TEST_F(ApiTest, ARunOnTheDiskThatWentOnFurtherIsNoFirstStage) {
   const std::string parent = submit({{"text", two_stages("2")}, {"dry_run", true}}).status == 200
                                  ? scene::run_id(*scene::load_scene(R"({"time": {"measure": "2 s"}})", "scene"))
                                  : "";
-  std::filesystem::create_directories(directory_ / "runs" / parent);
-  write_text(directory_ / "runs" / parent / "summary.json",
-             R"({"run_id": ")" + parent + R"(", "exit": {"state": "done", "tick": 1000000}})");
+  leave(parent, "summary.json", R"({"run_id": ")" + parent + R"(", "exit": {"state": "done", "tick": 1000000}})");
   const Response refused = submit({{"text", two_stages("2")}});
   EXPECT_EQ(refused.status, 422);
   EXPECT_THAT(refused.error(), HasSubstr("run " + parent + " went on to 4 s, where its last state is kept"));
@@ -1125,8 +1113,7 @@ TEST_F(ApiTest, ARunOnTheDiskThatWentOnFurtherIsNoFirstStage) {
 TEST_F(ApiTest, AStageThatHasBegunNeedsItsStartNoMore) {
   const Json jobs = submit({{"text", R"({"sweep": {"stages": [{}, {"plates.gamma": 6}]}})"}}).json["jobs"];
   const std::string first = jobs[0]["id"], second = jobs[1]["id"];
-  begin(queue_, first);
-  queue_.ended(first, JobEvent::kWorkerDone);
+  finish(first);
   ASSERT_TRUE(begin(queue_, second));
   queue_.hold(second);
   queue_.ended(second, JobEvent::kWorkerStopped);
@@ -1139,8 +1126,7 @@ TEST_F(ApiTest, ReplicasOfAStageEndWhereTheNextOneStarts) {
   const Json jobs =
       submit({{"text", R"({"sweep": {"stages": [{}, {"plates.gamma": 6}]}})"}, {"name", "ramp"}}).json["jobs"];
   for (const Json& job : jobs) {
-    begin(queue_, job["id"]);
-    queue_.ended(job["id"], JobEvent::kWorkerDone);
+    finish(job["id"]);
   }
   ASSERT_EQ(post("/v1/sweeps/ramp/extend", R"({"measure": "20 s"})").json["extended"], 2);
   const Json more = post("/v1/sweeps/ramp/replicas", R"({"replicas": 2})").json;
@@ -1188,9 +1174,8 @@ TEST_F(ApiTest, ASweepGetsMoreReplicasAsIfSubmittedSo) {
 
 TEST_F(ApiTest, AnExtendedRunKeepsItsResultsAndShowsNoFormerProgress) {
   const auto ids = submit_four();
-  begin(queue_, ids[0]);
-  queue_.ended(ids[0], JobEvent::kWorkerDone);
-  const auto folder = directory_ / "runs" / ids[0];
+  finish(ids[0]);
+  const auto folder = run_folder(ids[0]);
   std::filesystem::create_directories(folder);
   write_text(folder / "summary.json", done_summary(ids[0]));
   write_text(folder / "progress.json", R"({"state": "done", "fraction": 1})");
