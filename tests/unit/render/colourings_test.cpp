@@ -4,8 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <set>
 
+#include "render/headline.h"
+#include "render/style_file.h"
+#include "render/style_keys.h"
+#include "tests/support/generated_page.h"
 #include "tests/unit/render/render_support.h"
 
 namespace shaken::render {
@@ -138,6 +144,127 @@ TEST(AskedBy, NothingThatTheStyleDoesNotNeed) {
   style.colour = "angle";
   style.lines = FieldLines::kBars;
   EXPECT_TRUE(asked_by(style).field);
+}
+
+std::string problems_of(const char* text) {
+  const keys::Loaded<PictureStyle> style = load_style(text, "mine.json", {});
+  return style ? "" : to_string(style.error());
+}
+
+TEST(StyleFile, SetsWhatItNames) {
+  const auto loaded = load_style(R"({
+    // a comment
+    "style": "defects", "colour": "speed", "range": [-5, 5], "size": [640, 480], "tracks": "500 ms",
+    "theme": "dark", "palette": "paper", "view": "follow:12", "legend": false, "speed": 0.1, "focus": [0.25, 0.75]
+  })",
+                                 "mine.json", {});
+  ASSERT_TRUE(loaded) << to_string(loaded.error());
+  EXPECT_EQ(loaded->colour, "speed");
+  EXPECT_EQ(loaded->range, Vec2(-5, 5));
+  EXPECT_EQ(loaded->width, 640);
+  EXPECT_EQ(loaded->height, 480);
+  EXPECT_DOUBLE_EQ(loaded->tracks, 0.5);
+  EXPECT_EQ(loaded->theme, Theme::kDark);
+  EXPECT_EQ(loaded->palette, Palette::kPaper);
+  EXPECT_EQ(loaded->followed, 12);
+  EXPECT_DOUBLE_EQ(loaded->zoom, 4) << "a close-up";
+  EXPECT_FALSE(loaded->legend);
+  EXPECT_EQ(loaded->speed, 0.1);
+  EXPECT_EQ(loaded->background, Background::kOrder) << "from the preset";
+  EXPECT_TRUE(loaded->mark_defects);
+}
+
+TEST(StyleFile, TellsAllProblemsAtOnceWithTheirPlaces) {
+  EXPECT_EQ(problems_of("{\n  \"colour\": \"tlit\",\n  \"colr\": \"tilt\",\n  \"zoom\": 0.5,\n"
+                        "  \"size\": [1280],\n  \"legend\": 1, \"rods\": \"half\"\n}"),
+            "mine.json:2:13: /colour: \"tlit\" is not one of \"auto\", \"angle\", \"layers\", \"heading\", \"tilt\", "
+            "\"speed\", \"order\", \"density\", \"species\", \"id\"; did you mean tilt?\n"
+            "mine.json:3:3: /colr: unknown key; did you mean colour?\n"
+            "mine.json:4:11: /zoom: 0.5 is outside [1, 1000]\n"
+            "mine.json:5:11: /size: expected [width, height], not an array\n"
+            "mine.json:6:13: /legend: expected true or false, not the number 1\n"
+            "mine.json:6:24: /rods: \"half\" is not a number\n");
+}
+
+TEST(StyleFile, RefusesWhatContradictsItself) {
+  EXPECT_NE(problems_of(R"({"colour": "layers", "range": [-30, 30]})").find("fixed"), std::string::npos);
+  EXPECT_NE(problems_of(R"({"colour": "tilt", "range": [-0.1, 0.3]})").find("0 in its middle"), std::string::npos);
+  EXPECT_NE(problems_of(R"({"range": [0, 1]})").find("not auto"), std::string::npos);
+  EXPECT_NE(problems_of(R"({"colour": "order", "range": [1, 0]})").find("rise"), std::string::npos);
+  EXPECT_NE(problems_of(R"({"background": "order"})").find("hidden"), std::string::npos);
+  EXPECT_NE(problems_of(R"({"view": "follow:x"})").find("follow:N"), std::string::npos);
+  EXPECT_NE(problems_of(R"({"view": "orbit:10"})").find("orbit:AZIMUTH,ELEVATION"), std::string::npos);
+  EXPECT_NE(problems_of(R"({"view": "orbit:10,95"})").find("from 1 to 90"), std::string::npos);
+  EXPECT_NE(problems_of(R"({"style": "deffects"})").find("did you mean defects?"), std::string::npos);
+  EXPECT_NE(problems_of(R"([1])").find("object"), std::string::npos);
+  EXPECT_NE(problems_of("{").find("mine.json:1"), std::string::npos);
+  EXPECT_NE(problems_of(R"({"zoom": 2, "zoom": 3})"), "");
+}
+
+TEST(StyleFile, PresetsAreSound) {
+  for (const Preset& preset : presets()) {
+    const auto style = load_style(preset.text, preset.name, {});
+    ASSERT_TRUE(style) << to_string(style.error());
+    EXPECT_TRUE(check(*style)) << preset.name;
+    EXPECT_TRUE(named_style(preset.name, {})) << preset.name;
+  }
+}
+
+TEST(NamedStyle, IsAPresetOrAFile) {
+  const ScratchFolder folder;
+  std::ofstream(folder / "mine.json") << R"({"zoom": 3})";
+  EXPECT_DOUBLE_EQ(named_style((folder / "mine.json").string(), {})->zoom, 3);
+  const auto missing = named_style("layer", {});
+  ASSERT_FALSE(missing);
+  EXPECT_NE(missing.error().message.find("did you mean layers?"), std::string::npos) << missing.error().message;
+}
+
+TEST(StyleKeys, EachTakesItsOwnDefaultBack) {
+  for (const StyleKey& key : style_keys()) {
+    if (key.fallback.index() == 0) continue;  // not given by default
+    PictureStyle style;
+    key.store(style, key.fallback);
+    EXPECT_EQ(key.fetch(style), key.fallback) << key.path;
+  }
+}
+
+TEST(StyleKeys, TextsOfTheCommandLine) {
+  PictureStyle style;
+  const auto put = [&](const char* key, const char* text) {
+    const auto done = set_from_text(style, style_keys().at(key), text);
+    return done ? std::string() : done.error().message;
+  };
+  EXPECT_EQ(put("size", "1920x1080"), "");
+  EXPECT_EQ(style.height, 1080);
+  EXPECT_EQ(put("focus", "0.3,0.2"), "");
+  EXPECT_EQ(style.focus, Vec2(0.3, 0.2));
+  EXPECT_EQ(put("size", "1920"), "expected WxH, not \"1920\"");
+  EXPECT_EQ(put("size", "10x10"), "10 is outside [64, 7680]");
+  EXPECT_EQ(put("size", "1280x720x3"), "\"720x3\" is not a number");
+  EXPECT_EQ(put("zoom", "nan"), "\"nan\" is not a number");
+  EXPECT_EQ(put("theme", "grey"), "\"grey\" is not one of \"light\", \"dark\", \"print\"");
+}
+
+TEST(Headline, SpeaksTheLanguageOfTheField) {
+  EXPECT_EQ(headline("rods.area_fraction=0.8 rods.length=2.5"), "\u03c6 = 0.8, \u2113 = 2.5 mm");
+  EXPECT_EQ(headline("plates.gamma=7 plates.frequency=200 replica=3"), "\u0393 = 7, f = 200 Hz, replica 3");
+  EXPECT_EQ(headline("box.gap=1.4mm"), "w = 1.4 mm") << "as in plots, in physics.md and in the paper";
+  EXPECT_EQ(headline("contacts.rod_base.friction=0.3"), "friction = 0.3");
+  EXPECT_EQ(headline("My run, at a=b"), "My run, at a=b");
+  EXPECT_EQ(headline(""), "");
+}
+
+// What the loader accepts, and no more than it says of forms and ranges.
+TEST(StyleSchema, KnowsEveryKey) {
+  const nlohmann::ordered_json schema = style_schema();
+  for (const StyleKey& key : style_keys()) EXPECT_TRUE(schema["properties"].contains(key.path)) << key.path;
+}
+
+TEST(Docs, PicturesNameEveryColourKeyAndPreset) {
+  const std::string page = SHAKEN_SOURCE_DIR "/docs/pictures.md";
+  expect_generated(page, "colours", colourings_as_markdown());
+  expect_generated(page, "style keys", style_keys().as_markdown());
+  expect_generated(page, "presets", presets_as_markdown());
 }
 
 }  // namespace

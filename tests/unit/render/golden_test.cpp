@@ -82,6 +82,12 @@ RodPicture mixed() {
   return picture;
 }
 
+RodPicture one_large_rod() {
+  RodPicture picture = empty_picture(6);
+  add_rod(picture, 3, 3, 0.3);
+  return picture;
+}
+
 struct Case {
   const char* name;
   std::function<RodPicture()> picture;
@@ -157,6 +163,14 @@ const Case kCases[] = {
      },
      R"({"colour": "layers", "defects": false, "inset": "sweep"})"},
     {"empty", [] { return empty_picture(20); }, R"({})"},
+    {"no_shadows", one_large_rod,
+     R"({"colour": "layers", "size": [160, 160], "legend": false, "caption": false, "shadows": false})"},
+    {"no_gloss", one_large_rod,
+     R"({"colour": "layers", "size": [160, 160], "legend": false, "caption": false, "gloss": false})"},
+    {"no_occlusion", one_large_rod,
+     R"({"colour": "layers", "size": [160, 160], "legend": false, "caption": false, "occlusion": false})"},
+    {"no_smooth", one_large_rod,
+     R"({"colour": "layers", "size": [160, 160], "legend": false, "caption": false, "smooth": false})"},
     {"one_rod_in_a_tiny_box",
      [] {
        RodPicture picture = empty_picture(2);

@@ -177,14 +177,6 @@ TEST(Overlay, FilmsSayHowFastTheyPlay) {
   EXPECT_EQ(playback_text(1), "real time");
   EXPECT_EQ(playback_text(6), "6\u00d7 speed");
   EXPECT_EQ(playback_text(0), "");
-  RodPicture picture = empty_picture(kBox);
-  const Image still = painter().paint(picture, {}).value();
-  picture.captions.playback = 0.1;
-  EXPECT_NE(painter().paint(picture, {}).value(), still);
-  PictureStyle bare_style = bare();
-  const Image film = painter().paint(picture, bare_style).value();
-  picture.captions.playback = 0;
-  EXPECT_EQ(painter().paint(picture, bare_style).value(), film) << "nothing is written on the rods";
 }
 
 TEST(Overlay, EveryStyleCanBeDrawnWithoutRods) {
