@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/region.h"
+#include "analysis/geometry/region.h"
 #include "render/colours.h"
 #include "tests/unit/render/render_support.h"
 

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "scene/canonical.h"
-#include "scene/settings.h"
+#include "scene/keys/settings.h"
 #include "tests/support/generated_page.h"
 #include "tests/unit/scene/scene_support.h"
 

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "scene/canonical.h"
-#include "scene/sweep.h"
+#include "scene/sweeps/sweep.h"
 #include "sim/rod/species.h"
 #include "tests/support/effort.h"
 #include "tests/unit/scene/mutated.h"

@@ -4,9 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "scene/keys/observables.h"
 #include "scene/load.h"
 #include "scene/memory_limit.h"
-#include "scene/observables.h"
 #include "scene/placement.h"
 #include "tests/unit/scene/scene_support.h"
 

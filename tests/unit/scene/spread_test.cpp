@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "scene/canonical.h"
-#include "scene/derived.h"
 #include "scene/keys/derived.h"
 #include "scene/rods_of_species.h"
 #include "sim/rod/sizes.h"

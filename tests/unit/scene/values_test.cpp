@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/log_scale.h"
+#include "scene/keys/log_scale.h"
 #include "tests/unit/scene/scene_support.h"
 
 namespace shaken::scene {
