@@ -39,22 +39,6 @@ inline std::string problem(const Compared& compared) {
   return compared.in_full ? "" : "both meet trouble before half of the ticks";
 }
 
-/// Counts comparisons of random scenes: those that found no difference because there was little to compare must stay
-/// rare. A scene whose rods cannot be placed is to be drawn again, and does not count.
-class Tally {
- public:
-  void add(const Compared& compared) {
-    n_all_ += 1;
-    n_in_full_ += compared.in_full;
-  }
-  int n_all() const { return n_all_; }
-  double part_in_full() const { return n_all_ > 0 ? static_cast<double>(n_in_full_) / n_all_ : 0.0; }
-
- private:
-  int n_all_ = 0;
-  int n_in_full_ = 0;
-};
-
 /// Steps on 2 and 4 threads, shared as finely as can be, give the same as on one. Not for long: threads wait for each
 /// other in every tick.
 inline Compared compare_threads(const System& system, Tick ticks) {

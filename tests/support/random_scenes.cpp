@@ -105,15 +105,14 @@ Json draw_plates(SceneDraw& draw, Json& scene) {
 }
 
 void draw_walls(SceneDraw& draw, Json& scene) {
-  if (!draw.chance(0.2)) return;
-  Json walls = Json::object();
-  const char* arena = draw.among({"disc", "square", "annulus"});
+  if (!draw.chance(0.35)) return;
+  const std::string arena = kArenaNames[static_cast<std::size_t>(draw.integer(0, kArenaNames.size() - 1))].first;
+  Json& walls = scene["walls"] = draw_contact(draw);
   walls["arena"] = arena;
-  if (std::string(arena) == "annulus") walls["inner"] = draw.by_size(0.5, 10);
-  const Json contact = draw_contact(draw);
-  walls["friction"] = contact["friction"];
-  walls["restitution"] = contact["restitution"];
-  scene["walls"] = walls;
+  if (arena == "annulus") walls["inner"] = draw.by_size(0.5, 10);
+  if (arena == "stadium" && draw.chance(0.7)) walls["length"] = draw.chance(0.1) ? 0.0 : draw.by_size(0.1, 20);
+  if ((arena == "ellipse" || arena == "wedge") && draw.chance(0.3)) walls["length"] = draw.by_size(4, 30);
+  if (arena == "wedge" && draw.chance(0.6)) walls["narrow"] = draw.by_size(0.1, 10);
 }
 
 /// A step that plates of this frequency allow [us].
@@ -170,72 +169,25 @@ void let_ride(SceneDraw& draw, Json& scene) {
   scene["rods"]["area_fraction"] = draw.plain(0.3, 0.8);
 }
 
-}  // namespace
-
-namespace {
-
-/// Other starts than rows along x and random places, by numbers of their own.
-void draw_start(std::uint64_t seed, Json& scene) {
-  SceneDraw draw(seed + 1'000'000'007);
-  if (scene["rods"].contains("start") || scene.contains("walls")) return;
-  if (draw.chance(0.3)) {
-    scene["rods"]["start_angle"] = draw.plain(-90, 90);
-  } else if (draw.chance(0.1)) {
-    scene["rods"]["start"] = "compressed";
+/// Starts other than rows along x and random places, and boxes that are not square.
+void draw_start_and_box(SceneDraw& draw, Json& scene) {
+  const bool has_walls = scene.contains("walls");
+  if ((!has_walls || scene["walls"]["arena"] == "channel") && draw.chance(0.25))
+    scene["box"]["aspect"] = draw.by_size(0.2, 5);
+  Json& rods = scene["rods"];
+  if (rods.contains("start") || has_walls) return;
+  const bool has_angle = draw.chance(0.3);
+  if (!has_angle && draw.chance(0.25)) {
+    rods["start"] = draw.among({"compressed", "polydomain", "defect_pair"});
+    if (rods["start"] == "polydomain") rods["start_domains"] = draw.integer(1, 6);
   }
+  if (has_angle || (rods.value("start", "") == "defect_pair" && draw.chance(0.5)))
+    rods["start_angle"] = draw.plain(-90, 90);
 }
 
-/// Starts along domains and pairs of defects, by numbers of their own.
-void draw_start_pattern(std::uint64_t seed, Json& scene) {
-  SceneDraw draw(seed + 3'000'000'019);
-  if (scene["rods"].contains("start") || scene["rods"].contains("start_angle") || scene.contains("walls")) return;
-  if (draw.chance(0.06)) {
-    scene["rods"]["start"] = "polydomain";
-    scene["rods"]["start_domains"] = draw.integer(1, 6);
-  } else if (draw.chance(0.06)) {
-    scene["rods"]["start"] = "defect_pair";
-    if (draw.chance(0.5)) scene["rods"]["start_angle"] = draw.plain(-90, 90);
-  }
-}
-
-/// Boxes that are not square, by numbers of their own.
-void draw_box(std::uint64_t seed, Json& scene) {
-  SceneDraw draw(seed + 2'000'000'011);
-  if (!scene.contains("walls") && draw.chance(0.25)) scene["box"]["aspect"] = draw.by_size(0.2, 5);
-}
-
-/// Stadiums, and channels in boxes of any shape, where there would be a box without walls; by numbers of their own.
-void draw_long_arena(std::uint64_t seed, Json& scene) {
-  SceneDraw draw(seed + 5'000'000'029);
-  if (!draw.chance(0.12) || scene.contains("walls")) return;
-  const std::string start = scene["rods"].value("start", "aligned");
-  if ((start != "aligned" && start != "random") || scene["rods"].contains("start_angle")) return;
-  const bool is_channel = draw.chance(0.5);
-  Json& walls = scene["walls"] = draw_contact(draw);
-  walls["arena"] = is_channel ? "channel" : "stadium";
-  if (is_channel) return;
-  scene["box"].erase("aspect");
-  if (draw.chance(0.7)) walls["length"] = draw.chance(0.1) ? 0.0 : draw.by_size(0.1, 20);
-}
-
-/// Ellipses and wedges, where there would be a box without walls; by numbers of their own.
-void draw_narrowing_arena(std::uint64_t seed, Json& scene) {
-  SceneDraw draw(seed + 8'000'000'011);
-  if (!draw.chance(0.12) || scene.contains("walls")) return;
-  const std::string start = scene["rods"].value("start", "aligned");
-  if ((start != "aligned" && start != "random") || scene["rods"].contains("start_angle")) return;
-  const bool is_wedge = draw.chance(0.5);
-  Json& walls = scene["walls"] = draw_contact(draw);
-  walls["arena"] = is_wedge ? "wedge" : "ellipse";
-  scene["box"].erase("aspect");
-  if (draw.chance(0.3)) walls["length"] = draw.by_size(4, 30);
-  if (is_wedge && draw.chance(0.6)) walls["narrow"] = draw.by_size(0.1, 10);
-}
-
-/// Lattices of posts, and some at places of their own, by numbers of their own. Rods that do not fit among them are
+/// Lattices of posts, and some at places of their own. Rods that do not fit among them are
 /// drawn again.
-void draw_posts(std::uint64_t seed, Json& scene) {
-  SceneDraw draw(seed + 6'000'000'037);
+void draw_posts(SceneDraw& draw, Json& scene) {
   if (!draw.chance(0.12) || scene["rods"].contains("start_angle")) return;
   Json& posts = scene["posts"] = draw_contact(draw);
   posts["diameter"] = draw.by_size(0.1, 3);
@@ -254,9 +206,8 @@ void draw_posts(std::uint64_t seed, Json& scene) {
   scene["walls"]["size"] = draw.plain(6, 24);
 }
 
-/// Restitution that falls with speed, and species with contacts of their own, by numbers of their own.
-void draw_contacts(std::uint64_t seed, Json& scene) {
-  SceneDraw draw(seed + 4'000'000'007);
+/// Restitution that falls with speed, and species with contacts of their own.
+void draw_contacts(SceneDraw& draw, Json& scene) {
   const auto of_kind = [&](Json& kind, const std::vector<std::string>& partners) {
     if (draw.chance(0.1)) kind["restitution_speed"] = draw.by_size(0.1, 1000);
     for (const std::string& name : partners) {
@@ -280,18 +231,13 @@ void draw_contacts(std::uint64_t seed, Json& scene) {
   if (scene.contains("posts")) of_kind(scene["posts"], species);
 }
 
-/// Plates that vibrate in the plane too, by numbers of their own.
-void draw_horizontal_vibration(std::uint64_t seed, Json& scene) {
-  SceneDraw draw(seed + 6'000'000'053);
-  if (!draw.chance(0.1) || scene.contains("walls") || scene.contains("posts")) return;
-  scene["plates"]["horizontal_amplitude"] = draw.by_size(0.001, 1);
-  scene["plates"]["horizontal_phase"] = draw.plain(-180, 180);
-  scene["plates"]["horizontal_angle"] = draw.plain(-180, 180);
-}
-
-/// Plates that do more than one vibration, and inclined ones, by numbers of their own.
-void draw_plate_motion(std::uint64_t seed, Json& scene) {
-  SceneDraw draw(seed + 8'000'000'023);
+/// Plates that do more than one vibration along z, and inclined ones.
+void draw_plate_motion(SceneDraw& draw, Json& scene) {
+  if (draw.chance(0.1) && !scene.contains("walls") && !scene.contains("posts")) {
+    scene["plates"]["horizontal_amplitude"] = draw.by_size(0.001, 1);
+    scene["plates"]["horizontal_phase"] = draw.plain(-180, 180);
+    scene["plates"]["horizontal_angle"] = draw.plain(-180, 180);
+  }
   const double frequency = scene["plates"]["frequency"].get<double>();
   if (draw.chance(0.1)) {
     scene["plates"]["second"] = {{"amplitude", draw.by_size(1e-4, 0.05)},
@@ -309,9 +255,8 @@ void draw_plate_motion(std::uint64_t seed, Json& scene) {
   }
 }
 
-/// Rods that differ in size, by numbers of their own.
-void draw_spread(std::uint64_t seed, Json& scene) {
-  SceneDraw draw(seed + 7'000'000'021);
+/// Rods that differ in size.
+void draw_spread(SceneDraw& draw, Json& scene) {
   for (const char* name : {"rods", "rods_2", "rods_3"}) {
     if (!scene.contains(name) || !draw.chance(0.12)) continue;
     Json& rods = scene[name];
@@ -323,9 +268,8 @@ void draw_spread(std::uint64_t seed, Json& scene) {
   }
 }
 
-/// Species with noise of their own, by numbers of their own.
-void draw_species_noise(std::uint64_t seed, Json& scene) {
-  SceneDraw draw(seed + 8'000'000'033);
+/// Species with noise of their own.
+void draw_species_noise(SceneDraw& draw, Json& scene) {
   for (const char* name : {"rods_2", "rods_3"}) {
     if (!scene.contains(name) || !draw.chance(0.25)) continue;
     scene["plates"][name]["noise"] = draw.chance(0.3) ? 0.0 : draw.by_size(0.001, 10);
@@ -390,17 +334,12 @@ SceneCase draw_scene_case(std::uint64_t seed) {
   if (draw.chance(0.2)) one.drift = draw.by_size(1, 1000);
   if (draw.chance(0.2)) one.heat = draw.by_size(1, 1000);
   if (draw.chance(0.15)) one.spin = draw.by_size(1, 2000);
-  draw_start(seed, scene);
-  draw_box(seed, scene);
-  draw_start_pattern(seed, scene);
-  draw_long_arena(seed, scene);
-  draw_narrowing_arena(seed, scene);
-  draw_posts(seed, scene);
-  draw_contacts(seed, scene);
-  draw_horizontal_vibration(seed, scene);
-  draw_plate_motion(seed, scene);
-  draw_spread(seed, scene);
-  draw_species_noise(seed, scene);
+  draw_start_and_box(draw, scene);
+  draw_posts(draw, scene);
+  draw_contacts(draw, scene);
+  draw_plate_motion(draw, scene);
+  draw_spread(draw, scene);
+  draw_species_noise(draw, scene);
   return one;
 }
 
