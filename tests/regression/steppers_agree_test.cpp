@@ -188,5 +188,5 @@ TEST(SteppersAgree, WhereTicksOutgrow32Bits) {
   }
 }
 
-}  // namespace
+}  // namespace steppers_agree_test
 }  // namespace shaken

@@ -16,7 +16,7 @@
 #include "tests/unit/scene/scene_support.h"
 
 namespace shaken::scene {
-namespace {
+namespace accuracy_levels_test {
 
 // Whichever of the keys it is: later settings override.
 TEST(Accuracy, ASettingWinsOverWhatTheFileSays) {
@@ -219,5 +219,5 @@ TEST(Accuracy, CanBeSwept) {
   EXPECT_EQ(sweep->points[1].plan.system.impacts, ImpactTime::kAtInstant);
 }
 
-}  // namespace
+}  // namespace accuracy_levels_test
 }  // namespace shaken::scene

@@ -11,7 +11,7 @@
 #include "tests/unit/scene/scene_support.h"
 
 namespace shaken::scene {
-namespace {
+namespace remarks_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -208,5 +208,5 @@ TEST(MemoryAllowed, IsSomethingThatAMachineHas) {
   EXPECT_LT(memory_allowed(), 1e15);
 }
 
-}  // namespace
+}  // namespace remarks_test
 }  // namespace shaken::scene
