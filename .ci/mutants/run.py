@@ -33,6 +33,7 @@ import python  # noqa: E402
 ROOT = Path(__file__).resolve().parents[2]
 PLACE = ROOT / "build/mutants"
 COPY, BUILD = PLACE / "source", PLACE / "build"
+BUILT = PLACE / "built"  #: is there if this run has mutants in C++
 FOLDERS = ("base", "proto", "sim", "scene", "analysis", "run", "render", "server", "client", "web", "bench",
            "python/shaken")
 EQUAL = Path(__file__).with_name("equal.json")
@@ -84,6 +85,10 @@ def write_sources(mutants: dict) -> dict[str, dict[int, set[int]]]:
         elif name in by_file:
             content = python.mutated(content.decode(), by_file[name]).encode()
         put(COPY / name, content)
+    kept = {*tracked(), "base/core/mutant.h", "python/shaken/_mutant.py"}
+    for path in [path for path in COPY.rglob("*") if path.is_file() or path.is_symlink()]:
+        if path.relative_to(COPY).as_posix() not in kept:
+            path.unlink()  # of a former run: CMake would find it
     put(COPY / "base/core/mutant.h", Path(__file__).with_name("mutant.h").read_bytes())
     put(COPY / "python/shaken/_mutant.py", python.SWITCH.encode())
     return lines
@@ -97,6 +102,7 @@ def put(path: Path, content: bytes) -> None:
 
 def build(mutants: dict) -> None:
     """Builds the copy, without the mutants that do not compile: these are taken out of `mutants`."""
+    BUILT.unlink(missing_ok=True)
     if not any(point.file.endswith(".cpp") for point in mutants.values()):
         write_sources(mutants)
         return
@@ -107,6 +113,7 @@ def build(mutants: dict) -> None:
         lines = write_sources(mutants)
         done = subprocess.run(["cmake", "--build", BUILD, "--", "-k", "0"], capture_output=True, text=True)
         if done.returncode == 0:
+            BUILT.touch()
             return
         wrong = set()
         for name, line in re.findall(rf"{re.escape(str(COPY))}/([\w/]+\.cpp):(\d+):", done.stdout + done.stderr):
@@ -126,7 +133,8 @@ def tests(of_cpp: bool, longest: float, slow: dict[str, float]) -> dict[str, tup
     found = {}
     for test in listed:
         values = {entry["name"]: entry["value"] for entry in test["properties"]}
-        if slow.get(test["name"], 0) <= longest and not {"e2e", "cluster"} & set(values.get("LABELS", [])):
+        if slow.get(test["name"], 0) <= longest and not any(
+                label.startswith(("e2e", "cluster")) for label in values.get("LABELS", [])):
             found[test["name"]] = (test["command"], values.get("WORKING_DIRECTORY", str(BUILD)))
     found.pop("unit/Python.Package", None)
     return found
@@ -156,7 +164,7 @@ def trace_python(all_tests: dict, reached: dict, longest: float, jobs: int) -> N
 
 def run(test: tuple[list[str], str], limit: float, **more: str) -> bool:
     """Whether it passes within that time."""
-    programs = BUILD / "bin" if (BUILD / "bin/shaken").exists() else ROOT / "build/release/bin"
+    programs = BUILD / "bin" if BUILT.exists() else ROOT / "build/release/bin"
     environment = {**os.environ, "SHAKEN_PROGRAMS": str(programs), **more,
                    "PYTHONPATH": f"{COPY / 'python'}:{Path(__file__).resolve().parent}"}
     process = subprocess.Popen(test[0], cwd=test[1], env=environment, stdout=subprocess.DEVNULL,

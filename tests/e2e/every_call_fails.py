@@ -239,7 +239,7 @@ class Page(Daemon):
 def instants(n):
     if MOST == 0 or n <= MOST:
         return range(1, n + 1)
-    return sorted({1 + round(k * (n - 1) / max(MOST - 1, 1)) for k in range(MOST)})
+    return sorted({1 + int((k + 0.5) * n / MOST) for k in range(MOST)})
 
 
 def main():

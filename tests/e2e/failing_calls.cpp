@@ -104,7 +104,8 @@ class Unsynced {
   /// Before `from` is renamed.
   void rename(const std::string& from, const std::string& to) {
     if (!is_kept()) return;
-    renames_.push_back({from, to, content_of(to)});
+    const auto changed = on_disk_.find(to);
+    renames_.push_back({from, to, changed == on_disk_.end() ? content_of(to) : changed->second});
     on_disk_.erase(to);
     if (auto content = on_disk_.extract(from)) {
       content.key() = to;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Both steppers over everything that a scene may say: 300 cases here, as many as one likes by `./dev fuzz steppers`.
+// Both steppers over everything that a scene may say: 300 cases at night, any number by `./dev fuzz steppers`.
 #include "tests/support/random_scenes.h"
 
 #include <gtest/gtest.h>

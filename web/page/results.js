@@ -51,7 +51,7 @@ export function replicaMean(values, errors) {
   return {mean, error: Math.max(within, student * scatter)};
 }
 
-/** Whether a run is done, or was before it went on for longer: the rule of python/shaken/tables/rows.py (tests/vectors/). */
+/** Whether a run is done, or was before it went on for longer: the rule of python/shaken/rows.py (tests/vectors/). */
 const hasResults = ({state, summary}) =>
   state === "done" || summary?.exit?.state === "done" || summary?.exit?.done_before_s !== undefined;
 
