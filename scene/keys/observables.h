@@ -70,7 +70,7 @@ struct Observable {
   bool lacks_axis(const RunPlan& plan) const;
   /// The time between samples [s]; none if the plan does not ask for it, or it lacks_axis().
   std::optional<double> period(const RunPlan& plan) const;
-  /// Whether samples are spread over their intervals, because they depend on the phase of the vibration.
+  /// Whether samples, of a plan that asks for them, are spread over their intervals: at all phases of the vibration.
   bool is_spread(const RunPlan& plan) const;
   void switch_off(RunPlan& plan) const { block.store(plan, false); }
 };
