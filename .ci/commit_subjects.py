@@ -1,5 +1,4 @@
 #!/usr/bin/env python3
-# SPDX-License-Identifier: MIT
 """Subjects of commits since the budget of lines (.ci/size_budget.json) came in: at most 72 letters, one thing each.
 
 A semicolon or "and" between two things says that they are two commits; of these the check sees the semicolon."""

@@ -1,5 +1,4 @@
 #!/usr/bin/env python3
-# SPDX-License-Identifier: MIT
 """Holds every #include of the project against the order of its layers. Exits 1 and lists what breaks it.
 
 Data walks one way: scene -> world -> stepper -> observables -> files and bus -> pictures. A folder may include itself

@@ -1,5 +1,4 @@
 #!/usr/bin/env python3
-# SPDX-License-Identifier: MIT
 """Holds the prose of every Markdown file, the comments of C++ (clang-format leaves them as they are), the Python
 package and these scripts to lines of at most 120 characters. Exits 1 and names file and line of each that is longer.
 

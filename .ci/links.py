@@ -1,5 +1,4 @@
 #!/usr/bin/env python3
-# SPDX-License-Identifier: MIT
 """Holds every link of the pages to a file of the tree, and to a heading where it names one. Exits 1 and lists the
 others. Links to elsewhere are not followed."""
 import pathlib

@@ -1,5 +1,4 @@
 #!/usr/bin/env python3
-# SPDX-License-Identifier: MIT
 """Lines of code and of tests in every folder, held to a budget that can only fall by itself.
 
     .ci/size.py            the table

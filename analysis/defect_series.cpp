@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/defect_series.h"
 
 #include "analysis/errors/steady.h"

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/defects.h"
 
 #include <algorithm>

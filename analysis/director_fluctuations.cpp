@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/director_fluctuations.h"
 
 #include <algorithm>

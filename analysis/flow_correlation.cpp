@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/flow_correlation.h"
 
 #include <algorithm>

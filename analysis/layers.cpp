@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/layers.h"
 
 #include <algorithm>

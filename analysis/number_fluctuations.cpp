@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/number_fluctuations.h"
 
 #include <algorithm>

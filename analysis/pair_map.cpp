@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/pair_map.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/polar_order.h"
 
 #include <cmath>

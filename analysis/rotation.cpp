@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/rotation.h"
 
 #include <cmath>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/temperatures.h"
 
 #include <cmath>

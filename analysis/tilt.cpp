@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/tilt.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "base/clock.h"
 
 #include <sys/resource.h>

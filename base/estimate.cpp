@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "base/estimate.h"
 
 namespace shaken {

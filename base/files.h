@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Whole files: written so that no crash leaves half of one, read, and the folders they lie in.
 #pragma once
 

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "base/help_text.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "base/interrupt.h"
 
 #include <algorithm>

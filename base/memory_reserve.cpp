@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "base/memory_reserve.h"
 
 #include <atomic>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "base/palettes.h"
 
 #include <algorithm>

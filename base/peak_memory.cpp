@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "base/peak_memory.h"
 
 #include <sys/resource.h>

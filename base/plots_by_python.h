@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Figures of numbers, which the Python package `shaken.plots` draws.
 #pragma once
 

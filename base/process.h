@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Other programs: found, started, waited for.
 #pragma once
 

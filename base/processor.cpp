@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "base/processor.h"
 
 #include <sched.h>

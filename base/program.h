@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Of programs that include CLI11 anyway: its header costs seconds.
 #pragma once
 

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "base/progress_line.h"
 
 #include <fmt/format.h>

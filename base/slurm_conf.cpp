@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "base/slurm_conf.h"
 
 #include <unistd.h>

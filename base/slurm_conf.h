@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Where Slurm's programs find their cluster. Each process has it from its environment, and keeps it.
 #pragma once
 

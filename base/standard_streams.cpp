@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "base/standard_streams.h"
 
 #include <fcntl.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The standard streams of every program: that they are there, and what is said when they take nothing.
 #pragma once
 

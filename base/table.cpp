@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "base/table.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "base/terminal.h"
 
 #include <sys/ioctl.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "base/text.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // What each effect of the physics costs: the CPU time without it against that with everything on.
 #include <fmt/format.h>
 

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "bench/kinds.h"
 
 namespace shaken::bench {

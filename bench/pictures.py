@@ -1,5 +1,4 @@
 #!/usr/bin/python3
-# SPDX-License-Identifier: MIT
 """CPU seconds per frame of a film with all that a style can switch, and with each of it off in turn.
 
     bench/pictures.py build/release/bin/shaken-render RUN...        prints a table in Markdown, a column for each run

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "bench/rates.h"
 
 #include <fmt/format.h>

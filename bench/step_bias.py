@@ -1,5 +1,4 @@
 #!/usr/bin/python3
-# SPDX-License-Identifier: MIT
 """How far averages are off because of the time step, and what it costs, from the runs of configs/steps.json.
 
     shaken submit configs/steps.json; shaken wait

@@ -1,5 +1,4 @@
 #!/usr/bin/env python3
-# SPDX-License-Identifier: MIT
 """What those who listen cost a run: CPU and wall time of a worker with no subscriber, with one that reads, and with one
 that is stopped (SIGSTOP) and reads nothing, in turn, so that all see the same weather of the machine.
 

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "bench/work.h"
 
 #include <algorithm>

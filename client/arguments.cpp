@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "client/arguments.h"
 
 #include <CLI/CLI.hpp>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "client/catalogue.h"
 
 #include <fmt/format.h>

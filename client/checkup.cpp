@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "client/checkup.h"
 
 #include <fmt/format.h>

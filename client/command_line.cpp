@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "client/command_line.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "client/console.h"
 
 #include <unistd.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "client/cost_estimate.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "client/picture_options.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "client/scene_input.h"
 
 #include <fmt/format.h>

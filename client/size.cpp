@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "client/size.h"
 
 #include <fmt/format.h>

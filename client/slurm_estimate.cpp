@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "client/slurm_estimate.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "client/waiting.h"
 
 #include <fmt/format.h>

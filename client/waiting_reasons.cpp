@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "client/waiting_reasons.h"
 
 #include <fmt/format.h>

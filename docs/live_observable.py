@@ -1,5 +1,4 @@
 #!/usr/bin/env python3
-# SPDX-License-Identifier: MIT
 """An observable of one's own on running jobs: how much the director bends from one side of the box to the other.
 
     shakend --relay 127.0.0.1:7700

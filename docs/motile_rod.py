@@ -1,5 +1,4 @@
 #!/usr/bin/env python3
-# SPDX-License-Identifier: MIT
 """A few motile rods among apolar ones: their tracks, and the flow about them (docs/examples.md).
 
     shaken run configs/motile.json --out motile

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "proto/bus.h"
 
 #include <arpa/inet.h>

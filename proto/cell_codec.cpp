@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "proto/cell_codec.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #pragma once
 
 /// The LCM channels of Shaken: one type per channel, named beside it.

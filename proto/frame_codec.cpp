@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "proto/frame_codec.h"
 
 #include <algorithm>

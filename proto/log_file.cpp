@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "proto/log_file.h"
 
 #include <lcm/eventlog.h>

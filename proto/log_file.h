@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // LCM's own log files, which lcm-logger writes and lcm-logplayer plays.
 #pragma once
 

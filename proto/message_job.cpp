@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "proto/message_job.h"
 
 #include "proto/channels.h"

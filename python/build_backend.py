@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """Packs the package into a wheel (PEP 517, PEP 427) with Python's own library, so that `pip install ./python` fetches
 nothing: Debian's machines may have no way to an index, and there is nothing to compile."""
 from __future__ import annotations

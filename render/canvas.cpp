@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "render/canvas.h"
 
 #include <cairo-pdf.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "render/colourings.h"
 
 #include <fmt/format.h>

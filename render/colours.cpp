@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "render/colours.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "render/film_axes.h"
 
 #include <algorithm>

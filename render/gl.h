@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #pragma once
 
 // OSMesa exports the functions of OpenGL itself; their declarations come with this macro.

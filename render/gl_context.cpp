@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "render/gl_context.h"
 
 #include "render/gl.h"

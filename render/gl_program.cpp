@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "render/gl_program.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "render/headline.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "render/interpolation.h"
 
 #include <cmath>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // shaken-render: pictures and movies of recorded and of running jobs, without a display.
 #include <fmt/format.h>
 

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "render/make_movie.h"
 
 #include <fmt/format.h>

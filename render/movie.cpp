@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "render/movie.h"
 
 #include <fcntl.h>

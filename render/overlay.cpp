@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "render/overlay.h"
 
 #include <fmt/format.h>

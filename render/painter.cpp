@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "render/painter.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "render/picture.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "render/picture_layout.h"
 
 #include <algorithm>

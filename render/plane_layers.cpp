@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "render/plane_layers.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "render/rod_batch.h"
 
 #include <algorithm>

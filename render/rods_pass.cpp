@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "render/rods_pass.h"
 
 #include <algorithm>

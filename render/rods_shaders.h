@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #pragma once
 
 /// GLSL of the rods pass. Lengths are in mm; places are relative to the eye, along the axes of the box.

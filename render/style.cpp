@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "render/style.h"
 
 #include <algorithm>

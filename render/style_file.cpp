@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "render/style_file.h"
 
 #include <fmt/format.h>

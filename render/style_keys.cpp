@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "render/style_keys.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "render/sweep_map.h"
 
 #include <cmath>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "scene/canonical.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "scene/deciding_key.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "scene/length.h"
 
 #include <algorithm>

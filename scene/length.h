@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // How long a run goes on: the part of a plan that its id leaves out.
 #pragma once
 

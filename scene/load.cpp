@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "scene/load.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "scene/memory_limit.h"
 
 #include <fmt/format.h>

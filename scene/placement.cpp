@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "scene/placement.h"
 
 #include <fmt/format.h>

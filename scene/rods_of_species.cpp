@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "scene/rods_of_species.h"
 
 namespace shaken::scene {

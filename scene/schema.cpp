@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "scene/schema.h"
 
 #include <fmt/format.h>

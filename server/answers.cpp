@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "server/answers.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "server/api.h"
 
 #include <spdlog/spdlog.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "server/cleaning.h"
 
 #include <spdlog/spdlog.h>

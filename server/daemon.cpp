@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "server/daemon.h"
 
 #include <spdlog/sinks/rotating_file_sink.h>

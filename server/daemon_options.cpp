@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "server/daemon_options.h"
 
 #include <unistd.h>

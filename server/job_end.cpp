@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "server/job_end.h"
 
 #include <spdlog/spdlog.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "server/local_executor.h"
 
 #include <fcntl.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "server/log_slice.h"
 
 #include "base/files.h"

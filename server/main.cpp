@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include <string>
 
 #include "base/program.h"

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "server/more_replicas.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "server/status_publisher.h"
 
 #include <spdlog/spdlog.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "server/supervisor.h"
 
 #include <fmt/chrono.h>

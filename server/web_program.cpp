@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "server/web_program.h"
 
 #include <spdlog/spdlog.h>

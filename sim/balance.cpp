@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/balance.h"
 
 #include <cmath>

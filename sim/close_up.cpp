@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/close_up.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/overlaps.h"
 
 #include <algorithm>

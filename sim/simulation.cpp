@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/simulation.h"
 
 #include "base/core/check.h"

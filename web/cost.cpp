@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "web/cost.h"
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "web/daemon_link.h"
 
 #include <httplib.h>

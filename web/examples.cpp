@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "web/examples.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "web/guard.h"
 
 #include <string_view>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include <csignal>
 #include <string>
 #include <string_view>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "web/packed_frame.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "web/queue_feed.h"
 
 #include <exception>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "web/read_run.h"
 
 #include <sys/resource.h>

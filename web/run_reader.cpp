@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "web/run_reader.h"
 
 #include <cstddef>

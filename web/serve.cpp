@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "web/serve.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "web/site.h"
 
 #include <fcntl.h>

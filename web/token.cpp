@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "web/token.h"
 
 #include <sys/random.h>

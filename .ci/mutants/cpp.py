@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """Small defects in C++, each behind a switch (mutant.h): found by rules in text that clang-format has laid out."""
 from __future__ import annotations
 

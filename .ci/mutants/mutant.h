@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Small defects behind a switch, for `./dev mutants`: put in front of each file of a copy of the source tree. The
 // environment variable SHAKEN_MUTANT turns one of them on; SHAKEN_MUTANTS_SEEN names a file to which the numbers of
 // those are added whose places the program came to.

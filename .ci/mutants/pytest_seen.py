@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """A plugin of pytest: of each test that passes, its seconds and the mutants to whose places it comes, as one line of
 JSON in the file SHAKEN_MUTANTS_OF_TESTS."""
 import json

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """Small defects in Python, each behind a switch: found and written by way of the syntax tree."""
 from __future__ import annotations
 

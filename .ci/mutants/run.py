@@ -1,5 +1,4 @@
 #!/usr/bin/env python3
-# SPDX-License-Identifier: MIT
 """Small defects, made by rules, and whether the tests notice.
 
     ./dev mutants                  of the files that the last commit, or what is not committed, changes

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/errors/parts.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/geometry/director_field.h"
 
 #include <algorithm>

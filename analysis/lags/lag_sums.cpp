@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/lags/lag_sums.h"
 
 #include <algorithm>

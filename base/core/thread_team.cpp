@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "base/core/thread_team.h"
 
 namespace shaken {

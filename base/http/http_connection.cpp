@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "base/http/http_connection.h"
 
 #include <poll.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "base/http/http_server.h"
 
 #include <httplib.h>

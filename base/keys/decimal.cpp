@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "base/keys/decimal.h"
 
 #include <fmt/format.h>

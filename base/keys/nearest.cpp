@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "base/keys/nearest.h"
 
 #include <fmt/format.h>

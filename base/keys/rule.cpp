@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "base/keys/rule.h"
 
 #include <fmt/format.h>

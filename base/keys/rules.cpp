@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "base/keys/rules.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "bench/accuracy/errors.h"
 
 #include <fmt/format.h>

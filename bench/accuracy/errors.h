@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // `shaken-bench accuracy`: errors of trajectories. They are written as rows, of which python/shaken/plots/accuracy.py
 // makes orders.
 #pragma once

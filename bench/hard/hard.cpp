@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "bench/hard/hard.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "bench/hard/same_mean.h"
 
 #include <cmath>

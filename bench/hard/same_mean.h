@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Whether two means are the same.
 #pragma once
 

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """The scene in LAMMPS: rods are clumps of beads held together by fix rigid/small, contacts are springs with dashpots.
 
 Traps: fix rigid/nve styles leave clumps of finite spheres without rotation, so it has to be fix rigid/small with mass

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """The scene in ODE, by a small program of its own (ode_rods.cpp). ODE has no periodic boundaries: Shaken's state is
 unwrapped between four side walls that reach round every rod, and the walls then move in until they enclose the area of
 the periodic box, so that number and area fraction are the same."""

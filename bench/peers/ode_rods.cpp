@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The peers' scene in ODE: rods are bodies with a sphere for each bead, plates are kinematic boxes, QuickStep solves.
 // Built and run by ode.py; no part of Shaken.
 //   ode_rods squeeze IN OUT dt squeeze rest              moves the side walls in; writes the state

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """The scene that all programs run, as `shaken-bench export` wrote it, and what is measured on its states.
 
 Units: mm, s, mg, rad; energies in pJ."""

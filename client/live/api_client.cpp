@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "client/live/api_client.h"
 
 #include <fmt/format.h>

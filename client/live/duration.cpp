@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "client/live/duration.h"
 
 #include <fmt/format.h>

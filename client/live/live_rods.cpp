@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "client/live/live_rods.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "client/live/mean_order.h"
 
 #include "base/files.h"

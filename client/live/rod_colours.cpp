@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "client/live/rod_colours.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "client/live/target.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // `shaken calibrate`: the scene of each species by itself, from which the Python package finds its noise
 // (python/shaken/calibration/app.py).
 #include <fmt/format.h>

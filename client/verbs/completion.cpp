@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "client/completion.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The options of `shaken figures`, for help and completion; the Python package does the work (shaken/study/app.py).
 #include "base/text.h"
 #include "client/verbs/in_python.h"

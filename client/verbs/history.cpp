@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 

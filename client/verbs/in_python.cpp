@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "client/verbs/in_python.h"
 
 #include <fmt/format.h>

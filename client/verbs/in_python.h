@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Verbs whose work the Python package does: here they have their help and their options, which it is handed on.
 #pragma once
 

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "base/process.h"
 #include "client/picture_options.h"
 #include "client/verbs/verbs.h"

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // `shaken plot`: python/shaken/tables/plot.py.
 #include "client/verbs/in_python.h"
 #include "client/verbs/verbs.h"

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "base/process.h"
 #include "client/verbs/verbs.h"
 

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // `shaken results`: python/shaken/tables/results.py.
 #include "client/verbs/in_python.h"
 #include "client/verbs/verbs.h"

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "client/verbs/verbs.h"
 
 namespace shaken::client {

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "client/live/duration.h"
 #include "client/live/target.h"
 #include "client/verbs/verbs.h"

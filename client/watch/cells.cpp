@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "client/watch/cells.h"
 
 #include <algorithm>

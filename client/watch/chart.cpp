@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "client/watch/chart.h"
 
 #include <fmt/format.h>

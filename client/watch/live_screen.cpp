@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "client/watch/live_screen.h"
 
 #include <poll.h>

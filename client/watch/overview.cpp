@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "client/watch/overview.h"
 
 #include <fmt/format.h>

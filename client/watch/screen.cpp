@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "client/watch/screen.h"
 
 #include <fmt/format.h>

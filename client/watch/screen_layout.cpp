@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "client/watch/screen_layout.h"
 
 #include <fmt/format.h>

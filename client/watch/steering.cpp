@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "client/watch/steering.h"
 
 #include <algorithm>

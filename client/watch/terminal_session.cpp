@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "client/watch/terminal_session.h"
 
 #include <poll.h>

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 # All third-party packages, from Debian (listed in .ci/packages.txt). First what the simulator needs.
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)

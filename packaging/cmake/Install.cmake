@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 # What `cmake --install` puts where, and the Debian packages that `./dev package` makes of it by CPack. Component
 # "programs": the programs, their man pages, completions and scenes. Component "python": the Python package, which draws
 # their plots. Component "libraries": the simulator and the observables, for programs of one's own (find_package(shaken)).

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 # shaken::options carries every compiler flag; nothing else in the project sets one.
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)

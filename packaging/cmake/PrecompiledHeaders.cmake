@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 # Headers of other projects that most files read, read once: two fifths of a build's work are their text. A library says
 # target_precompile_headers(NAME REUSE_FROM shaken_headers_...), and its files still include what they use: builds
 # with CMAKE_DISABLE_PRECOMPILE_HEADERS, clang-tidy's among them, hold them to that.

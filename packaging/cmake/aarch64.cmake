@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 # Cross-compiles for 64-bit ARM and runs its programs under qemu. Libraries are Debian's for arm64, unpacked by
 # `./dev aarch64` into build/aarch64/sysroot.
 set(CMAKE_SYSTEM_NAME Linux)

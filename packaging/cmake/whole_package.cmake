@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 # CPack runs this before it packs what has been installed into CPACK_TEMPORARY_DIRECTORY: `cmake --install` leaves out
 # programs and texts that are not built, a package never does.
 set(files share/bash-completion/completions/shaken share/zsh/vendor-completions/_shaken)

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "proto/relay/address.h"
 
 #include <arpa/inet.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "proto/relay/channel_pattern.h"
 
 #include <re2/re2.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "proto/relay/client.h"
 
 #include <sys/socket.h>

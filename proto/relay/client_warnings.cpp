@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "proto/relay/client_warnings.h"
 
 #include <spdlog/spdlog.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "proto/relay/relay.h"
 
 #include <netinet/in.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "proto/relay/send_queue.h"
 
 #include <utility>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "proto/relay/tcpq.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """Shaken in Python: results of runs, sweeps, the daemon, live state, and plots.
 
     import shaken

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """What other rods do about a tagged one, on average, seen from it."""
 from __future__ import annotations
 

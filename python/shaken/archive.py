@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """Archives: a small file for each finished run, with all that figures and verdicts need of it.
 
 A file holds, compressed by xz, one line of JSON and then numbers, little-endian: scene, parameters, summary, the arrays

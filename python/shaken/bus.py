@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """Live state of running jobs, from the relay of a daemon (`shakend --relay 127.0.0.1:7700`).
 
 The relay speaks LCM's protocol tcpq (docs/protocol.md), and this module enough of it to listen.

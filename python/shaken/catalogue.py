@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """All that has a name in Shaken, as the programs know it (`shaken schema catalogue`): no list of it stands in Python.
 
 UNITS:   unit -> {"of": what it measures, "scale": how many of the default unit it is}; that of scale 1 comes first

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """The daemon: what `shaken submit`, `wait` and `cancel` do, from Python."""
 from __future__ import annotations
 

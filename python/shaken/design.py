@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """Points that fill a space of keys, as the entries of a sweep's "list"."""
 from __future__ import annotations
 

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """What goes wrong, in one sentence with the way out."""
 from __future__ import annotations
 

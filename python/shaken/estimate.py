@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """A measured number with its standard error, and how such numbers are put together."""
 from __future__ import annotations
 

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """Recorded frames, and what other packages take them as."""
 from __future__ import annotations
 

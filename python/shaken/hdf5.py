@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """h5py, which reads the files of runs; and whether they are what the runs have written (docs/files.md)."""
 from __future__ import annotations
 

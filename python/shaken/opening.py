@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """A run by what a user calls it."""
 from __future__ import annotations
 

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """What the programs of the package share: the words that they are given, how they end, and what they say then."""
 from __future__ import annotations
 

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """Results as flat rows: swept keys by their path, the members of summary.json as "order.mean"."""
 from __future__ import annotations
 

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """A run that has been done: its scene, its numbers with their errors, its curves, and its recorded frames."""
 from __future__ import annotations
 

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """Sweeps: a row for each state point, with its replicas put together."""
 from __future__ import annotations
 

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """Programs and folders that do not outlive this process, however it ends; files that are whole or not there."""
 from __future__ import annotations
 

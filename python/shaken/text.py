@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """Text for a terminal: what it may obey is escaped, tables fit its width."""
 from __future__ import annotations
 

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """What tests share: made-up runs, and the real programs."""
 import json
 import os

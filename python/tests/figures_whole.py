@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """Whether a figure is cut at its border."""
 from typing import Any
 

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """Averages in the frame of a tagged rod."""
 from __future__ import annotations
 

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """The tables of docs/findings.md on made-up runs with known answers."""
 import itertools
 import math

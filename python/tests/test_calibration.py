@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """`shaken calibrate`: D_r of known walks, the search of made-up laws, and the command itself on real rods."""
 import json
 import math

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """Points that fill a space."""
 from collections import Counter
 

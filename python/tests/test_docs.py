@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """The blocks of docs/python.md, run in order as they stand, on runs of a real daemon."""
 import os
 import re

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 import importlib
 import shutil
 import socket

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """The comparison with another program: what it measures on planted motion, and its table."""
 import json
 import sys

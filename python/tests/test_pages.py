@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """The pages of the validation: which statements and figures are on them, and how they are written."""
 import re
 from pathlib import Path

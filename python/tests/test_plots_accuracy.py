@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """What the rows of `shaken-bench accuracy` come to: fits with known answers."""
 from __future__ import annotations
 

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """Pictures of what shaken-bench has measured: their data are those of the report, and nothing is cut."""
 from __future__ import annotations
 

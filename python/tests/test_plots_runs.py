@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """Figures of runs and sweeps: which curves there are, what they are called, and what is said of them."""
 from __future__ import annotations
 

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """The style of figures: nothing is erased, cut or invented, and files say what they are made from."""
 from __future__ import annotations
 

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """Every statement on made-up runs that must give yes, no, and open."""
 import itertools
 import math

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """bench/step_bias.py: biases of averages against the step, from runs whose answers are known."""
 from __future__ import annotations
 

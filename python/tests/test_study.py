@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """`shaken figures` with the real programs: runs, archives, goes on, draws from the archive alone."""
 import io
 import json

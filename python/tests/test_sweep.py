@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 import json
 import math
 import time

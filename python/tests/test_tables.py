@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """Rows of results, conditions on them, and their tables."""
 import itertools
 import json

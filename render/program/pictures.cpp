@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "render/program/pictures.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "run/cost/run_cost.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "run/export/columns.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "run/export/frames.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The file layer of GSD 2 (https://gsd.readthedocs.io, "File layer"): a header of 256 bytes that says where the list of
 // names and the index stand; an entry of 32 bytes in the index for each named array of each frame, sorted by frame and
 // name, and one of zeros at its end; and the arrays themselves. The sizes of all arrays are known beforehand, so names

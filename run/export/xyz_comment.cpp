@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "run/export/xyz_comment.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "run/files/content_hash.h"
 
 #include <fcntl.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Hashes of whole files. summary.json has those of trajectory.h5 and observables.h5: a damaged file can end a program
 // that hands it to HDF5, keep it for ever, or be read with other numbers than were written.
 #pragma once

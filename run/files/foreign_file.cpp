@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "run/files/foreign_file.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "run/files/frame_log.h"
 
 #include <fcntl.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // What the files that carry hashes of their own content are made with.
 #pragma once
 

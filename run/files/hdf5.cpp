@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "run/files/hdf5.h"
 
 #include <algorithm>

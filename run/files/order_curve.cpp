@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "run/files/order_curve.h"
 
 #include <algorithm>

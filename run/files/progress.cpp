@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "run/files/progress.h"
 
 #include <cmath>

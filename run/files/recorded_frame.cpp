@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "run/files/recorded_frame.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "run/files/unit_of_name.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "run/files/version.h"
 
 namespace shaken::run {

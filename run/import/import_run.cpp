@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "run/import/import_run.h"
 
 #include <fmt/format.h>

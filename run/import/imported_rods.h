@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // What files that others have written say of rods, before it is held against a scene.
 #pragma once
 

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "run/import/place_rods.h"
 
 #include <fmt/format.h>

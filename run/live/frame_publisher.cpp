@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "run/live/frame_publisher.h"
 
 #include <spdlog/spdlog.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "run/loop/import_id.h"
 
 #include <fmt/format.h>

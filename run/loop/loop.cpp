@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "run/loop/loop.h"
 
 #include <fmt/chrono.h>

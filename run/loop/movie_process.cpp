@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "run/loop/movie_process.h"
 
 #include <chrono>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "run/loop/open_run.h"
 
 #include <algorithm>

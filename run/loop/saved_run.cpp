@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "run/loop/saved_run.h"
 
 #include <utility>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // What a run directory holds of its run: the plan, and the state in which it was last saved.
 #pragma once
 

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "run/loop/start_state.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "run/loop/trouble_file.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/g2.h"
 
 #include "analysis/errors/blocked.h"

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/lattice.h"
 
 #include "run/measure/estimates.h"

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "run/measure/measure_defects.h"
 
 #include <string>

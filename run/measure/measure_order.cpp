@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "run/measure/measure_order.h"
 
 #include "run/measure/estimates.h"

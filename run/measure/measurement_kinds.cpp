@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "run/measure/measurement_kinds.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "run/measure/measurements.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/mixing.h"
 
 #include <cstdint>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/errors/blocked.h"
 #include "analysis/polar_order.h"
 #include "run/measure/estimates.h"

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/rotation.h"
 
 #include "run/measure/estimates.h"

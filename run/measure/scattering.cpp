@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include <string>
 
 #include "analysis/self_scattering.h"

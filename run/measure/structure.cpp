@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/structure_factor.h"
 #include "run/measure/estimates.h"
 #include "run/measure/measured.h"

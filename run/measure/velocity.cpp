@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include <cmath>
 
 #include "analysis/velocity_correlation.h"

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "run/worker/progress_text.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "run/worker/worker.h"
 
 #include <spdlog/sinks/basic_file_sink.h>

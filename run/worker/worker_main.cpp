@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include <string_view>
 
 #include "base/program.h"

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "scene/keys/cell_limits.h"
 
 #include <fmt/format.h>

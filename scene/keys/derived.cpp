@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "scene/keys/derived.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Every key of a scene but those of observables, which scene/keys/observables.cpp has.
 #include <fmt/format.h>
 

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "scene/keys/measured_species.h"
 
 #include <fmt/format.h>

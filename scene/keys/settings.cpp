@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "scene/keys/settings.h"
 
 #include <algorithm>

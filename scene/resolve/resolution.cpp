@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "scene/resolve/resolution.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "scene/resolve/resolve.h"
 
 #include <variant>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "scene/sweeps/slurm_settings.h"
 
 #include <fmt/format.h>

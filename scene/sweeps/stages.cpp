@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "scene/sweeps/stages.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "scene/sweeps/sweep_keys.h"
 
 namespace shaken::scene {

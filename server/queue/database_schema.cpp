@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "server/queue/database_schema.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "server/queue/queue.h"
 
 #include <fmt/format.h>

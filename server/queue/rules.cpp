@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "server/queue/rules.h"
 
 #include <fmt/format.h>

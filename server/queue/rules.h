@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The rules of the queue: what becomes of a job when something happens to it (the table of rules.cpp), and the numbers
 // and sentences that go with it. Nothing here knows of files, clocks or threads.
 //

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "server/queue/sqlite.h"
 
 #include <sqlite3.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "server/queue/stop_rule.h"
 
 #include <fmt/format.h>

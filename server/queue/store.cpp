@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "server/queue/store.h"
 
 #include <fmt/format.h>

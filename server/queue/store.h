@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The SQL of the queue.
 #pragma once
 

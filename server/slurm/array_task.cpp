@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "server/slurm/array_task.h"
 
 namespace shaken::server::slurm {

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "server/slurm/batch.h"
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // A batch: workers that go to Slurm together, as one job array. Daemon and tasks tell each other of it through files in
 // its folder, which both must see.
 #pragma once

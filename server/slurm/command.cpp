@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "server/slurm/command.h"
 
 #include <sys/mman.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "server/slurm/sent_batch.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "server/slurm/slurm_call.h"
 
 #include <fmt/format.h>

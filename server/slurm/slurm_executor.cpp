@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "server/slurm/slurm_executor.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "server/slurm/squeue.h"
 
 #include <unistd.h>

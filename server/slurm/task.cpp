@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "server/slurm/task.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/bounds/bead_safe_time.h"
 
 #include <algorithm>

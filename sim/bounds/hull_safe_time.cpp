@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/bounds/hull_safe_time.h"
 
 #include <algorithm>

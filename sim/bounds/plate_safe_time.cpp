@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/bounds/plate_safe_time.h"
 
 #include <cmath>

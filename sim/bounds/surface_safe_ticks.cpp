@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/bounds/surface_safe_ticks.h"
 
 #include <algorithm>

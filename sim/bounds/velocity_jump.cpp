@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/bounds/velocity_jump.h"
 
 #include <algorithm>

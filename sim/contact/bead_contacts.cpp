@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/contact/bead_contacts.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/effects/registry.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/motion/post_grid.h"
 
 #include <numeric>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/motion/start_motion.h"
 
 namespace shaken {

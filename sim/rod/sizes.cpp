@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/rod/sizes.h"
 
 #include <array>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/rod/species.h"
 
 #include <algorithm>

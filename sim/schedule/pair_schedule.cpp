@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/schedule/pair_schedule.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/schedule/skin_budget.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/start/aligned_rods.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/start/aligning_field.h"
 
 #include <algorithm>

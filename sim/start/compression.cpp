@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/start/compression.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/start/director_patterns.h"
 
 #include <algorithm>

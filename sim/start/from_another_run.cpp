@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/start/from_another_run.h"
 
 #include <cmath>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/start/random_rods.h"
 
 #include <algorithm>

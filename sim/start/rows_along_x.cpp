@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/start/rows_along_x.h"
 
 #include <algorithm>

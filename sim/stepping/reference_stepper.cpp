@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/stepping/reference_stepper.h"
 
 #include "base/core/heap_bytes.h"

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/stepping/scheduled_stepper.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/stepping/stepper.h"
 
 #include "base/core/check.h"

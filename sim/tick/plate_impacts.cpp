@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/tick/plate_impacts.h"
 
 #include <algorithm>

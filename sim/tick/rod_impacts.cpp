@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/tick/rod_impacts.h"
 
 #include <algorithm>

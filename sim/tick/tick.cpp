@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/tick/tick.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 #!/usr/bin/python3
-# SPDX-License-Identifier: MIT
 """`./dev cluster` on a terminal ends with all that belongs to it, however it is ended.
 
 Exits 77 where no Slurm can be started here, and says why."""

@@ -1,5 +1,4 @@
 #!/usr/bin/python3
-# SPDX-License-Identifier: MIT
 """A Slurm of one's own on this machine: munged, slurmctld and slurmd on loopback, with ports, keys and files of their
 own, ended with the program that started them. By itself it keeps such a cluster up until Ctrl-C:
 

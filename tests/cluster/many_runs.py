@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """What a large sweep costs the daemon and Slurm: runs that only sleep for a moment, through a Slurm of one's own.
 
 usage: many_runs.py FOLDER-OF-PROGRAMS [--runs 10000] [--runs-per-task 50] [--max-pending 100] [--poll 2]

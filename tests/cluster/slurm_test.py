@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """A sweep in a real Slurm, through all that can happen to it there, gives what it gives locally.
 
 usage: slurm_test.py FOLDER-OF-PROGRAMS [TEST ...]

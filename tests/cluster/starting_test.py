@@ -1,5 +1,4 @@
 #!/usr/bin/python3
-# SPDX-License-Identifier: MIT
 """The little cluster starts whatever this machine's name is resolved to, listens nowhere but on loopback, and says what
 it is for; where it does not start, it says why, and keeps the logs.
 

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The bus on LCM's in-process provider, and what it says when LCM cannot start.
 #include "proto/bus.h"
 

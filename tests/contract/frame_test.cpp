@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Live frames: quantisation, chunks, and what a viewer gets when chunks are lost.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // LCM's log files: ours read by liblcm and the other way round, cut and damaged ones, and a disk that is full.
 #include "proto/log_file.h"
 

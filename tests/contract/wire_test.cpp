@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The wire types: what a message is on the wire must not change unnoticed, and no payload may hurt a receiver.
 #include <gtest/gtest.h>
 

@@ -1,5 +1,4 @@
 #!/usr/bin/env python3
-# SPDX-License-Identifier: MIT
 """What README.md and docs/*.md tell one to type is typed here, in order, in a fresh folder.
 
     commands_test.py SOURCE BIN

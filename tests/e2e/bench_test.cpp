@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The benches as they are called, on a handful of rods.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

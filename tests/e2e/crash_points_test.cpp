@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // A worker is killed, or refused by the disk, at every single change that it makes to its files (in the gate, at every
 // one of a run from its beginning, else at each fifth). Whatever comes of it, the next start goes on to the same end.
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // From a scene file to live frames, tables and pixels, with the programs as they are installed.
 #include <gtest/gtest.h>
 #include <png.h>

@@ -1,5 +1,4 @@
 #!/usr/bin/env python3
-# SPDX-License-Identifier: MIT
 """The n-th call of each kind fails, in one program after the other: no service stops, no job and no frame is lost.
 
     every_call_fails.py BIN FAILING_CALLS [MOST [PROGRAM ...]]

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // What `shaken explain` and `shaken submit --dry-run` promise, against what runs then take. Without a daemon.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,4 @@
 #!/usr/bin/env python3
-# SPDX-License-Identifier: MIT
 """Holds exported files against the run that they are of: export_reader.py RUN FILE... [--frames FIRST:STEP].
 
 trajectory.h5 and observables.h5 are read by h5py, GSD by the package gsd of HOOMD-blue's authors, and text here, by what

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // What `shaken export` makes of a real run, read by other programs.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Loaded before libc (LD_PRELOAD): the n-th change that the process makes to files below a folder goes wrong. So every
 // instant can be tried at which a machine may stop, or a disk refuse, and none is left to chance.
 //

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Rods that come from elsewhere: `shaken import`, and runs that start from them, by real programs without a daemon.
 #include <fmt/format.h>
 #include <gmock/gmock.h>

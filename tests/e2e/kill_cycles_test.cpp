@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The daemon, or a worker, is killed with SIGKILL again and again at random moments. Whatever was acknowledged is done,
 // once. As many times as SHAKEN_KILL_CYCLES says (`./dev kills N`), else as the tests below do.
 #include <gtest/gtest.h>

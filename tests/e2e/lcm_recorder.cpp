@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // An LCM subscriber such as a user might write: plain lcm and the types that lcm-gen makes, nothing of Shaken's own
 // code. usage: lcm_recorder URL > messages.jsonl; ends on SIGTERM.
 #include <csignal>

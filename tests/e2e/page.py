@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """Uses the page as a person does, in a headless Chromium, and says what is not as it should be.
 
 usage: page.py ADDRESS SCREENSHOT [--live]

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """The page with a sweep of 1,000 jobs that finish all the time, in a headless Chromium. The daemon is made up here, so
 that nothing depends on how fast runs are.
 

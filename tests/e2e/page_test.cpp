@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The page of `shakend --web` in a real browser.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

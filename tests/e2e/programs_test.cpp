@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // What every program does alike with what it is told and what it says.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Live state by way of the daemon's relay, with real runs and real LCM programs; recordings of it, by us and by LCM.
 #include <gtest/gtest.h>
 #include <signal.h>

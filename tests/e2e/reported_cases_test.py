@@ -1,5 +1,4 @@
 #!/usr/bin/env python3
-# SPDX-License-Identifier: MIT
 """Inputs that users of programs like this one have reported as bugs, typed into the programs; each has a right answer.
 
     reported_cases_test.py BIN

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "tests/e2e/run_command.h"
 
 #include <fcntl.h>

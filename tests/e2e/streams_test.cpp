@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Programs whose standard streams are closed, or cannot be written.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

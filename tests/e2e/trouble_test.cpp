@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // A run that meets numerical trouble: what it leaves behind, and that it can be met again.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // `shaken watch` on a terminal: what stands on the screen, what keys and sizes change, and what is left behind.
 #include <gtest/gtest.h>
 #include <poll.h>

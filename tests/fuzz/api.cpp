@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // A request to the daemon as the HTTP server hands it on: "METHOD path?key=value&key=value", a line break, the body.
 // Every one must get an answer that is JSON.
 #include "server/api.h"

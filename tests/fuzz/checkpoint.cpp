@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Saved states, behind the hash that guards a checkpoint's file: of a world (first byte '0'), or of the measurement
 // that the first byte names ('1', '2', ... in the order of the registry). What is taken is saved again as the same
 // bytes.

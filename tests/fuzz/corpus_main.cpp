@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Feeds a target the files of the folders given: the seeds, and what was once found. In builds without libFuzzer.
 #include <algorithm>
 #include <filesystem>

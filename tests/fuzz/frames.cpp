@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // trajectory.part: as it is (first byte 0), or as a header (up to the first line break) and frames that get the right
 // lengths and hashes, so that what is behind those is reached.
 #include <xxhash.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // A target of libFuzzer: a reader of something from outside, fed with any bytes. It must take or refuse them;
 // sanitizers and `promise` find what it must not do.
 #pragma once

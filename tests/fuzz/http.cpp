@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The bytes of one connection to the daemon's socket, sent at once: it must answer in HTTP, or close.
 #include <sys/socket.h>
 #include <sys/un.h>

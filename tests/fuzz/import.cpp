@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Tables of rods from elsewhere.
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The bytes of one client of the relay: what it publishes must be what it sent, and every instruction has one form.
 #include <fcntl.h>
 #include <sys/socket.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The text of a scene file: what is taken, reads as itself once more.
 #include "scene/canonical.h"
 #include "scene/keys/observables.h"

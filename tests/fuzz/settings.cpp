@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Settings "path=value", one a line, on top of an empty scene and as axes of a sweep.
 #include "scene/keys/settings.h"
 

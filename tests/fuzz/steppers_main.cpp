@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Compares both steppers in random scenes (tests/support/random_scenes.h), and makes those in which they differ small.
 #include <atomic>
 #include <chrono>

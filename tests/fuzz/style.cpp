@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The text of a style file: every style that is taken can be drawn in.
 #include <nlohmann/json.hpp>
 

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The text of a sweep file: every point that is taken can be queued and read again.
 #include "scene/sweeps/sweep.h"
 

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // What a terminal sends: keys, in any order and in pieces.
 #include "client/watch/keys.h"
 #include "tests/fuzz/fuzz_target.h"

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Payloads of LCM messages, each byte string as every type; the messages then go where a viewer puts them.
 #include "client/live/live.h"
 #include "client/live/live_rods.h"

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """A dictionary for libFuzzer of the words of scenes, sweeps and settings, on stdout.
 
 usage: shaken schema sweep | words.py

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The nematic order of 120 shaken rods against time, with Shaken's libraries.
 #include <cstdio>
 

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Conservation laws of whole runs, tick by tick.
 #include <gtest/gtest.h>
 

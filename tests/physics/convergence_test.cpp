@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // How errors shrink with the tick. An impact is found at the tick that follows it, so it is late by up to one tick, and
 // where the rods are afterwards is off by that delay times the change of velocity: order 1.
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Elastic rods without friction between plates at rest come to thermal equilibrium: every degree of freedom that
 // impacts can excite gets the same temperature.
 #include <gtest/gtest.h>

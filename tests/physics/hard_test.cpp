@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The hard cases of `shaken bench hard`: those made by hand in full, the scenes for a short while.
 #include "bench/hard/hard.h"
 

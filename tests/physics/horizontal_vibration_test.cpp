@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Plates that vibrate in the plane carry bodies by friction alone, and plates at rest stop them by it.
 #include <gtest/gtest.h>
 

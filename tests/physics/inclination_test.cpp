@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Bodies on inclined plates at rest: what slides, rolls or falls down a slope does so as in any textbook of mechanics.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The budgets close: energy and momentum that rods have are what they had, got and lost, entered impact by impact.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // A lid that does not move with the base, against what one impact on it does.
 #include <gtest/gtest.h>
 

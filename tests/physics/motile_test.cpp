@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Rods that move by themselves because their ends differ: nothing in the program says that they should, it comes out of
 // the impacts.
 #include <gtest/gtest.h>

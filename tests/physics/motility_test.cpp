@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The paper's mechanism (Sharma & Soni 2024, figure on v against n_z; l = 2.5 mm, area fraction 0.60): a tilted rod
 // drifts along itself, opposite in sign to its tilt for |n_z| < 0.25, fastest near the taper's own slope |n_z| = 0.19.
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // A body bounced off a moving plate: v' = V + e (V - v), V the plate's velocity at the instant of the hit.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The pressure of hard discs: spheres between plates that leave them no room to pass each other.
 #include <gtest/gtest.h>
 

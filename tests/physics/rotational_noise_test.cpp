@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // What rough plates do to a rod, in absolute terms. A rod that is alone between plates without friction has one thing
 // that can turn it in the plane, the noise: its angular momentum about the vertical, over I_perp (it does not spin
 // about itself), is L = (1 - n_z^2) times the rate of its in-plane angle. Flights and impulses, which are vertical,

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The steady state does not depend on the start: S from rows and from the compressed, disordered start agree, at area
 // fraction 0.55 and l = 4.5 mm, once the rows are forgotten. Before, they differ.
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Which end of an apolar rod is its head is a label (n -> -n): no trajectory and no mean may depend on it.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Both steppers give the same trajectory, bit by bit, with each effect that a scene may call for and with mixes of
 // them.
 #include <gtest/gtest.h>

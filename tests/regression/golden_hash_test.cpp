@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // One hash per scene, pinned: any change of the trajectory, down to the last bit, shows here. A change that is meant
 // gets new hashes, a new physics version (sim/physics_version.h) and a line in CHANGELOG.md under "changes
 // results".

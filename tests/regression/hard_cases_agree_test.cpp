@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Every hard case of `shaken bench hard` by both steppers: states, counters and ledgers must be the same to the last
 // bit, and so must the trouble in which some of them end.
 #include <gtest/gtest.h>

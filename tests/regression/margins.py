@@ -1,5 +1,4 @@
 #!/usr/bin/env python3
-# SPDX-License-Identifier: MIT
 """Tries every margin of sim/bounds/margins.h: sets it to nothing, builds the simulator, and says which tests fail.
 
     tests/regression/margins.py [NAME ...]     all constants, if none is named; minutes each

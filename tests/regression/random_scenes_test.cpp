@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Both steppers over everything that a scene may say: 300 cases at night, any number by `./dev fuzz steppers`.
 #include "tests/support/random_scenes.h"
 

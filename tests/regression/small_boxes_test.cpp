@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // No collision is missed in boxes so small that rods are near two images of one another: both steppers give the same,
 // and what they give is a gas of bodies that never pass through each other.
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The main test of the steppers: the scheduled stepper gives bitwise the reference stepper's trajectory.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // HDF5 files that a few changed bytes make dangerous.
 #pragma once
 

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // How often a property is tried.
 #pragma once
 

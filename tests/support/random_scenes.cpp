@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "tests/support/random_scenes.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 #!/usr/bin/python3
-# SPDX-License-Identifier: MIT
 """Runs every Python example of a page of the documentation on a run directory. Exits 1 if one fails.
 
     tests/validate/check_examples.py docs/files.md RUN_DIR

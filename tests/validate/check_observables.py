@@ -1,5 +1,4 @@
 #!/usr/bin/python3
-# SPDX-License-Identifier: MIT
 """Works out a run's observables again by other programs, from its trajectory, and compares.
 
     tests/validate/check_observables.py RUN_DIR [--all] [--only NAME...] [--observables FILE]

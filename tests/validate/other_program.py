@@ -1,5 +1,4 @@
 #!/usr/bin/python3
-# SPDX-License-Identifier: MIT
 """Shaken's rods in LAMMPS: both programs go on from one state of Shaken's, and what is measured on them is compared.
 
 LAMMPS runs in stretches of 2.5 seconds, each of which goes on where the one before ended; what is done stays in

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Up to four runs side by side, live or recorded, on one clock.
 import {ask, byId, complain, fetched, make, number} from "/page/dom.js";
 import {Newest} from "/page/loader.js";

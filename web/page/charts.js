@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Curves and maps, drawn by Chart.js (the global Chart of /chart.js).
 
 import {colour, number, onTheme} from "/page/dom.js";

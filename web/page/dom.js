@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The few things that every part of the page needs. Text that came from outside is only ever set as text.
 
 export const byId = (id) => document.getElementById(id);

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // What the two painters of rods share: programs of WebGL2, and the colours of rods in them.
 
 const kTextures = ["layers", "wheel", "tilt"], kColourings = [...kTextures, "species"];

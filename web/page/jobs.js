@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The table of a sweep's jobs: all of them, filtered and sorted; only the rows that are seen are elements of the page.
 import {byId, make, number, replaceIfOther} from "/page/dom.js";
 import {actionButtons} from "/page/queue.js";

@@ -1,5 +1,3 @@
-// SPDX-License-Identifier: MIT
-
 /** Does one thing at a time: `act(wish)`. Of what is wished for meanwhile only the newest is done. */
 export class Newest {
   constructor(act) { Object.assign(this, {act, isBusy: false, wish: null}); }

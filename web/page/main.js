@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The page: which sweep and which runs are looked at, and who is told when that changes.
 import {BesidePanel, kMostBeside} from "/page/beside.js";
 import {byId, complain, listen} from "/page/dom.js";

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The phase diagram of a sweep, which fills in as runs finish.
 import {byId, colour, complain, make, number, offer, onTheme, replaceIfOther} from "/page/dom.js";
 import {PointMap, sequential, strip} from "/page/charts.js";

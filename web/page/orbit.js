@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Rods by WebGL2 as bodies between their plates, in perspective from anywhere above: as `shaken picture --view orbit` has it.
 import {colour as cssColour} from "/page/dom.js";
 import {attribute, fill, kColourOf, newProgram, rgb, useForRods} from "/page/gl.js";

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Rods by WebGL2, from above: one small rectangle for each, in which its outline is drawn.
 import {colour as cssColour} from "/page/dom.js";
 import {attribute, fill, kColourOf, makeTextures, newProgram, rgb, useForRods} from "/page/gl.js";

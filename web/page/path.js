@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The path of one rod over the picture, and its n_z(t), from the recorded frames before the present one.
 import {Curve} from "/page/charts.js";
 import {ask, byId} from "/page/dom.js";

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The phase diagram in pictures: each point shows the newest frame of its run.
 import {ask, byId, complain, fetched, make, number, onTheme} from "/page/dom.js";
 import {RodPainter, suitingColouring} from "/page/painter.js";

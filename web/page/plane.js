@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The plane that rods are in, and how it repeats itself.
 
 /** The n_z of a rod that stands, in frames (proto/frame_t.lcm). */

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The list of sweeps, and what can be asked of them and of their jobs.
 import {ask, byId, complain, duration, make} from "/page/dom.js";
 

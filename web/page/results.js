@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Numbers of runs: their errors, their marks and their means over replicas, by the rules of `shaken results`.
 import {number} from "/page/dom.js";
 

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Frames of rods on a canvas that can be zoomed and moved.
 import {colour as cssColour, onTheme} from "/page/dom.js";
 import {RodPainter, suitingColouring} from "/page/painter.js";

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The chosen run: its rods, live or recorded, S(t), P(theta) and its files.
 import {ask, byId, bytes, complain, duration, fetched, make, number, replaceIfOther, save} from "/page/dom.js";
 import {actionButtons} from "/page/queue.js";

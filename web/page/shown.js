@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // A picture or a film of the chosen run, in its place on the page until it is saved or closed.
 import {byId, fetched, make, offer} from "/page/dom.js";
 import {Newest} from "/page/loader.js";

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The form in which scenes and sweeps are written, checked and submitted. Only a text that the daemon has found good can
 // be submitted: each change of it asks for another check.
 import {ask, byId, bytes, complain, duration, make, number} from "/page/dom.js";

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The chosen sweep: its phase diagram and the table of its jobs.
 import {ask, byId, complain, replaceIfOther} from "/page/dom.js";
 import {JobTable} from "/page/jobs.js";

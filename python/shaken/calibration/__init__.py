@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """`shaken calibrate`: the rotational noise with which rods have a wanted rotational diffusion coefficient.
 
 diffusion  D_r from mean square angular displacements of independent runs

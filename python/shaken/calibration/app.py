@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """`shaken calibrate`: a noise for each species and each wanted D_r, with what was measured on the way."""
 from __future__ import annotations
 

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """The rotational diffusion coefficient D_r from mean square angular displacements (MSAD) of independent runs.
 
 A rod whose angular velocity is forgotten after the time tau turns ballistically at first; its MSAD is then

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """Runs of the rods of one species by themselves: how much they turn at a noise, to a wanted precision."""
 from __future__ import annotations
 

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """The noise with which D_r is as wanted. D_r grows with the noise, at most as its square; measured values scatter."""
 from __future__ import annotations
 

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """Figures of numbers, by matplotlib, in one style.
 
     from shaken.plots import names, style

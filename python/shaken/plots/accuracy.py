@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """What the rows of `shaken-bench accuracy` come to: orders of convergence, also in words for a terminal."""
 from __future__ import annotations
 

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """What `shaken-bench` calls to have its figures drawn: python3 -m shaken.plots."""
 from __future__ import annotations
 

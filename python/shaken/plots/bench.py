@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """What shaken-bench has measured, drawn from the JSON that it writes."""
 from __future__ import annotations
 

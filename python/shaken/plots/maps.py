@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """Maps: about topological defects (`measure.defect_maps`), the director on the density, and the flow; and of the
 density in time (`measure.density`)."""
 from __future__ import annotations

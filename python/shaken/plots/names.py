@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """How quantities are called in figures: names, symbols and units. Symbols are in matplotlib's mathtext."""
 from __future__ import annotations
 

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """A panel of a figure: curves with their errors, what is known of their steadiness, references, maps."""
 from __future__ import annotations
 

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """What runs have measured, a figure for each observable: S(t), P(S), P(θ), G₂(r), MSD and others."""
 from __future__ import annotations
 

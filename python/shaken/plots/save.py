@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """Pictures and the numbers in them, with what they are made from. Equal figures give equal bytes: no time of day."""
 from __future__ import annotations
 

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """Many curves in one figure: which of them share a panel, and what colours tell them apart."""
 from __future__ import annotations
 

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """A figure of one or several panels: where everything goes, so that nothing is cut and nothing is covered."""
 from __future__ import annotations
 

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """The look of all figures: sizes, fonts, colours."""
 from __future__ import annotations
 

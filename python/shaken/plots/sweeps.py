@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """A sweep in one figure: numbers against what was swept, and pictures of its runs over that."""
 from __future__ import annotations
 

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """`shaken figures`: runs what the figures need, archives it, draws, judges."""
 from __future__ import annotations
 

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """What the runs have that the paper does not: the tables of docs/findings.md."""
 from __future__ import annotations
 

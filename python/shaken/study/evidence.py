@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """The runs of a study, by the set (the sweep) that asked for them, and numbers at their state points."""
 from __future__ import annotations
 

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """The figures: the paper's own by its numbers, and those beyond it by names."""
 from __future__ import annotations
 

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """Motion: how rods swim, diffuse and turn, and their defects."""
 from __future__ import annotations
 

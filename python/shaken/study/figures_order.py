@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """Nematic order: where it sets in, how it fluctuates, on which box and start it depends."""
 from __future__ import annotations
 

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """Structure: correlations in space, layers and what they depend on, the gap, elasticity."""
 from __future__ import annotations
 

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """Correlations in time at their longest lags.
 
 A run gives a number such as D an error of its own only at lags of up to about a sixth of its length, over which six

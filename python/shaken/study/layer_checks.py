@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """Layers at +-theta_m: whether there are any, and how angle and wavelength depend on rods, packing, gap and box."""
 from __future__ import annotations
 

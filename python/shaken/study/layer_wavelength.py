@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """The wavelength of the layers, from the spectrum of the director across itself."""
 from __future__ import annotations
 

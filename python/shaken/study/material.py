@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """What figures are made of: the runs, the verdicts, and the pieces that several figures share."""
 from __future__ import annotations
 

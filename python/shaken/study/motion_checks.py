@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """Swimming, diffusion, rotation, correlations in time, defects."""
 from __future__ import annotations
 

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """The runs to do next and their price: what would decide the statements that are open, and what docs/findings.md
 asks."""
 from __future__ import annotations

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """Where rods order, how sharply, from which start and in which box."""
 from __future__ import annotations
 

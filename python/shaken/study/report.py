@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """What is written about the runs of a study, in Markdown: verdicts, sets and their cost, versions; and the pages of the
 validation, one for each figure of the paper, with the statements that belong to it."""
 from __future__ import annotations

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """Linear response: rods that a constant force pulls along the plates, and how they wander without it.
 
 Plates that are inclined by alpha pull at every rod with m g sin(alpha). In a steady state all rods drift at v, so that

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """How runs are asked: yes, no, or open with the reason; and what several answers come to."""
 from __future__ import annotations
 

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """Running the sets of the study on a daemon, within a budget, each finished run into the archive."""
 from __future__ import annotations
 

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """Order against the size of the box, beside what the waves of the director in it predict.
 
 In a nematic in two dimensions the director's waves alone make S fall as L^x, x = -1 / (pi sqrt(K1 K3)), K1 and K3

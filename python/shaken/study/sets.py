@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """The sets of runs of the study: their sweeps, in order of worth, at three scales."""
 from __future__ import annotations
 

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """What the paper states, and the runs' answer to each statement.
 
 Each check takes the Evidence and returns a Finding; the checks are in `order_checks`, `structure_checks`,

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """Correlations in space, isotropic and along and across the director, and what they say of elasticity."""
 from __future__ import annotations
 

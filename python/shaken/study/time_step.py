@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """What the time step does to the numbers that the paper reports, and what these cost: from the study's controls.
 
 Some of the study's sets have, beside the runs at `accuracy` = "desk" (16 us), one run of the same scene at "paper"

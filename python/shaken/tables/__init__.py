@@ -1,2 +1,1 @@
-# SPDX-License-Identifier: MIT
 """What `shaken results` and `shaken plot` do: rows of results, conditions on them, tables."""

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """`python3 -m shaken.tables`, or by its path, from which the package is found."""
 import sys
 from pathlib import Path

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """What the client hands on to be tabulated or drawn: python3 -m shaken.tables results|plot|fields|inset OPTION...
 
 The options of users are described where the client declares them (client/verbs/results.cpp, plot.cpp). Names for the

@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """The conditions of `--where`: which rows are kept."""
 from __future__ import annotations
 

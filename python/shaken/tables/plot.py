@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """`shaken plot`: figures of a sweep, a job or a run directory."""
 from __future__ import annotations
 

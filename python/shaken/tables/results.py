@@ -1,4 +1,3 @@
-# SPDX-License-Identifier: MIT
 """`shaken results`: one line of numbers per job, or per point."""
 from __future__ import annotations
 

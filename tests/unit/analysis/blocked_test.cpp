@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/errors/blocked.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/errors/bounded_series.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/collision_rates.h"
 
 #include <gtest/gtest.h>

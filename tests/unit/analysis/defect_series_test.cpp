@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/defect_series.h"
 
 #include <gtest/gtest.h>

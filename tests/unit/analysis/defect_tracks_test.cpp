@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/defect_tracks.h"
 
 #include <gtest/gtest.h>

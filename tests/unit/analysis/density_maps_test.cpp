@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/density_maps.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/drift.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/errors/jackknife.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/lags/lag_fits.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/lattice.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/msd.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/order.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/oscillation.h"
 
 #include <gtest/gtest.h>

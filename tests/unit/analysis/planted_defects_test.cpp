@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // A pair of defects that a run starts with is what the finder finds: known places, charges and directions.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/geometry/region.h"
 
 #include <gtest/gtest.h>

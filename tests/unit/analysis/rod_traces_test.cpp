@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/rod_traces.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/errors/saved.h"
 
 #include <gtest/gtest.h>

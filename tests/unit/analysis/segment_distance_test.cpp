@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/geometry/segment_distance.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/self_scattering.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/structure_factor.h"
 
 #include <gtest/gtest.h>

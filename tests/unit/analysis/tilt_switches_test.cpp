@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/tilt_switches.h"
 
 #include <gtest/gtest.h>

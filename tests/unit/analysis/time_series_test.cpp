@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/time_series.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/two_peaks.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/van_hove.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/velocity_correlation.h"
 
 #include <gtest/gtest.h>

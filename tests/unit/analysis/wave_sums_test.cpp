@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "analysis/geometry/wave_sums.h"
 
 #include <gtest/gtest.h>

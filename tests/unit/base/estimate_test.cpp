@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "base/estimate.h"
 
 #include <gtest/gtest.h>

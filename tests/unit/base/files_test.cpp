@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "base/files.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "base/plots_by_python.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "base/text.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "bench/case.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Whether two means are the same within a bound: made-up replicas, of which it is known.
 #include "bench/hard/same_mean.h"
 

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "bench/timing.h"
 
 #include <gtest/gtest.h>

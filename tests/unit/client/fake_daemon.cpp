@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "tests/unit/client/fake_daemon.h"
 
 #include <httplib.h>

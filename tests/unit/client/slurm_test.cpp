@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The checks with stand-ins for Slurm's programs; tests/cluster has the real ones.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "render/camera.h"
 
 #include <gtest/gtest.h>

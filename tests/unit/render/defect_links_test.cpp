@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "render/defect_links.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
 #include <algorithm>

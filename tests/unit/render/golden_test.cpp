@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Whole pictures of every style and view, compared with those in golden/. With the libraries of Debian 12 they are the
 // same to the last bit; with others they have to look the same. SHAKEN_UPDATE_DOCS=1 draws them anew: look at them.
 #include <gtest/gtest.h>

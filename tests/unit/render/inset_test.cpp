@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "render/inset.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The program as a user meets it: exit codes, messages, files.
 #include <gtest/gtest.h>
 #include <sys/wait.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "tests/unit/render/render_support.h"
 
 #include <gtest/gtest.h>

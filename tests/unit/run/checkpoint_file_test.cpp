@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "run/files/checkpoint_file.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "run/files/directory.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Every error bar of the product by one test: rods that are made up are put through the real measurements in many
 // replicas, and the scatter of each number between replicas is held against the error that it claims. What a
 // measurement adds later is found and tested of itself.

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // docs/files.md against the files themselves: it names all that a run writes, with the units that the files say, and
 // nothing else.
 #include <gtest/gtest.h>

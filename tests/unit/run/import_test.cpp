@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Rods from files: what the reader of tables takes and refuses, and where the rods are then.
 #include <fmt/format.h>
 #include <gmock/gmock.h>

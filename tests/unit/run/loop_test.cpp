@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Whole runs in a directory: stopping and going on must leave no trace in the results, and damage must never lead to
 // a wrong one.
 #include "run/loop/loop.h"

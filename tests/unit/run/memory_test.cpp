@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The estimate of scene/keys/observables.h against what a run takes, with every allocation of this process counted.
 #include <gtest/gtest.h>
 #include <malloc.h>

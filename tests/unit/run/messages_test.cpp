@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "run/live/messages.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "run/files/observables_file.h"
 
 #include <gtest/gtest.h>

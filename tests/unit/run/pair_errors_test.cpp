@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Errors of G2(r) and of the cuts through its map, through the adapters that a run uses.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "run/loop/summary.h"
 
 #include <gtest/gtest.h>

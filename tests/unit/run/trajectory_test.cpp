@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "run/files/trajectory.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "scene/keys/accuracy_levels.h"
 
 #include <array>

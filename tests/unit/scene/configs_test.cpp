@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Every file that is shipped as an example is right, and its rods fit into their box.
 #include <fmt/format.h>
 

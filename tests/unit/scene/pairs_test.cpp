@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Quantities that follow from each other: any sufficient set may be given, too many must agree.
 #include <cmath>
 

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Scenes that are all right key by key and yet cannot be started, or must end in trouble.
 #include "scene/placement.h"
 

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The block `posts` of a scene: what follows from it, and what is refused.
 #include "sim/posts.h"
 

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // What users get to see when something is wrong: each kind of mistake, with its place and its remedy.
 #include <gmock/gmock.h>
 

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "scene/remarks.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Rods of one species that differ in size: what follows from rods.length_spread and rods.end_diameter_spread, and what
 // is refused.
 #include <gmock/gmock.h>

@@ -1,5 +1,4 @@
 #!/usr/bin/env python3
-# SPDX-License-Identifier: MIT
 """Holds documents to a JSON Schema, by Debian's python3-jsonschema.
 
     validate_by_schema.py SCHEMA DOCUMENTS

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "scene/keys/values.h"
 
 #include <gmock/gmock.h>

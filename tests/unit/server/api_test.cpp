@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The contract of docs/protocol.md, over a real socket.
 #include "server/api.h"
 

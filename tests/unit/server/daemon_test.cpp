@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The program shakend, from start to end, with scripts for workers.
 #include "server/daemon.h"
 

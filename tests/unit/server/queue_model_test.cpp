@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Random operations on the queue against a model of it without files, indices and transactions.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

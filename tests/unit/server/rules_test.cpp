@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // What holds for the table of the queue as a whole. What it says in each place, queue_model_test.cpp holds against a
 // description of its own.
 #include "server/queue/rules.h"

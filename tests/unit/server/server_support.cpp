@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "tests/unit/server/server_support.h"
 
 #include <fstream>

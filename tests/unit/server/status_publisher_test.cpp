@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // What the publisher sends, read back from an LCM log file.
 #include "server/status_publisher.h"
 

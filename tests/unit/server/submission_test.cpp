@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "server/submission.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Supervisor and local executor with real processes: a script that behaves as its job's label says.
 #include "server/supervisor.h"
 

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The terms of submissions: what their words, sweeps and percentages mean. What they do to jobs is in
 // queue_model_test.cpp.
 #include "server/queue/terms.h"

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/checkpoint.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "base/core/exact_sum.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/motion/flight.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/schedule/gap_budgets.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/contact/impact_process.h"
 
 #include <gtest/gtest.h>

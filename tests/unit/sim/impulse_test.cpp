@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/contact/impulse.h"
 
 #include <gtest/gtest.h>

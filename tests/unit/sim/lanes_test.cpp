@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/lanes/lanes.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/neighbors/neighbor_list.h"
 
 #include <gtest/gtest.h>

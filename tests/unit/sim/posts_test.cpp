@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/posts.h"
 
 #include <gtest/gtest.h>

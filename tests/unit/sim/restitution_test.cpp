@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Restitution that falls with speed, and contacts that species have of their own: known answers of single impacts.
 #include "sim/contact/restitution.h"
 

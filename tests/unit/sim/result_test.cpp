@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "base/core/result.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "base/core/rng.h"
 
 #include <gtest/gtest.h>

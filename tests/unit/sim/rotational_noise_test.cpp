@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // One kick of a rough plate, exactly; what many do to a rod is tests/physics/rotational_noise_test.cpp.
 #include "sim/tick/rotational_noise.h"
 

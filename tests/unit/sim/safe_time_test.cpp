@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/bounds/safe_time.h"
 
 #include <gtest/gtest.h>

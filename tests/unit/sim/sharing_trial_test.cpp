@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/schedule/sharing_trial.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/motion/side_walls.h"
 
 #include <gtest/gtest.h>

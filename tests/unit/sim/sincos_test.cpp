@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "base/core/sincos.h"
 
 #include <gtest/gtest.h>

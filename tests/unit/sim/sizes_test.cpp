@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // Rods of one species that differ in size: their sizes, how many there are of each, and which rod has which.
 #include "sim/rod/sizes.h"
 

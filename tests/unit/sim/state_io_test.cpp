@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "base/core/state_io.h"
 
 #include <gtest/gtest.h>

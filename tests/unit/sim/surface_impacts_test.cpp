@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/tick/surface_impacts.h"
 
 #include <gtest/gtest.h>

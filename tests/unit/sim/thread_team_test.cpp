@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "base/core/thread_team.h"
 
 #include <gtest/gtest.h>

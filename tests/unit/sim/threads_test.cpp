@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The short form of what steppers_agree_test does at length: small enough for the thread sanitizer.
 #include <gtest/gtest.h>
 

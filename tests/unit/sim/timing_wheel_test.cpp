@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/schedule/timing_wheel.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "sim/stepping/work_counts.h"
 
 #include <gtest/gtest.h>

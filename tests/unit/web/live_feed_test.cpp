@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "web/live_feed.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "web/recorded_run.h"
 
 #include <gmock/gmock.h>

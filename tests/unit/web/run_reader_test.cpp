@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // With the program shaken-web itself as the reader.
 #include "web/run_reader.h"
 

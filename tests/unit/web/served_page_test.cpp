@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "web/served_page.h"
 
 #include <gtest/gtest.h>

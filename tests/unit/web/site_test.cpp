@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The contract of docs/web.md, over a real port, with a daemon whose answers are laid down.
 #include "web/site.h"
 

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "base/keys/units.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include "client/watch/screen_writer.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 #include <glib.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // A relay on 127.0.0.1 with LCM's own clients, and with sockets that do what no client should.
 #include "proto/relay/relay.h"
 

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: MIT
 // The executor with stand-ins for Slurm's programs, which do as files beside them say. The real Slurm: tests/cluster.
 #include "server/slurm/slurm_executor.h"
 
