@@ -147,7 +147,7 @@ def archive_file(run: DirectoryRun, sweeps: Iterable[str] = ()) -> bytes:
 _Small = tuple[float, np.ndarray, np.ndarray, np.ndarray, int]
 
 
-def _packed(run: Run, sweeps: Iterable[str], arrays: dict[str, tuple[np.ndarray, str]],
+def _packed(run: Run, sweeps: Iterable[str], arrays: dict[str, tuple[np.ndarray, str | None]],
             snapshots: list[_Small]) -> bytes:
     data = bytearray()
     header: dict[str, Any] = {"format": _FORMAT, "sweeps": sorted(set(sweeps)), "parameters": run.parameters,
@@ -186,14 +186,15 @@ def _kept_summary(summary: dict[str, Any]) -> dict[str, Any]:
     return short({key: value for key, value in summary.items() if key not in ("why_null", "files")})
 
 
-def _kept_arrays(run: Run) -> dict[str, tuple[np.ndarray, str]]:
-    kept: dict[str, tuple[np.ndarray, str]] = {}
+def _kept_arrays(run: Run) -> dict[str, tuple[np.ndarray, str | None]]:
+    kept: dict[str, tuple[np.ndarray, str | None]] = {}
     for name, array in run.arrays.items():
         values = np.asarray(array)
         if name.startswith("/rods/trace/"):
-            values = _trace(name, values, np.asarray(run.arrays["/rods/trace/time_s"]))
-            if values is None:
+            trace = _trace(name, values, np.asarray(run.arrays["/rods/trace/time_s"]))
+            if trace is None:
                 continue
+            values = trace
         elif name in ("/pairs/g", "/pairs/g2"):
             values = folded(values)
         elif name.startswith(_NO_FIGURE):

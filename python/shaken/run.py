@@ -46,7 +46,7 @@ class Array(np.ndarray):
 
     name: str
     unit: str | None
-    axis: "Array | tuple[Array, ...] | None"
+    axis: Any
     error: "Array | None"
 
     def __new__(cls, values: Any, name: str = "", unit: str | None = None) -> "Array":

@@ -273,7 +273,7 @@ def results(source: "Daemon | str | Path | None" = None, sweep: str | None = Non
     name = daemon.ask("GET", "/v1/sweeps/" + quoted(sweep))["sweep"]["name"]
 
     def runs() -> Iterator[tuple[Mapping[str, Any], Run | None]]:
-        for row in daemon.rows(sweep):
+        for row in daemon.rows(str(sweep)):
             summary = row.get("summary") or {}
             done = summary and has_results(row["state"], summary)
             yield row["parameters"], DirectoryRun(row["directory"], row["parameters"]) if done else None

@@ -1,8 +1,8 @@
 // Up to four runs side by side, live or recorded, on one clock.
-import {ask, byId, complain, fetched, make, number} from "/page/dom.js";
-import {Newest} from "/page/loader.js";
-import {suitingColouring} from "/page/painter.js";
-import {RodCanvas, kWhole, unpack} from "/page/rods.js";
+import {ask, byId, complain, fetched, make, number} from "./dom.js";
+import {Newest} from "./loader.js";
+import {suitingColouring} from "./painter.js";
+import {RodCanvas, kWhole, unpack} from "./rods.js";
 
 export const kMostBeside = 4;
 const kPlayEvery = 50;   // ms
@@ -14,9 +14,9 @@ export function differences(jobs) {
   const keys = [...new Set(jobs.flatMap((job) => Object.keys(job.parameters)))], last = (key) => key.split(".").at(-1);
   const named = (key) => (keys.filter((other) => last(other) === last(key)).length > 1 ? key : last(key));
   const valued = (value) => (typeof value === "number" ? number(value, 6) : value ?? "as in the scene");
-  const facts = jobs.map((job) => new Map([
+  const facts = jobs.map((job) => new Map(/** @type {[string, string][]} */ ([
     ...keys.map((key) => [key, `${named(key)} = ${valued(job.parameters[key])}`]),
-    ["sweep", `sweep ${job.sweep}`], ["replica", `replica ${job.replica}`]]));
+    ["sweep", `sweep ${job.sweep}`], ["replica", `replica ${job.replica}`]])));
   const differ = [...(facts[0]?.keys() ?? [])].filter((key) => new Set(facts.map((fact) => fact.get(key))).size > 1);
   return facts.map((fact) => differ.map((key) => fact.get(key)).join(", "));
 }
@@ -24,7 +24,10 @@ export function differences(jobs) {
 class Pane {
   /** `seen` has the view of all panes, and draws them: {view, draw()}. */
   constructor(id, palettes, leave, seen) {
-    Object.assign(this, {id, job: null, recorded: null, frame: null, kind: "", nextAsk: 0});
+    this.id = id;
+    this.job = this.recorded = this.frame = null;
+    this.kind = "";
+    this.nextAsk = 0;
     this.newest = new Newest((wish) => this.fetch(wish));
     this.title = make("h3", {}, id.slice(0, 8));
     this.note = make("p", {className: "note"});
@@ -42,7 +45,8 @@ class Pane {
   async ask() {
     this.nextAsk = performance.now() + kAskEvery;
     const [{job}, recorded] = await Promise.all([ask(`/v1/jobs/${this.id}`), ask(`/runs/${this.id}/frames`).catch(() => null)]);
-    Object.assign(this, {job, recorded: recorded?.n > 0 ? recorded : null});
+    this.job = job;
+    this.recorded = recorded?.n > 0 ? recorded : null;
   }
 
   /** The frame of `path`, shown as soon as it is there. */
@@ -70,7 +74,12 @@ class Pane {
 export class BesidePanel {
   /** `change(ids)` is called when a run is taken away. */
   constructor(change) {
-    Object.assign(this, {change, ids: [], panes: [], time: 0, isLive: false, playing: 0});
+    this.change = change;
+    this.palettes = null;
+    this.ids = [];
+    this.panes = [];
+    this.time = this.playing = 0;
+    this.isLive = false;
     this.seen = {view: {...kWhole}, draw: () => this.draw()};
     byId("beside-orbit").onclick = () => this.panes[0]?.canvas.toggleOrbit();
     window.shakenBeside = this;  // for whoever looks at it with the browser's tools

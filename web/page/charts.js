@@ -1,6 +1,6 @@
 // Curves and maps, drawn by Chart.js (the global Chart of /chart.js).
 
-import {colour, number, onTheme} from "/page/dom.js";
+import {colour, number, onTheme} from "./dom.js";
 
 /** Viridis (van der Walt & Smith 2015) at nine places, for values from low (0) to high (1). */
 const kViridis = ["#440154", "#472d7b", "#3b528b", "#2c728e", "#21918c", "#28ae80", "#5ec962", "#addc30", "#fde725"];

@@ -1,6 +1,6 @@
 // The few things that every part of the page needs. Text that came from outside is only ever set as text.
 
-export const byId = (id) => document.getElementById(id);
+export const byId = (id) => /** @type {any} */ (document.getElementById(id));
 
 /** An element with properties and children: make("button", {type: "button", onclick: f}, "Hold"). */
 export function make(name, properties = {}, ...children) {

@@ -1,7 +1,7 @@
 // The table of a sweep's jobs: all of them, filtered and sorted; only the rows that are seen are elements of the page.
-import {byId, make, number, replaceIfOther} from "/page/dom.js";
-import {actionButtons} from "/page/queue.js";
-import {errorOf, kSteadiness, markOf, valueText} from "/page/results.js";
+import {byId, make, number, replaceIfOther} from "./dom.js";
+import {actionButtons} from "./queue.js";
+import {errorOf, kSteadiness, markOf, valueText} from "./results.js";
 
 const kRow = 28;     // px: the height of a row (page.css)
 const kBeyond = 8;   // rows above and below those that are seen
@@ -34,7 +34,11 @@ export class JobTable {
 
   /** jobs: as the daemon has them; rows: results by job; value: the name of the one that is shown. */
   set(jobs, rows, value, chosen, beside) {
-    Object.assign(this, {jobs, rows, value, chosen, beside});
+    this.jobs = jobs;
+    this.rows = rows;
+    this.value = value;
+    this.chosen = chosen;
+    this.beside = beside;
     this.list();
   }
 
@@ -58,7 +62,7 @@ export class JobTable {
     const {column, descending} = this.order, sign = descending ? -1 : 1;
     const valueOf = (job) => this.rows.get(job.id)?.values[this.value] ?? NaN;
     if (column === "value") {  // what has no value comes last, whichever way
-      listed.sort((a, b) => Number.isNaN(valueOf(a)) - Number.isNaN(valueOf(b)) || sign * (valueOf(a) - valueOf(b)) || 0);
+      listed.sort((a, b) => Number(Number.isNaN(valueOf(a))) - Number(Number.isNaN(valueOf(b))) || sign * (valueOf(a) - valueOf(b)) || 0);
     } else if (column) {
       listed.sort((a, b) => sign * String(a[column]).localeCompare(String(b[column]), undefined, {numeric: true}));
     }
@@ -137,6 +141,6 @@ export class JobTable {
     if (top < frame.scrollTop) frame.scrollTop = top;
     if (top + kRow > frame.scrollTop + seen) frame.scrollTop = top + kRow - seen;
     this.draw();
-    [...this.body.children].find((row) => row.at === at)?.focus();
+    [.../** @type {any} */ (this.body.children)].find((row) => row.at === at)?.focus();
   }
 }

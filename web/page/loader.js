@@ -1,6 +1,9 @@
 /** Does one thing at a time: `act(wish)`. Of what is wished for meanwhile only the newest is done. */
 export class Newest {
-  constructor(act) { Object.assign(this, {act, isBusy: false, wish: null}); }
+  isBusy = false;
+  wish = null;
+
+  constructor(act) { this.act = act; }
 
   async want(wish) {
     this.wish = wish;

@@ -1,10 +1,10 @@
 // The page: which sweep and which runs are looked at, and who is told when that changes.
-import {BesidePanel, kMostBeside} from "/page/beside.js";
-import {byId, complain, listen} from "/page/dom.js";
-import {QueuePanel} from "/page/queue.js";
-import {SweepPanel} from "/page/sweep.js";
-import {RunPanel} from "/page/run.js";
-import {SubmitForm} from "/page/submit.js";
+import {BesidePanel, kMostBeside} from "./beside.js";
+import {byId, complain, listen} from "./dom.js";
+import {QueuePanel} from "./queue.js";
+import {SweepPanel} from "./sweep.js";
+import {RunPanel} from "./run.js";
+import {SubmitForm} from "./submit.js";
 
 const run = new RunPanel();
 const sweep = new SweepPanel((id, isBeside) => (isBeside ? putBeside(id) : choose({run: id})));
@@ -32,12 +32,14 @@ function putBeside(id) {
 byId("map-pictures").onclick = () => choose({pictures: "pictures" in chosen() ? "" : "1"});
 byId("run-beside").onclick = () => { if (chosen().run) putBeside(chosen().run); };
 
+const tabs = /** @type {HTMLElement[]} */ ([...document.querySelectorAll("#tabs button")]);
+
 /** Of a narrow screen, which shows one of the three. */
 function showTab(tab) {
   document.querySelector("main").dataset.tab = tab;
-  for (const button of document.querySelectorAll("#tabs button")) button.setAttribute("aria-pressed", button.dataset.tab === tab);
+  for (const button of tabs) button.setAttribute("aria-pressed", button.dataset.tab === tab);
 }
-for (const button of document.querySelectorAll("#tabs button")) button.onclick = () => showTab(button.dataset.tab);
+for (const button of tabs) button.onclick = () => showTab(button.dataset.tab);
 showTab("sweep");
 
 function choose(change) {

@@ -1,8 +1,8 @@
 // The phase diagram of a sweep, which fills in as runs finish.
-import {byId, colour, complain, make, number, offer, onTheme, replaceIfOther} from "/page/dom.js";
-import {PointMap, sequential, strip} from "/page/charts.js";
-import {PictureMap} from "/page/pictures.js";
-import {kSteadiness, pointLines, pointsOf, sweptParameters} from "/page/results.js";
+import {byId, colour, complain, make, number, offer, onTheme, replaceIfOther} from "./dom.js";
+import {PointMap, sequential, strip} from "./charts.js";
+import {PictureMap} from "./pictures.js";
+import {kSteadiness, pointLines, pointsOf, sweptParameters} from "./results.js";
 
 const kPreferred = ["order.mean", "measured.theta_m_deg.value", "n_rods"];
 const sorted = (set) => [...set].sort((a, b) => a.localeCompare(b));
@@ -28,7 +28,11 @@ export class PhaseMap {
   }
 
   clear(sweep) {
-    Object.assign(this, {sweep, rows: [], swept: [], beside: [], axes: {x: "", y: null, value: "", fixed: {}}});
+    this.sweep = sweep;
+    this.rows = [];
+    this.swept = [];
+    this.beside = [];
+    this.axes = {x: "", y: null, value: "", fixed: {}};
     for (const place of ["map-choices", "map-scale"]) replaceIfOther(byId(place), "", () => []);
     this.draw("");
   }

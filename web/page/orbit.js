@@ -1,7 +1,7 @@
 // Rods by WebGL2 as bodies between their plates, in perspective from anywhere above: as `shaken picture --view orbit` has it.
-import {colour as cssColour} from "/page/dom.js";
-import {attribute, fill, kColourOf, newProgram, rgb, useForRods} from "/page/gl.js";
-import {kUpright, periodOf} from "/page/plane.js";
+import {colour as cssColour} from "./dom.js";
+import {attribute, fill, kColourOf, newProgram, rgb, useForRods} from "./gl.js";
+import {kUpright, periodOf} from "./plane.js";
 
 const kSegments = 10;    // around a rod
 const kTangent = 0.27;   // of half the angle of view
@@ -77,8 +77,8 @@ export function matrixOf({eye, right, up, forward, half, distance, radius}) {
 
 /** A body of revolution: corners on rings from one tip to the other, as kVertex has them, and triangles between them. */
 function bodyOfRings() {
-  const cap = [[1, 0], [0.71, 0.71], [0, 1]], ends = (sign, [along, radius]) => [sign, sign * along, radius];
-  const rings = [...cap.map((ring) => ends(-1, ring)), [0, 0, 1], ...cap.toReversed().map((ring) => ends(1, ring))];
+  const cap = [[1, 0], [0.71, 0.71], [0, 1]], ends = (sign, /** @type {number[]} */ [along, radius]) => [sign, sign * along, radius];
+  const rings = [...cap.map((ring) => ends(-1, ring)), [0, 0, 1], ...[...cap].reverse().map((ring) => ends(1, ring))];
   const corners = rings.flatMap((ring) => Array.from({length: kSegments}, (_, i) => [...ring, 2 * Math.PI * i / kSegments]));
   const triangles = [];
   for (let k = 0; k + 1 < rings.length; ++k) {
@@ -128,7 +128,10 @@ export function placesOf({n_rods, box_mm: [width, height], gap_mm, x, y, z, head
 
 export class OrbitPainter {
   constructor(gl, palettes) {
-    Object.assign(this, {gl, palettes, bodies: newProgram(gl, kVertex, kFragment), plates: newProgram(gl, kPlateVertex, kPlateFragment)});
+    this.gl = gl;
+    this.palettes = palettes;
+    this.bodies = newProgram(gl, kVertex, kFragment);
+    this.plates = newProgram(gl, kPlateVertex, kPlateFragment);
     const {corners, triangles} = bodyOfRings();
     this.nIndices = triangles.length;
     this.vertices = gl.createVertexArray();
@@ -151,7 +154,8 @@ export class OrbitPainter {
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.smooth);
     const samples = Math.min(wanted, gl.getParameter(gl.MAX_SAMPLES));
     if (size !== this.size || samples !== this.samples) {
-      Object.assign(this, {size, samples});
+      this.size = size;
+      this.samples = samples;
       for (const [layer, format, place] of [[this.layers[0], gl.RGBA8, gl.COLOR_ATTACHMENT0],
                                             [this.layers[1], gl.DEPTH_COMPONENT24, gl.DEPTH_ATTACHMENT]]) {
         gl.bindRenderbuffer(gl.RENDERBUFFER, layer);

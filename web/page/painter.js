@@ -1,8 +1,8 @@
 // Rods by WebGL2, from above: one small rectangle for each, in which its outline is drawn.
-import {colour as cssColour} from "/page/dom.js";
-import {attribute, fill, kColourOf, makeTextures, newProgram, rgb, useForRods} from "/page/gl.js";
-import {OrbitPainter} from "/page/orbit.js";
-import {kUpright, periodOf, toNearest} from "/page/plane.js";
+import {colour as cssColour} from "./dom.js";
+import {attribute, fill, kColourOf, makeTextures, newProgram, rgb, useForRods} from "./gl.js";
+import {OrbitPainter} from "./orbit.js";
+import {kUpright, periodOf, toNearest} from "./plane.js";
 
 const kVertex = `
 layout(location = 0) in vec2 corner;
@@ -92,6 +92,7 @@ export class RodPainter {
     this.gl = canvas.getContext("webgl2", {antialias: false, preserveDrawingBuffer: true});
     if (!this.gl) throw new Error("this browser has no WebGL2, by which rods are drawn");
     this.program = newProgram(this.gl, kVertex, kFragment);
+    this.orbit = null;
     this.makeBuffers();
     makeTextures(this.gl, palettes);
   }

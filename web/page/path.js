@@ -1,12 +1,14 @@
 // The path of one rod over the picture, and its n_z(t), from the recorded frames before the present one.
-import {Curve} from "/page/charts.js";
-import {ask, byId} from "/page/dom.js";
-import {Loader} from "/page/loader.js";
+import {Curve} from "./charts.js";
+import {ask, byId} from "./dom.js";
+import {Loader} from "./loader.js";
 
 export class RodPath {
   /** `now()` is {run, frame}: what is shown, with the number of the recorded frame, or "last". */
   constructor(canvas, now) {
-    Object.assign(this, {canvas, now, rod: -1});
+    this.canvas = canvas;
+    this.now = now;
+    this.rod = -1;
     this.chart = new Curve(byId("rod-chart"), "t (s)", "n_z");
     this.loader = new Loader(() => this.load(), 200);
   }

@@ -1,8 +1,8 @@
 // The phase diagram in pictures: each point shows the newest frame of its run.
-import {ask, byId, complain, fetched, make, number, onTheme} from "/page/dom.js";
-import {RodPainter, suitingColouring} from "/page/painter.js";
-import {pointLines} from "/page/results.js";
-import {unpack} from "/page/rods.js";
+import {ask, byId, complain, fetched, make, number, onTheme} from "./dom.js";
+import {RodPainter, suitingColouring} from "./painter.js";
+import {pointLines} from "./results.js";
+import {unpack} from "./rods.js";
 
 const kPause = 150;     // ms between two loads, of which there is never more than one
 const kRenewed = 3000;  // ms after which the picture of a run at work is loaded again
@@ -15,10 +15,13 @@ const shownOf = (point, stateOf) => ["running", "done"].map((state) => point.job
 export class PictureMap {
   /** `choose(id)` is called when a picture is clicked. */
   constructor(choose) {
-    Object.assign(this, {chooseJob: choose, cells: [], grid: null, isOn: false, large: null, painter: null});
+    this.chooseJob = choose;
+    this.cells = [];
+    this.isOn = false;
+    this.grid = this.large = this.painter = null;
     this.frame = byId("pictures");
     this.sight = new IntersectionObserver((entries) => {
-      for (const {target, isIntersecting} of entries) this.see(target.cell, isIntersecting);
+      for (const {target, isIntersecting} of entries) this.see(/** @type {any} */ (target).cell, isIntersecting);
     });
     this.frame.addEventListener("keydown", (event) => this.key(event));
     onTheme(() => this.cells.forEach((cell) => (cell.frame ? this.paint(cell) : cell.stamp = "")));

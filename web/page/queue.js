@@ -1,5 +1,5 @@
 // The list of sweeps, and what can be asked of them and of their jobs.
-import {ask, byId, complain, duration, make} from "/page/dom.js";
+import {ask, byId, complain, duration, make} from "./dom.js";
 
 /** "3 done, 2 running" of {state: n}. */
 export const countsText = (counts) =>

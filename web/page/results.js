@@ -1,5 +1,5 @@
 // Numbers of runs: their errors, their marks and their means over replicas, by the rules of `shaken results`.
-import {number} from "/page/dom.js";
+import {number} from "./dom.js";
 
 /** Numbers of a summary by path: {"order.mean": 0.9, ...}. */
 export function leaves(object, prefix = "", found = {}) {

@@ -1,7 +1,7 @@
 // Frames of rods on a canvas that can be zoomed and moved.
-import {colour as cssColour, onTheme} from "/page/dom.js";
-import {RodPainter, suitingColouring} from "/page/painter.js";
-import {kUpright, periodOf, toNearest} from "/page/plane.js";
+import {colour as cssColour, onTheme} from "./dom.js";
+import {RodPainter, suitingColouring} from "./painter.js";
+import {kUpright, periodOf, toNearest} from "./plane.js";
 
 /** A frame out of the bytes of docs/web.md. Throws where they contradict themselves. */
 export function unpack(buffer) {
@@ -60,6 +60,7 @@ export class RodCanvas {
     this.colouring = "auto";
     this.automatic = "";
     this.view = {...kWhole};  // may be shared with other canvases: it is changed in its place
+    this.onRod = null;  // what there is to say of a rod that is pointed at, and its number
     this.onView = () => this.draw();
     this.framesDrawn = 0;
     this.painter = new RodPainter(canvas, palettes);
@@ -138,7 +139,7 @@ export class RodCanvas {
   }
 
   /** Round the middle of the arena, at (x, y) in pixels. */
-  drawWalls(context, {arena, size_mm, inner_mm, length_mm = 0, narrow_mm = 0}, [x, y], perMm, size) {
+  drawWalls(context, {arena, size_mm, inner_mm, length_mm = 0, narrow_mm = 0}, /** @type {number[]} */ [x, y], perMm, size) {
     const [radius, end, narrow] = [size_mm, length_mm, narrow_mm].map((mm) => mm * perMm / 2), quarter = Math.PI / 2;
     context.strokeStyle = cssColour("edge");
     context.lineWidth = 2;

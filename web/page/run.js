@@ -1,11 +1,11 @@
 // The chosen run: its rods, live or recorded, S(t), P(theta) and its files.
-import {ask, byId, bytes, complain, duration, fetched, make, number, replaceIfOther, save} from "/page/dom.js";
-import {actionButtons} from "/page/queue.js";
-import {Curve, strip} from "/page/charts.js";
-import {Newest} from "/page/loader.js";
-import {RodPath} from "/page/path.js";
-import {ShownFile} from "/page/shown.js";
-import {RodCanvas, angleToDirector, unpack, unpackText} from "/page/rods.js";
+import {ask, byId, bytes, complain, duration, fetched, make, number, replaceIfOther, save} from "./dom.js";
+import {actionButtons} from "./queue.js";
+import {Curve, strip} from "./charts.js";
+import {Newest} from "./loader.js";
+import {RodPath} from "./path.js";
+import {ShownFile} from "./shown.js";
+import {RodCanvas, angleToDirector, unpack, unpackText} from "./rods.js";
 
 const kBins = 36;
 const kPlayEvery = 50;  // ms

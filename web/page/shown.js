@@ -1,6 +1,6 @@
 // A picture or a film of the chosen run, in its place on the page until it is saved or closed.
-import {byId, fetched, make, offer} from "/page/dom.js";
-import {Newest} from "/page/loader.js";
+import {byId, fetched, make, offer} from "./dom.js";
+import {Newest} from "./loader.js";
 
 export class ShownFile {
   constructor() {

@@ -1,6 +1,6 @@
 // The form in which scenes and sweeps are written, checked and submitted. Only a text that the daemon has found good can
 // be submitted: each change of it asks for another check.
-import {ask, byId, bytes, complain, duration, make, number} from "/page/dom.js";
+import {ask, byId, bytes, complain, duration, make, number} from "./dom.js";
 
 const kLargest = 8 << 20;  // bytes of a file; the daemon takes no larger ones
 const cpuText = (seconds) => (seconds < 10 ? `${number(seconds, 2)} s` : duration(seconds));
@@ -73,10 +73,8 @@ export class SubmitForm {
   }
 
   request() {
-    const request = {text: byId("submit-text").value, file: this.file};
-    if (byId("submit-name").value) request.name = byId("submit-name").value;
-    if (byId("submit-replicas").value) request.replicas = Number(byId("submit-replicas").value);
-    return request;
+    const name = byId("submit-name").value, replicas = byId("submit-replicas").value;
+    return {text: byId("submit-text").value, file: this.file, ...(name && {name}), ...(replicas && {replicas: Number(replicas)})};
   }
 
   isChecked() { return this.checked !== "" && this.checked === JSON.stringify(this.request()); }

@@ -1,10 +1,10 @@
 // The chosen sweep: its phase diagram and the table of its jobs.
-import {ask, byId, complain, replaceIfOther} from "/page/dom.js";
-import {JobTable} from "/page/jobs.js";
-import {Loader} from "/page/loader.js";
-import {PhaseMap} from "/page/map.js";
-import {actionButtons, countsText} from "/page/queue.js";
-import {leaves} from "/page/results.js";
+import {ask, byId, complain, replaceIfOther} from "./dom.js";
+import {JobTable} from "./jobs.js";
+import {Loader} from "./loader.js";
+import {PhaseMap} from "./map.js";
+import {actionButtons, countsText} from "./queue.js";
+import {leaves} from "./results.js";
 
 /** A sweep of more jobs has no map here, and its table no values: their summaries would fill the browser. */
 const kMostResults = 5000;
@@ -23,7 +23,9 @@ export class SweepPanel {
   }
 
   forget() {
-    Object.assign(this, {jobs: [], rows: new Map(), seen: ""});
+    this.jobs = [];
+    this.rows = new Map();
+    this.seen = "";
   }
 
   choose(id, run, beside, inPictures) {

@@ -56,7 +56,7 @@ class PowerLaw(NamedTuple):
         return self.coefficient * x**self.order
 
 
-def power_law(x: Sequence[float], y: Sequence[float], floor: float = 0.0) -> PowerLaw | None:
+def power_law(x: Any, y: Any, floor: float = 0.0) -> PowerLaw | None:
     """Through the asymptotic part of `y` at rising `x`; None if fewer than LEAST points count."""
     x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
     counts = (y > 0) & (y >= ABOVE_FLOOR * floor)

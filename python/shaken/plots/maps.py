@@ -2,7 +2,7 @@
 density in time (`measure.density`)."""
 from __future__ import annotations
 
-from typing import Iterator, Mapping, Sequence
+from typing import Any, Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -40,7 +40,7 @@ def _director(panel: Panel, x: np.ndarray, y: np.ndarray, cosine: np.ndarray, si
 
 
 def _arrows(panel: Panel, x: np.ndarray, y: np.ndarray, u: np.ndarray, v: np.ndarray, longest: float,
-            look: Mapping[str, object]) -> None:
+            look: Mapping[str, Any]) -> None:
     """Arrows on some of the places; one of the length `longest` reaches to the next."""
     each = -(-len(x) // _MOST_MARKS)
     some = slice(len(x) // 2 % each, None, each)
@@ -50,7 +50,7 @@ def _arrows(panel: Panel, x: np.ndarray, y: np.ndarray, u: np.ndarray, v: np.nda
 
 
 def _panels(sheet: Sheet, k: int, runs: Sequence[Mapping[str, np.ndarray]], prefix: str, charge: str,
-            limits: Mapping[str, tuple[float, float]]) -> tuple[object, object]:
+            limits: Mapping[str, tuple[float, float]]) -> tuple[Any, Any]:
     x, y = (np.asarray(runs[0][prefix + axis]) for axis in AXES)
     maps = {value: _mean(runs, f"{prefix}{GROUP}/{charge}/{value}", (len(y), len(x))) for value in VALUES}
     upper, lower = sheet[k], sheet[k + 2]

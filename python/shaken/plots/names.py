@@ -22,7 +22,7 @@ _POWERS = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 
 def unit_text(unit: str) -> str:
     """A unit in print: "mm²/s" of "mm2 s-1", "1/mm" of "mm-1", nothing of "1"."""
-    above, below = [], []
+    above, below = list[str](), list[str]()
     for word in unit.split():
         match = re.fullmatch(r"([^0-9^-]+)\^?(-?[0-9]+)?", word)
         if match is None:

@@ -361,8 +361,7 @@ class Panel:
         self.entries.append((_handle("none", "", True, "-"), text))
         return self
 
-    def record(self, curve: str, x: Sequence[float], y: Sequence[float], error: Sequence[float] | None = None,
-               z: Sequence[float] | None = None) -> None:
+    def record(self, curve: str, x: Any, y: Any, error: Any = None, z: Any = None) -> None:
         """Puts numbers into the CSV that were drawn with `axes`."""
         self.is_used = True
         self.drawn.append(Drawn(self.letter, curve, np.asarray(x, dtype=float), np.asarray(y, dtype=float), error,
@@ -409,29 +408,31 @@ class Panel:
         if seen.size == 0:
             return
         marks = np.concatenate(marked) if marked else np.array([])
-        forward = np.log10 if log else np.asarray
-        low, high = float(forward(seen.min())), float(forward(seen.max()))
+        def forward(number: Any) -> float:
+            return math.log10(number) if log else float(number)
+
+        least, most = forward(seen.min()), forward(seen.max())
         lower, upper = self._wanted[name]
-        bound_low = -math.inf if lower is None else float(forward(lower))
-        bound_high = math.inf if upper is None else float(forward(upper))
+        bound_low = -math.inf if lower is None else forward(lower)
+        bound_high = math.inf if upper is None else forward(upper)
         if self._exact[name]:
-            self._apply(name, bound_low if lower is not None else low, bound_high if upper is not None else high, log)
+            self._apply(name, bound_low if lower is not None else least, bound_high if upper is not None else most, log)
             return
-        if low == high:  # one point: axes around it
-            pad = 0.3 if log else 0.1 * abs(low) or 1.0
-            low, high = low - pad, high + pad
-        begin = low if lower is None else min(low, bound_low)
-        end = high if upper is None else max(high, bound_high)
+        if least == most:  # one point: axes around it
+            pad = 0.3 if log else 0.1 * abs(least) or 1.0
+            least, most = least - pad, most + pad
+        begin = least if lower is None else min(least, bound_low)
+        end = most if upper is None else max(most, bound_high)
         span = end - begin
         pad = self.padding * (0.05 if name == "x" else 0.06) * span
         # A line may begin at an axis; a mark, or the end of a bar, may not. Above and below all keep some distance.
-        mark_low = float(forward(marks.min())) if marks.size else math.inf
-        mark_high = float(forward(marks.max())) if marks.size else -math.inf
+        mark_low = forward(marks.min()) if marks.size else math.inf
+        mark_high = forward(marks.max()) if marks.size else -math.inf
         if name == "x" and self._number_room:
             end += 0.16 * span  # numbers stand to the right of their marks
         soft_low = name == "y" and lower is None or mark_low < begin + pad
         soft_high = name == "y" and upper is None or mark_high > end - pad
-        if name == "y" and upper is not None and high > end - 0.02 * span:
+        if name == "y" and upper is not None and most > end - 0.02 * span:
             soft_high = True
         self._apply(name, begin - pad if soft_low else begin, end + pad if soft_high else end, log)
 

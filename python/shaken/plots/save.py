@@ -24,9 +24,8 @@ _MANY_BYTES = 500_000  # of a PNG
 class Drawn:
     """The numbers of a curve or a map, as they go into the CSV."""
 
-    def __init__(self, panel: str, curve: str, x: Sequence[float], y: Sequence[float],
-                 error: Sequence[float] | None = None, steady: Sequence[bool | None] | None = None,
-                 z: Sequence[float] | None = None) -> None:
+    def __init__(self, panel: str, curve: str, x: Any, y: Any, error: Any = None,
+                 steady: Sequence[bool | None] | None = None, z: Any = None) -> None:
         self.panel, self.curve, self.x, self.y, self.error, self.steady, self.z = panel, curve, x, y, error, steady, z
 
 

@@ -201,7 +201,7 @@ class Sheet:
 
     def _share_keys(self) -> None:
         """Of two panels with the same key the later one needs none."""
-        met: list[list[tuple[Any, ...]]] = []
+        met: list[Any] = []
         for one in self.panels:
             looks = [(str(handle.get_color()), handle.get_marker(), str(handle.get_markerfacecolor()), label)
                      for handle, label in one.entries]

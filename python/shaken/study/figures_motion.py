@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -124,7 +125,7 @@ def diffusion(material: Material) -> Sheet:
         draw_curves(sheet[2 * k].scale("log", "log"), runs, f"/msd/{direction}_mm2", scale, title=title)
         panel = sheet[2 * k + 1].titles(names.axis_title(PACKING), "D (mm²/s)", title)
         draw_points(panel, runs.points(PACKING, short_limit), "t → 0", 0)
-        late = points_of(runs, PACKING, lambda here, way=direction: long_time_diffusion(here, way))
+        late = points_of(runs, PACKING, partial(long_time_diffusion, direction=direction))
         if direction == "total":
             _draw_readings(panel, material.evidence, late)
         else:

@@ -27,7 +27,7 @@ def start(material: Material) -> Sheet:
     scale = packing_scale(runs)
     for packing in runs.values(PACKING):
         order = runs.at(packing=packing)[0]["/order/order"]
-        panel.curve(order.axis, order, colour=scale(packing), look="line")
+        panel.curve(order.axis, order, colour=scale and scale(packing), look="line")
     panel.range(y=(0, 1)).reference(x=400, label="the paper: steady")
     sheet.colourbar(scale, [panel])
     material.stamp(panel, "steady-state")
@@ -79,7 +79,7 @@ def order_statistics(material: Material) -> Sheet:
         here = runs.at(packing=packing)
         places, density, samples = pooled_density(here)
         if samples:
-            panel.curve(places, density / density.max(), colour=scale(packing), look="line",
+            panel.curve(places, density / density.max(), colour=scale and scale(packing), look="line",
                         steady=here.number("S").steady)
     panel.range((0, 1), (0, 1.05))
     sheet.colourbar(scale, [panel])

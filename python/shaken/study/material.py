@@ -89,7 +89,7 @@ def draw_curve(panel: Panel, runs: Runs, array: str, label: str = "", colour: An
     found = runs.curve(array)
     if found is not None:
         x, y, error = found
-        chosen = seen(error) if seen else slice(None)
+        chosen: Any = seen(error) if seen else slice(None)
         panel.curve(x[chosen], y[chosen], error[chosen], label=label, colour=colour, look=look, **more)
 
 

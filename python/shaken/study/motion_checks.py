@@ -2,6 +2,8 @@
 from __future__ import annotations
 
 import math
+from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -25,7 +27,7 @@ LEVEL = 0.05
 PAPERS_PARABOLA = (1.7, 480.0, 0.64)
 
 
-def papers_diffusion(packing: float) -> float:
+def papers_diffusion(packing: Any) -> Any:
     """The paper's fit to D of rods of 2.5 mm [mm2/s]."""
     d0, c, phi0 = PAPERS_PARABOLA
     return d0 + c * (packing - phi0) ** 2
@@ -132,7 +134,7 @@ def forgets_the_start(evidence: Evidence) -> Finding:
         return Estimate(float(first.mean() / late.mean()), steady=True) if len(first) else Estimate(reason="too rare")
 
     for runs in by(evidence["forgetting"], LENGTH, PACKING):
-        plane, vertical = (runs.of(lambda run, name=name: over_the_end(run, f"/temperatures/{name}_pJ"))
+        plane, vertical = (runs.of(partial(over_the_end, name=f"/temperatures/{name}_pJ"))
                            for name in ("horizontal", "vertical"))
         where = f"ℓ = {key_of(runs[0], LENGTH):g} mm, φ = {key_of(runs[0], PACKING):g}"
         answers.append(close_to(plane, 1, 0.1).placed(where))

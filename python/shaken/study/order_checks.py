@@ -82,7 +82,8 @@ def short_rods_do_not_order(evidence: Evidence) -> Finding:
     runs = evidence.joined("short-rods", "phases", "no-order", "diffusion", "mechanism")
     answers, found = [], []
     for length in (2.5, 3.0):
-        largest = widest = None
+        largest: tuple[Estimate, float, float] | None = None
+        widest = largest
         if runs and not runs.at(length):
             answers.append(unknown(NOT_RUN).placed(f"ℓ = {length:g} mm"))
         for packing in runs.at(length).values(PACKING):

@@ -221,23 +221,26 @@ def sections(evidence: Evidence, folder: str = "figures", pages: str = "validati
     def link(statement: Statement) -> str:
         return f"[{statement.figure}]({pages}/{page_of(statement).name}.md)"
 
-    on_pages = {id_ for page in PAGES for id_ in page.figures}
-    beyond = [figure for figure in FIGURES if figure.id not in on_pages]
+    beyond = [figure for figure in FIGURES if not any(figure.id in page.figures for page in PAGES)]
+
+    def page_of_statements(page: Page) -> str:
+        return content(page, images(evidence, page.drawn, folder), found())
+
     return {"origin": lambda: origin(evidence), "tally": lambda: _tally(found()),
             "questions": lambda: questions(found()),
             "claims": lambda: as_table(found(), link), "phases": lambda: phases(evidence),
             "sweeps": lambda: sets_table(evidence), "index": lambda: index(found(), pages),
             "figures beyond": lambda: "\n".join(images(evidence, beyond, folder)),
-            **{page.name: lambda page=page: content(page, images(evidence, page.drawn, folder), found())
-               for page in PAGES},
+            **{page.name: functools.partial(page_of_statements, page) for page in PAGES},
             "strip": lambda: strip(evidence), "time step": lambda: differences(evidence),
             "price of errors": lambda: prices(evidence), "next runs": lambda: open_questions(evidence),
             "open": lambda: open_statements(evidence, found()),
             "other program": lambda: other_program(data / "other-program.json"),
-            **{name: lambda make=make: make(evidence) for name, make in SECTIONS.items()}}
+            **{name: functools.partial(make, evidence) for name, make in SECTIONS.items()}}
 
 
 _MARK = r"<!-- (.+?): (?:begin|end) -->"
+_SECTION = r"(<!-- (.+?): begin -->).*?(<!-- \2: end -->)"
 
 
 def with_sections(document: str, known: Mapping[str, Callable[[], str]], where: str = "the report") -> str:
@@ -245,25 +248,17 @@ def with_sections(document: str, known: Mapping[str, Callable[[], str]], where: 
 
     Raises ShakenError where it has no marks, marks of a section that is not known, or only one of two.
     """
-    names = re.findall(_MARK, document)
-    problems = [f"{where} has marks of '{name}', which is no section" for name in dict.fromkeys(names)
-                if name not in known]
+    names = list(dict.fromkeys(re.findall(_MARK, document)))
+    whole = {name for _, name, _ in re.findall(_SECTION, document, re.S)}
+    problems = [f"{where} has marks of '{name}', which is no section" for name in names if name not in known]
     problems += [f"{where} lacks one of <!-- {name}: begin --> and <!-- {name}: end -->, or their order is wrong"
-                 for name in dict.fromkeys(names) if name in known and not re.search(_marks(name), document, re.S)]
+                 for name in names if name in known and name not in whole]
     if not names:
         problems.append(f"{where} has no marks: <!-- NAME: begin --> and <!-- NAME: end -->, where NAME is one of "
                         + ", ".join(known))
     if problems:
         raise ShakenError("\n".join(problems))
-    for name in dict.fromkeys(names):
-        text = known[name]().rstrip()
-        document = re.sub(_marks(name), lambda match, text=text: f"{match[1]}\n{text}\n{match[2]}", document,
-                          flags=re.S)
-    return document
-
-
-def _marks(name: str) -> str:
-    return rf"(<!-- {re.escape(name)}: begin -->).*?(<!-- {re.escape(name)}: end -->)"
+    return re.sub(_SECTION, lambda match: f"{match[1]}\n{known[match[2]]().rstrip()}\n{match[3]}", document, flags=re.S)
 
 
 def write_report(path: Path, evidence: Evidence) -> None:

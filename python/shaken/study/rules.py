@@ -128,7 +128,7 @@ def close_to(estimate: Estimate, target: float, tolerance: float) -> Answer:
     if why := doubt(estimate):
         return unknown(why)
     aways, spare = [value - target for value in _values(estimate)], margin(estimate)
-    if max(map(abs, aways)) + spare <= tolerance:
+    if max(abs(away) for away in aways) + spare <= tolerance:
         return YES
     is_off = min(aways) - spare > tolerance or max(aways) + spare < -tolerance
     return NO if is_off else unknown("the errors are too large")

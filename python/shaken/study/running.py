@@ -225,11 +225,11 @@ def run_plan(plan: Plan, daemon: Daemon, budget: float = math.inf, *, say: Calla
         if waiting and not any(job["state"] == "queued" and not _waits_for_start(job, jobs)
                                for job, _ in jobs.values()):
             name = waiting.pop(0)
-            sweep = plan.sweep_of_missing(name)
-            submitted = daemon.submit(sweep, name=sweep["name"], soft_limit_s=_SOFT_LIMIT, time_limit_s=_TIME_LIMIT)
+            missing = plan.sweep_of_missing(name)
+            submitted = daemon.submit(missing, name=missing["name"], soft_limit_s=_SOFT_LIMIT, time_limit_s=_TIME_LIMIT)
             daemon.ask("POST", f"/v1/sweeps/{submitted}/resume")  # of what was held when a budget had ended
-            at_work[submitted] = sweep["name"]
-            say(f"{sweep['name']}: {sum(point.set == name for point in plan.missing)} runs, about "
+            at_work[submitted] = missing["name"]
+            say(f"{missing['name']}: {sum(point.set == name for point in plan.missing)} runs, about "
                 f"{plan.cost(name) / 3600:.2f} CPU-h")
             continue
         if not waiting and all(job["ended"] or job["state"] == "held" for job, _ in jobs.values()):

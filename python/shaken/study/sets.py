@@ -97,7 +97,7 @@ def scaled(sweep: dict[str, Any], scale: Scale) -> dict[str, Any]:
     return found
 
 
-def _scaled_values(key: str, values: list[Any], scale: Scale, aspect: float, area: float) -> list[Any]:
+def _scaled_values(key: str, values: list[Any] | str, scale: Scale, aspect: float, area: float) -> list[Any] | str:
     """The values of a swept key at another scale, at which the boxes have `area` times their area."""
     if isinstance(values, str):
         return values  # a range

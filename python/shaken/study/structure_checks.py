@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -112,7 +113,7 @@ def g2_anisotropic(evidence: Evidence) -> Finding:
 
 def g_flattens(evidence: Evidence) -> Finding:
     runs = needed(evidence["layers"].at(packing=0.75))
-    along, across = (runs.of(lambda run, cut=cut: unevenness(run, cut)) for cut in ("g_along", "g_across"))
+    along, across = (runs.of(partial(unevenness, cut=cut)) for cut in ("g_along", "g_across"))
     sooner = {True: "along", False: "across", None: "neither, within the errors"}[larger(across, along).word]
     return Finding(CONTRADICTS, f"mean (g − 1)² from one rod length on, φ = 0.75: {text(along)} along, {text(across)} "
                                 f"across", f"here it flattens sooner {sooner}")
