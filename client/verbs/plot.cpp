@@ -20,7 +20,8 @@ class Plot : public InPython {
   }
 
   void declare_options(Arguments& arguments) override {
-    arguments.optional("ID", "A sweep, a job or a run directory; the newest sweep if left out", Names::kRun);
+    arguments.optional("ID", "A sweep, a job, a run directory or a folder of runs; the newest sweep if left out",
+                       Names::kRun);
     arguments.option("--x", "PATH", "One figure: against this parameter or field; the longest swept one if left out",
                      Names::kField);
     arguments.option("--y", "FIELD", "One figure: of this field of `results --csv`, or scalar; order.mean if left out",

@@ -11,6 +11,7 @@ class Results : public InPython {
     return {
         "results", kResultsGroup, "One line of numbers per job, or per point with --aggregate",
         "  shaken results                               the newest sweep\n"
+        "  shaken results from-the-cluster/             the runs in a folder: no daemon is asked\n"
         "  shaken results s3 --aggregate                replicas as mean and standard error\n"
         "  shaken results s3 --where 'rods.length=4.5mm and order.mean>0.5'\n"
         "  shaken results s3 --where 'not state=done or order.sem>0.01' --csv\n"
@@ -29,7 +30,8 @@ class Results : public InPython {
   }
 
   void declare_options(Arguments& arguments) override {
-    arguments.optional("ID", "A sweep (id or name) or a job; the newest sweep if left out", Names::kId);
+    arguments.optional("ID", "A sweep (id or name), a job, or a folder of runs; the newest sweep if left out",
+                       Names::kRun);
     arguments.repeatable("-w,--where", "CONDITION",
                          "Only rows that match, e.g. 'order.mean>0.5 and box.gap<2mm'; repeatable, all must hold");
     arguments.flag("-a,--aggregate", "Replicas of a point as mean and standard error");

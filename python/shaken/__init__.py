@@ -15,7 +15,7 @@ from typing import Any
 _PARTS = {"about": "FieldAbout field_about", "archive": "ArchivedRun Snapshot archived_runs",
           "bus": "LiveFrame LiveObservables live", "daemon": "Daemon", "errors": "NoDaemon ShakenError UnknownName",
           "estimate": "Estimate replica_mean", "frames": "Frame Trajectory", "opening": "open_run",
-          "run": "Array DirectoryRun Run", "sweep": "Point Sweep results"}
+          "run": "Array DirectoryRun Run", "sweep": "Point Sweep results sweep_of"}
 _HOMES = {"open" if name == "open_run" else name: (module, name)
           for module, names in _PARTS.items() for name in names.split()}
 

@@ -10,8 +10,9 @@ from typing import Any, Iterable, Iterator, Mapping, Protocol, Sequence
 
 from .catalogue import KEYS
 from .daemon import Daemon, quoted
-from .errors import NotFound, ShakenError, nearest
+from .errors import NoDaemon, NotFound, ShakenError, nearest
 from .estimate import Estimate, replica_mean
+from .folder import jobs_in
 from .units import leading_number
 
 Fields = dict[str, Any]
@@ -119,8 +120,20 @@ class Target:
 
 
 def target_of(daemon: Daemon, word: str) -> Target:
-    """A sweep by its id or name, else a job by the beginning of its id; the newest sweep if there is no word. Raises
-    ShakenError where there is none."""
+    """A sweep by its id or name, else a job by the beginning of its id, else a folder of runs (no daemon is asked where
+    its name has a slash); the newest sweep if there is no word. Raises ShakenError where there is none."""
+    if "/" not in word and word != ".":
+        try:
+            return _target_at(daemon, word)
+        except (NoDaemon, NotFound):
+            if not word or not Path(word).is_dir():
+                raise
+    rows = jobs_in(word)
+    name = Path(word).resolve().name
+    return Target(name, name, True, rows, [row_of(row) for row in rows])
+
+
+def _target_at(daemon: Daemon, word: str) -> Target:
     if not word:
         sweeps = daemon.sweeps()
         if not sweeps:
@@ -137,7 +150,7 @@ def target_of(daemon: Daemon, word: str) -> Target:
         rows = daemon.rows(found["id"] if is_sweep else found["sweep"])
         return Target(found["id"], found.get("name") or "", is_sweep, answer["jobs"] if is_sweep else [found],
                       [row_of(row) for row in rows if is_sweep or row["job"] == found["id"]])
-    raise ShakenError(f"no sweep or job is called '{word}'{hint}: `shaken status` lists them")
+    raise NotFound(f"no sweep or job is called '{word}'{hint}: `shaken status` lists them")
 
 
 def add_from_scenes(target: Target, names: Iterable[str]) -> None:

@@ -5,10 +5,12 @@ import json
 from pathlib import Path
 from typing import Any, Iterable, Iterator, Mapping, Sequence
 
-from .daemon import Daemon, quoted
+from .archive import archived_runs
 from .catalogue import KEYS, UNITS
+from .daemon import Daemon, quoted
 from .errors import ShakenError, UnknownName
 from .estimate import Estimate, replica_mean
+from .folder import parameters_of, run_directories
 from .units import number_of, unit_in
 from .run import DirectoryRun, Run
 from .rows import has_results, newness, swept, version_text
@@ -254,6 +256,16 @@ def grouped(runs: Iterable[tuple[Mapping[str, Any], Run | None]], name: str = ""
             to_come = waiting.get(key, 0) if version == newest else 0
             points.append(Point(parameters_of[key], list(found.values()), len(found) + to_come))
     return Sweep(points, name)
+
+
+def sweep_of(folder: str | Path) -> Sweep:
+    """The runs in a folder, at any depth, or the files of an archive there: what tells their scenes apart are the
+    parameters. Raises ShakenError where there are none."""
+    runs: list[Run] = [*archived_runs(folder)]
+    runs = runs or [DirectoryRun(directory) for directory in run_directories(folder)]
+    parameters = parameters_of([run.scene for run in runs])
+    done = [run if has_results("", run.summary) else None for run in runs]
+    return grouped(zip(parameters, done), Path(folder).resolve().name)
 
 
 def results(source: "Daemon | str | Path | None" = None, sweep: str | None = None) -> Sweep:
