@@ -86,7 +86,7 @@ ALLOWED = {
 }
 # Rooms of a folder: each may use what the folder may, and the rooms before it.
 ROOMS = {"analysis": ["errors", "geometry", "lags"], "scene": ["keys", "resolve"],
-         "run": ["files", "measure", "export", "live", "loop", "import", "cost", "worker"]}
+         "run": ["files", "measure", "export", "live", "loop", "import", "recorded", "cost", "worker"]}
 for folder, rooms in ROOMS.items():
     for floor, room in enumerate(rooms):
         before = [f"{folder}/{below}" for below in rooms[:floor]]

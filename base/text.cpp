@@ -128,6 +128,15 @@ std::string clock_text(double seconds, std::int64_t now) {
   return text;
 }
 
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text;
+}
+
 std::string number_text(double value) {
   if (std::isnan(value)) return "-";
   // Whole numbers are counts: every digit matters.

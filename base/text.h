@@ -25,6 +25,8 @@ std::string duration_text(double seconds);
 /// The local time `seconds` from `now_utime` (microseconds since 1970): "14:32", or "Tue 14:32" on another day, or the
 /// date beyond a week; "?" as in duration_text.
 std::string clock_text(double seconds, std::int64_t now_utime);
+/// "2026-11-29T18:42:47Z".
+std::string utc_now();
 /// Up to four significant digits: "0.9134", "2109", "1.2e+06".
 std::string number_text(double value);
 /// "1 run", "3 runs"

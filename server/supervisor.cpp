@@ -1,6 +1,6 @@
 #include "server/supervisor.h"
 
-#include <fmt/chrono.h>
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -18,10 +18,7 @@ namespace {
 constexpr int kLookAhead = 16;
 constexpr std::chrono::milliseconds kLongestPause{60'000};
 
-std::string heading(int attempt) {
-  const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  return fmt::format("{}attempt {}, {:%Y-%m-%dT%H:%M:%SZ}", kHeading, attempt, fmt::gmtime(now));
-}
+std::string heading(int attempt) { return fmt::format("{}attempt {}, {}", kHeading, attempt, utc_now()); }
 
 /// When the newest checkpoint of a run was written; the beginning of time if there is none.
 std::filesystem::file_time_type checkpoint_time(const run::RunDirectory& directory) {

@@ -17,6 +17,7 @@ std::unique_ptr<Verb> make_validate();
 std::unique_ptr<Verb> make_explain();
 std::unique_ptr<Verb> make_calibrate();
 std::unique_ptr<Verb> make_import();
+std::unique_ptr<Verb> make_measure();
 std::unique_ptr<Verb> make_run();
 std::unique_ptr<Verb> make_submit();
 std::unique_ptr<Verb> make_status();

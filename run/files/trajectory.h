@@ -28,6 +28,9 @@ Result<void> write_trajectory(const std::filesystem::path& file, const Trajector
 /// there is no log. Fails unless all of them are there and whole, and then changes nothing.
 Result<FrameLog> reopen_frames(const RunDirectory& directory, std::size_t n_frames);
 
+/// Whether a file is one of these two kinds, whole or not; what is neither may be a table.
+bool is_trajectory(const std::filesystem::path& file);
+
 /// Frames of a trajectory.h5, or of a trajectory.part, also while that is being written.
 class TrajectoryReader {
  public:

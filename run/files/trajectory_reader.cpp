@@ -1,6 +1,7 @@
 #include <string>
 #include <utility>
 
+#include "base/files.h"
 #include "run/files/content_hash.h"
 #include "run/files/hdf5.h"
 #include "run/files/trajectory.h"
@@ -117,6 +118,12 @@ class Hdf5Frames final : public RecordedFrames {
 };
 
 }  // namespace
+
+bool is_trajectory(const std::filesystem::path& file) {
+  const Result<std::string> head = read_part(file, 0, 8);
+  const Result<bool> is_log = is_frame_log(file);
+  return (is_log && *is_log) || (head && *head == "\x89HDF\r\n\x1a\n");
+}
 
 Result<TrajectoryReader> TrajectoryReader::open(const std::filesystem::path& file) {
   const Result<bool> is_log = is_frame_log(file);

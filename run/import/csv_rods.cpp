@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
 
 #include "base/core/sincos.h"
 #include "base/keys/nearest.h"
 #include "base/text.h"
+#include "run/import/csv_fields.h"
 #include "run/import/imported_rods.h"
 
 namespace shaken::run {
@@ -25,72 +25,6 @@ constexpr double kMostAngle = 1e6;    ///< in the plane, also of rods that have 
 
 /// Angles that are no larger are likely radians, unless all rods lie along x [degrees].
 constexpr double kMostRadians = 3.2, kAlongX = 0.1;
-
-/// What stands between two separators, without blanks and quotes.
-struct CsvField {
-  std::string text;
-  int column;              ///< where it begins, from 1
-  bool is_quoted = false;  ///< separators in it are none
-};
-
-constexpr char kBlanks = ' ';  ///< the separator of fields with any number of blanks between them
-
-/// What separates the fields of a line: that of the following which it has, or blanks.
-char separator_of(std::string_view line) {
-  for (const char separator : {'\t', ';', ','}) {
-    if (line.find(separator) != std::string_view::npos) return separator;
-  }
-  return kBlanks;
-}
-
-/// A quote within quotes is doubled.
-std::vector<CsvField> fields_of(std::string_view line, char separator) {
-  const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
-  std::vector<CsvField> fields;
-  std::size_t i = 0;
-  const auto skip_blanks = [&] {
-    while (i < line.size() && is_blank(line[i]) && line[i] != separator) ++i;
-  };
-  const auto skip_to_field = [&] {
-    skip_blanks();
-    while (separator == kBlanks && i < line.size() && is_blank(line[i])) ++i;
-  };
-  for (skip_to_field();; skip_to_field()) {
-    CsvField field{"", static_cast<int>(i) + 1};
-    if (i < line.size() && line[i] == '"') {
-      field.is_quoted = true;
-      for (++i; i < line.size() && (line[i] != '"' || (i + 1 < line.size() && line[i + 1] == '"')); ++i) {
-        if (line[i] == '"') ++i;
-        field.text += line[i];
-      }
-      if (i < line.size()) ++i;
-    }
-    const std::size_t rest = i;
-    while (i < line.size() && line[i] != separator && !(separator == kBlanks && is_blank(line[i]))) ++i;
-    std::size_t end = i;
-    while (end > rest && is_blank(line[end - 1])) --end;
-    field.text += line.substr(rest, end - rest);
-    fields.push_back(std::move(field));
-    if (separator == kBlanks) skip_to_field();
-    if (i >= line.size()) return fields;
-    if (separator != kBlanks) ++i;
-    if (separator != kBlanks && i == line.size()) {  // nothing behind the last separator is a field too
-      fields.push_back({"", static_cast<int>(i) + 1});
-      return fields;
-    }
-  }
-}
-
-/// None if `text` is no finite number. A decimal comma is one where it separates nothing else.
-std::optional<double> number_in(std::string text) {
-  if (const std::size_t comma = text.find(','); comma != std::string::npos && text.find('.') == std::string::npos)
-    text[comma] = '.';
-  const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
-  double number = 0;
-  const auto [end, trouble] = std::from_chars(begin, text.data() + text.size(), number);
-  if (trouble != std::errc{} || end != text.data() + text.size() || !std::isfinite(number)) return std::nullopt;
-  return number;
-}
 
 bool is_column(const std::string& name) { return std::find(kColumns.begin(), kColumns.end(), name) != kColumns.end(); }
 

@@ -13,10 +13,10 @@
 #include "base/text.h"
 #include "run/files/checkpoint_file.h"
 #include "run/files/directory.h"
-#include "run/files/frame_log.h"
 #include "run/files/trajectory.h"
 #include "run/files/version.h"
 #include "run/import/place_rods.h"
+#include "run/import/refusal.h"
 #include "run/loop/import_id.h"
 #include "run/loop/open_run.h"
 #include "scene/canonical.h"
@@ -45,13 +45,6 @@ struct ImportOptions {
   bool random_velocities = false;
   bool json = false;
 };
-
-/// What is in the file is not a table.
-bool is_trajectory(const std::string& file) {
-  const Result<std::string> head = read_part(file, 0, 8);
-  const Result<bool> is_log = is_frame_log(file);
-  return (is_log && *is_log) || (head && *head == "\x89HDF\r\n\x1a\n");
-}
 
 /// "FILE: what" and "FILE what" without the name of the file, which stands before every problem.
 std::string without_name(const std::string& message, const std::string& file) {
@@ -164,15 +157,7 @@ void write_run(const RunDirectory& directory, const std::string& id, const Impor
 ExitCode import_rods(const ImportOptions& asked) {
   const std::filesystem::path root = value_or_fail(data_root(asked.root), ExitCode::kBadInput);
   auto read = read_import(asked);
-  if (!read && asked.json) {
-    std::cout << OrderedJson{{"ok", false}, {"problems", keys::to_json(read.error())}}.dump(2) << "\n";
-    return ExitCode::kBadInput;
-  }
-  if (!read) {
-    std::string all = to_string(read.error());
-    all.pop_back();  // the end of the last line
-    throw Failure(ExitCode::kBadInput, fmt::format("{} is refused:\n{}", asked.file, all));
-  }
+  if (!read) return refuse(asked.file, read.error(), asked.json);
   auto& [plan, rods, remarks] = *read;
   const Simulation simulation = Simulation::start_from(std::move(rods.world));
   const std::string id = import_id(plan, simulation);

@@ -1,13 +1,12 @@
 #include "run/loop/loop.h"
 
-#include <fmt/chrono.h>
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
-#include <ctime>
 #include <exception>
 #include <memory>
 #include <new>
@@ -17,6 +16,7 @@
 #include "analysis/order.h"
 #include "base/clock.h"
 #include "base/files.h"
+#include "base/text.h"
 #include "proto/cell_codec.h"
 #include "run/files/content_hash.h"
 #include "run/files/done.h"
@@ -58,14 +58,6 @@ RunTotals totals_of(const scene::RunPlan& plan, const World& world, const Snapsh
 /// matter.
 constexpr WallSeconds kLongSlice{0.1};
 
-double process_cpu_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
-
 std::string scene_text(const scene::RunPlan& plan) { return scene::to_json(plan).dump(2) + "\n"; }
 
 RunOutcome failure(const Error& error) {
@@ -87,7 +79,7 @@ class Loop {
         run_(std::move(run)),
         checkpoint_tick_(run_.simulation.tick()),
         begin_(WallClock::now()),
-        cpu_begin_(process_cpu_seconds()),
+        cpu_begin_(shaken::cpu_seconds()),
         started_(utc_now()),
         rate_(run_.simulation.time(), begin_),
         progress_pacer_(options.progress_every, begin_),
@@ -187,7 +179,7 @@ class Loop {
   WallSeconds live_period() const { return WallSeconds(plan_.stream ? 1.0 / plan_.stream->rate : 1.0); }
   /// Short enough for live frames to keep to their rate too.
   WallSeconds long_slice() const { return publisher_ ? std::min(kLongSlice, live_period() / 2) : kLongSlice; }
-  double cpu_seconds() const { return run_.cpu_before + process_cpu_seconds() - cpu_begin_; }
+  double cpu_seconds() const { return run_.cpu_before + shaken::cpu_seconds() - cpu_begin_; }
   double wall_seconds() const { return run_.wall_before + WallSeconds(WallClock::now() - begin_).count(); }
 
   /// Measures, records and publishes what is due at this tick.
@@ -243,14 +235,7 @@ class Loop {
     summary.collisions_rod_post = world.counters.impulses_rod_post;
     summary.max_overlap = world.counters.max_overlap();
     summary.balance = balance(world);
-    summary.t_steady = reduction.t_steady;
-    summary.order = reduction.order;
-    summary.has_axis = plan_.system.rod.has_axis();
-    summary.scalars = reduction.scalars;
-    if (reduction.defects) {
-      summary.defects_mean_plus = reduction.defects->n_plus;
-      summary.defects_mean_minus = reduction.defects->n_minus;
-    }
+    fill(summary, plan_, reduction);
     summary.effects = report_effects(plan_, run_, publisher_ ? std::optional(publisher_->n_frames()) : std::nullopt);
     summary.state_hash = run_.simulation.state_hash();
     summary.started = started_;
@@ -422,11 +407,11 @@ Result<Opened> open_run(const scene::RunPlan& plan, const RunDirectory& director
     set_aside(directory.frames());
     set_aside(directory.trajectory());
   }
-  const double cpu_begin = process_cpu_seconds();
+  const double cpu_begin = shaken::cpu_seconds();
   Result<OpenRun> run = start_run(plan, directory, scene_text(plan), go_on);
   if (!run) return run.error();
   if (begins_with_compression(plan))
-    spdlog::info("compressed the rods in {:.2f} CPU-s", process_cpu_seconds() - cpu_begin);
+    spdlog::info("compressed the rods in {:.2f} CPU-s", shaken::cpu_seconds() - cpu_begin);
   return Opened{std::move(run).value(), true};
 }
 

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "analysis/errors/parts.h"
@@ -49,6 +51,10 @@ OrderedJson drift_json(double value, double sem) {
   return {{"value", number_or_null(value)}, {"sem", number_or_null(sem)}};
 }
 
+/// What a measurement of recorded frames leaves open.
+constexpr const char* kOfSimulations[] = {"rod_seconds_per_cpu_second",   "collisions", "max_overlap_mm", "energy_pJ",
+                                          "momentum_unexplained_mg_mm_s", "state_hash"};
+
 /// Null where rods were placed.
 OrderedJson json_of(const std::optional<scene::StartState>& start) {
   return start ? OrderedJson{{"run", start->run}, {"time_s", start->time}} : OrderedJson(nullptr);
@@ -60,6 +66,8 @@ OrderedJson json_of(std::optional<bool> known) { return known ? OrderedJson(*kno
 /// Why the value at `path` ("measured.dip.sem") is null, as far as the path tells.
 std::string why_null(const std::string& path, const Summary& summary) {
   const auto ends = [&](std::string_view end) { return path.ends_with(end); };
+  if (summary.frames && std::ranges::find(kOfSimulations, path) != std::end(kOfSimulations))
+    return "measured on recorded frames, not simulated";
   if (path == "start") return "the rods were placed, not taken over from another run";
   if (!summary.has_axis && (path == "order" || path == "defects")) return "spheres have no axis";
   if (!summary.has_axis && path == "steady") return "S would tell, and spheres have none";
@@ -111,6 +119,16 @@ std::string why_not_steady(const analysis::SteadySummary& order, double sim_seco
         fmt::format("S was on its way until {:.4g} s of {:.4g} s, beyond half of the run", order.t_steady, sim_seconds);
   }
   return fmt::format("{}: {}; measure longer", word_of(steadiness), why);
+}
+
+void fill(Summary& summary, const scene::RunPlan& plan, const Reduction& reduction) {
+  summary.t_steady = reduction.t_steady;
+  summary.order = reduction.order;
+  summary.has_axis = plan.system.rod.has_axis();
+  summary.scalars = reduction.scalars;
+  if (!reduction.defects) return;
+  summary.defects_mean_plus = reduction.defects->n_plus;
+  summary.defects_mean_minus = reduction.defects->n_minus;
 }
 
 Result<void> write_summary(const std::filesystem::path& file, const Summary& summary) {
@@ -171,17 +189,27 @@ Result<void> write_summary(const std::filesystem::path& file, const Summary& sum
     if (!scalar.reason.empty()) json["measured"][name]["reason"] = scalar.reason;
   }
   for (const auto& [name, effect] : summary.effects) json["effects"][name] = to_json(effect);
+  json["state_hash"] = fmt::format("{:016x}", summary.state_hash);
+  if (const auto& frames = summary.frames) {
+    for (const char* name : kOfSimulations) json[name] = nullptr;
+    json["frames"] = {{"file", frames->file},
+                      {"n", frames->n},
+                      {"first_s", frames->first},
+                      {"last_s", frames->last},
+                      {"remarks", frames->remarks}};
+  }
   OrderedJson reasons = OrderedJson::object();
   explain_nulls(json, "", summary, reasons);
   json["why_null"] = std::move(reasons);
-  json["state_hash"] = fmt::format("{:016x}", summary.state_hash);
   json["files"] = OrderedJson::object();
   for (const auto& [name, hash] : summary.files) {
     json["files"][name] = {{"bytes", hash.size}, {"xxh3", fmt::format("{:016x}", hash.xxh3)}};
   }
   json["exit"] = {{"state", summary.state}, {"reason", summary.reason}, {"tick", summary.tick}, {"rods", summary.rods}};
   if (summary.done_before) json["exit"]["done_before_s"] = *summary.done_before;
-  json["versions"] = {{"shaken", version()}, {"physics", summary.physics}, {"compiler", compiler()}};
+  json["versions"] = {{"shaken", version()},
+                      {"physics", summary.frames ? OrderedJson(nullptr) : OrderedJson(summary.physics)},
+                      {"compiler", compiler()}};
   json["host"] = host_name();
   json["started"] = summary.started;
   json["finished"] = summary.finished;

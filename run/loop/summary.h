@@ -23,6 +23,14 @@ struct EffectReport {
   std::map<std::string, double> work;  ///< counts by name ("impulses", "samples"), parameters with their unit
 };
 
+/// Recorded frames whose measurement a run directory holds (run/recorded/).
+struct FramesOrigin {
+  std::string file;
+  std::size_t n = 0;
+  double first = 0, last = 0;        ///< times of the first and the last [s]
+  std::vector<std::string> remarks;  ///< what was measured otherwise than asked for
+};
+
 /// What summary.json says of a run.
 struct Summary {
   std::string run_id;
@@ -46,6 +54,7 @@ struct Summary {
   std::optional<double> defects_mean_plus;       ///< in the steady state, if defects were measured
   std::optional<double> defects_mean_minus;
   std::map<std::string, EffectReport> effects;
+  std::optional<FramesOrigin> frames{};      ///< that were measured, where nothing was simulated
   std::map<std::string, ContentHash> files;  ///< those of HDF5 that this end of the run has written, by their names
   std::uint64_t state_hash = 0;
   std::string started;   ///< UTC, ISO 8601
@@ -67,6 +76,9 @@ double shown_error(const analysis::SteadySummary& order);
 /// "still relaxing" or "not known to be steady" (base/steadiness.h), why, and what to do about it: the one sentence
 /// that log, summary and last words of a run have. Empty if S is steady.
 std::string why_not_steady(const analysis::SteadySummary& order, double sim_seconds);
+
+/// What was measured of a run of `plan`.
+void fill(Summary& summary, const scene::RunPlan& plan, const Reduction& reduction);
 
 Result<void> write_summary(const std::filesystem::path& file, const Summary& summary);
 

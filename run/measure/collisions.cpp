@@ -76,6 +76,7 @@ MeasurementKind collisions_kind() {
                      {"mean_free_time_s", "mean time of a rod between impacts with others: 1 / `impacts_rods_Hz`",
                       false, "no impacts of rods with each other"}),
           },
+      .needs = {Needs::kImpacts},
   };
 }
 

@@ -125,6 +125,7 @@ MeasurementKind defect_maps_kind() {
                    2),
               over("every", {"core_flow_across_mm_s", "that across the tail, to the left", false, "no defects"}, 2),
           },
+      .needs = {Needs::kIdentities},
   };
 }
 

@@ -45,6 +45,7 @@ MeasurementKind drift_kind() {
               called("drift velocity along x", "v_x", {"drift_x_mm_s", "mean velocity of all rods along x"}),
               called("drift velocity along y", "v_y", {"drift_y_mm_s", "mean velocity of all rods along y"}),
           },
+      .needs = {Needs::kIdentities},
   };
 }
 

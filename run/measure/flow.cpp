@@ -63,6 +63,7 @@ MeasurementKind flow_kind() {
                                     "C does not fall to 1/e within half the box"})),
           },
       .of_axis = {"c_along", "c_across"},
+      .needs = {Needs::kIdentities},
   };
 }
 

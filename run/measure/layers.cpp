@@ -64,6 +64,7 @@ MeasurementKind layers_kind() {
               called("order of the layers", "",
                      {"layer_order", "amplitude of the wave of sin 2(θ − θ_N) with the most power"}),
           },
+      .needs = {Needs::kTilts},
   };
 }
 

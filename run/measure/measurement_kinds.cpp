@@ -21,6 +21,22 @@ std::span<const MeasurementKind> measurement_kinds() {
   return kinds;
 }
 
+std::string_view word_of(Needs need) {
+  switch (need) {
+    case Needs::kImpacts:
+      return "impacts";
+    case Needs::kSpins:
+      return "angular velocities";
+    case Needs::kVelocities:
+      return "velocities";
+    case Needs::kTilts:
+      return "tilts out of the plane";
+    case Needs::kIdentities:
+      break;
+  }
+  return "rods that are followed from frame to frame";
+}
+
 std::optional<double> MeasurementKind::every(const scene::RunPlan& plan) const {
   return scene::observable(name).period(plan);
 }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -44,6 +45,18 @@ constexpr Output over(std::string_view key, Output output, int times = 1) {
   return output;
 }
 
+/// What recorded or tracked rods may lack.
+enum class Needs {
+  kImpacts,     ///< counts of impacts
+  kSpins,       ///< angular velocities
+  kVelocities,  ///< of centres at an instant
+  kTilts,       ///< directions out of the plane
+  kIdentities,  ///< which rod of one frame is which of another
+};
+using Lacking = std::set<Needs>;
+/// "impacts", "angular velocities", ...
+std::string_view word_of(Needs need);
+
 /// One thing that can be measured, the block "measure.NAME" of a scene, and all that becomes of it.
 struct MeasurementKind {
   std::string_view name;     ///< as in scene/keys/observables.cpp
@@ -57,6 +70,8 @@ struct MeasurementKind {
   std::vector<Output> numbers = {};
   /// Names of arrays and numbers that need an axis, where others of the same measurement do not: spheres lack them.
   std::vector<std::string_view> of_axis = {};
+  /// What it needs of its rods besides their places and their directions in the plane.
+  std::vector<Needs> needs = {};
 
   /// The period asked for [s]; none: it is not measured (Observable::period).
   std::optional<double> every(const scene::RunPlan& plan) const;

@@ -105,6 +105,7 @@ MeasurementKind msd_kind() {
       .of_axis = {"along_mm2", "across_mm2", "relative_along_mm2", "relative_across_mm2", "d_along_mm2_s",
                   "d_across_mm2_s", "diffusion_along_mm2_s", "diffusion_across_mm2_s", "alpha_along_short",
                   "alpha_along_long", "alpha_across_short", "alpha_across_long"},
+      .needs = {Needs::kIdentities},
   };
 }
 

@@ -64,6 +64,7 @@ MeasurementKind rotation_kind() {
               {"rotation_short_lag_from_s", "shortest of the short lags"},
               {"rotation_short_lag_to_s", "longest of the short lags"},
           },
+      .needs = {Needs::kIdentities},
   };
 }
 

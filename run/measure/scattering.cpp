@@ -79,6 +79,7 @@ MeasurementKind scattering_kind() {
               {"alpha_2_peak_lag_s", "lag at which it is largest"},
           },
       .of_axis = {"f_along", "f_across", "alpha_2_along", "alpha_2_across"},
+      .needs = {Needs::kIdentities},
   };
 }
 

@@ -68,6 +68,7 @@ MeasurementKind stress_kind() {
               called("pressure across the director", "p_⊥", {"pressure_across_pJ_mm2", "that across it"}),
           },
       .of_axis = {"pressure_along_pJ_mm2", "pressure_across_pJ_mm2"},
+      .needs = {Needs::kImpacts, Needs::kVelocities},
   };
 }
 

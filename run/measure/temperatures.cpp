@@ -97,6 +97,7 @@ MeasurementKind temperatures_kind() {
       .of_axis = {"along_pJ", "across_pJ", "turning_pJ", "tipping_pJ", "spinning_pJ", "temperature_along_pJ",
                   "temperature_across_pJ", "temperature_turning_pJ", "temperature_tipping_pJ",
                   "temperature_spinning_pJ"},
+      .needs = {Needs::kSpins, Needs::kVelocities},
   };
 }
 

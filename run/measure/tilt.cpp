@@ -83,6 +83,7 @@ MeasurementKind tilt_kind() {
                "below about 3 none is seen",
                false, "the mean velocity does not change its sign beyond its largest value"},
           },
+      .needs = {Needs::kTilts, Needs::kVelocities, Needs::kIdentities},
   };
 }
 

@@ -69,6 +69,7 @@ MeasurementKind van_hove_kind() {
               over("lag", {"van_hove_beyond", "share of the displacements that lie beyond the range"}),
           },
       .of_axis = {"along_per_mm", "across_per_mm"},
+      .needs = {Needs::kIdentities},
   };
 }
 

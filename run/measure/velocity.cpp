@@ -76,6 +76,7 @@ MeasurementKind velocity_kind() {
           },
       .of_axis = {"c_v_along", "c_v_across", "product_along_mm2_s2", "product_across_mm2_s2",
                   "velocity_variance_along_mm2_s2", "velocity_variance_across_mm2_s2"},
+      .needs = {Needs::kIdentities},
   };
 }
 

@@ -5,6 +5,7 @@
 #include "run/files/version.h"
 #include "run/import/import_run.h"
 #include "run/loop/replay.h"
+#include "run/recorded/measure_command.h"
 #include "run/worker/worker.h"
 
 namespace {
@@ -18,6 +19,7 @@ constexpr const char* kFooter = R"(Examples:
   shaken-worker quickstart.json --probe cost.json     runs nothing, but tells what the run would cost
   shaken-worker replay runs/wild                      meets a failed run's numerical trouble again
   shaken-worker import rods.csv --scene scene.json    makes a run of the rods in a file
+  shaken-worker measure runs/first --out wide         measures the frames of a run anew
 
 Exit codes: 0 done, 1 failed, 2 bad input, 97 no room on the disk,
 98 an error of the system that may pass, 99 stopped by a signal after a checkpoint.)";
@@ -63,6 +65,7 @@ int main(int argc, char** argv) {
   if (argc > 1 && std::string_view(argv[1]) == "replay") return run::replay_command(argc - 1, argv + 1);
   if (argc > 1 && std::string_view(argv[1]) == "read") return run::read_command(argc - 1, argv + 1);
   if (argc > 1 && std::string_view(argv[1]) == "import") return run::import_command(argc - 1, argv + 1);
+  if (argc > 1 && std::string_view(argv[1]) == "measure") return run::measure_command(argc - 1, argv + 1);
   Program app("shaken-worker", "Runs one scene from start to end in a run directory.", kFooter);
   run::stop_on_signals();
   run::WorkerOptions options;

@@ -1,14 +1,39 @@
-// Tables of rods from elsewhere.
+// Tables of rods from elsewhere: one state of them, and tracks.
 #include <algorithm>
 #include <cmath>
 
 #include "run/import/place_rods.h"
+#include "run/recorded/track_table.h"
 #include "tests/fuzz/fuzz_target.h"
 
 using namespace shaken;
 
+namespace {
+
+/// The same text as the tracks of an experiment.
+void read_as_tracks(std::string_view text) {
+  scene::RunPlan plan;
+  plan.system.box_side = 16;
+  for (const bool wraps : {false, true}) {
+    run::TrackConventions conventions;
+    conventions.interval = 0.02;
+    conventions.filled = 2;
+    conventions.wraps = conventions.only_complete = wraps;
+    std::vector<keys::Problem> problems;
+    const auto tracks = run::read_tracks(text, "tracks.csv", plan, conventions, problems);
+    fuzz::promise(tracks.has_value() == problems.empty(), "tracks are read, or there is a reason");
+    for (std::size_t i = 0; tracks && i < tracks->frames->n_frames(); ++i) {
+      const auto frame = run::decode(*tracks->frames->frame(i), tracks->frames->header().cell.box);
+      fuzz::promise(bool(frame), "a frame is one that a run could have");
+    }
+  }
+}
+
+}  // namespace
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text = fuzz::text_of(data, size);
+  read_as_tracks(text);
   System system;
   system.rod = {.length = 2.5, .n_beads = 9};
   system.box_side = 16;

@@ -1,0 +1,81 @@
+"""What is measured of recorded frames and of tracks, as the programs leave it and the package reads it."""
+import json
+import math
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+import shaken
+from conftest import PROGRAMS
+
+ROOT = PROGRAMS.parents[2]
+SCENE = {"rods": {"length": 4.5, "area_fraction": 0.65}, "box": {"side": 20}, "time": {"steady": 0.1, "measure": 0.3},
+         "measure": {"order": {"every": "10 ms"}, "msd": {"every": "10 ms"}, "g2": {"every": "20 ms"}},
+         "trajectory": {"every": "10 ms"}}
+
+
+def said(*command, code=0):
+    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=120,
+                          env={**os.environ, "PYTHONPATH": str(ROOT / "python")})
+    assert done.returncode == code, done.stderr + done.stdout
+    return done.stdout + done.stderr
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    if not (PROGRAMS / "shaken-worker").exists():
+        pytest.skip(f"no programs in {PROGRAMS}")
+    folder = tmp_path_factory.mktemp("measured")
+    (folder / "lab.json").write_text(json.dumps(SCENE))
+    said(PROGRAMS / "shaken-worker", folder / "lab.json", "--out", folder / "sim", "--no-lcm", "--quiet")
+    return folder
+
+
+def measure(folder, *words, code=0):
+    return said(PROGRAMS / "shaken", "measure", *words, "-o", folder / "out", "--json", code=code)
+
+
+def test_frames_give_what_the_run_gives(folder):
+    answer = json.loads(measure(folder, folder / "sim"))
+    assert answer["n_frames"] == 41 and answer["remarks"] == []
+    run, again = shaken.open(folder / "sim"), shaken.open(answer["directory"])
+    assert again.numbers["S"].value == pytest.approx(run.numbers["S"].value, abs=1e-7)
+    for name, array in run.arrays.items():
+        np.testing.assert_allclose(again.arrays[name], array, rtol=1e-3, atol=1e-5, err_msg=name)
+    assert again.summary["frames"]["n"] == 41 and again.summary["collisions"] is None
+    assert again.summary["why_null"]["collisions"] == "measured on recorded frames, not simulated"
+    assert len(list(again.frames())) == 41, "they can be drawn"
+    assert "finer" not in measure(folder, folder / "sim", "-s", "measure.g2.bins=100"), "the folder may be filled anew"
+
+
+def test_tracks_with_noise_and_holes_give_the_run_s_numbers_within_the_bias(folder):
+    # as docs/experiment.md has it: S falls by exp(-2 turn^2), the MSD rises by 4 shift^2
+    shift, turn = 0.02, math.radians(1)
+    said(sys.executable, ROOT / "docs/tracks_of_a_run.py", folder / "sim", folder / "tracks.csv", 0.05, shift, 1)
+    words = [folder / "tracks.csv", "--scene", folder / "lab.json", "--scale", 0.05, "--interval", "10ms", "--flip-y"]
+    run = shaken.open(folder / "sim")
+    holes = json.loads(measure(folder, *words))
+    seen = shaken.open(holes["directory"])
+    assert any("msd is left out" in remark for remark in holes["remarks"]) and "/msd/total_mm2" not in seen.arrays
+    assert seen.numbers["S"].value == pytest.approx(run.numbers["S"].value * math.exp(-2 * turn**2), abs=0.003)
+    np.testing.assert_allclose(seen.arrays["/g2/g2"], run.arrays["/g2/g2"], atol=0.05)
+
+    whole = json.loads(measure(folder, *words, "--fill", 4, "--complete"))
+    assert any("tracks are in every frame: the others are left out" in remark for remark in whole["remarks"])
+    followed = shaken.open(whole["directory"])
+    lag = run.arrays["/msd/lag_s"] > 0.05
+    np.testing.assert_allclose(followed.arrays["/msd/total_mm2"][lag], run.arrays["/msd/total_mm2"][lag] + 4 * shift**2,
+                               rtol=0.15)
+
+
+def test_what_is_wrong_is_said_with_code_2(folder):
+    said(PROGRAMS / "shaken", "measure", folder / "sim", "-s", "box.gap=1.3", "-o", folder / "new", code=2)
+    assert not (folder / "new").exists()
+    problems = json.loads(measure(folder, folder / "sim", "-s", "box.gap=1.3", code=2))["problems"]
+    assert {problem["path"] for problem in problems} >= {"/box/gap"}
+    (folder / "t.csv").write_text("frame,x,y,angle\n0,1,2,3\n")
+    assert "--scene is missing" in measure(folder, folder / "t.csv", code=2)
+    text = said(PROGRAMS / "shaken", "measure", folder / "sim", "-o", folder, code=2)
+    assert "holds something else than a measurement of frames" in text

@@ -1,0 +1,249 @@
+#include "run/recorded/measure_command.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "base/clock.h"
+#include "base/files.h"
+#include "base/interrupt.h"
+#include "base/keys/units.h"
+#include "base/program.h"
+#include "base/progress_line.h"
+#include "base/text.h"
+#include "run/files/content_hash.h"
+#include "run/files/directory.h"
+#include "run/files/foreign_file.h"
+#include "run/files/trajectory.h"
+#include "run/import/refusal.h"
+#include "run/loop/summary.h"
+#include "run/recorded/measure_frames.h"
+#include "run/recorded/track_table.h"
+#include "scene/canonical.h"
+#include "scene/load.h"
+
+namespace shaken::run {
+namespace {
+
+namespace fs = std::filesystem;
+using OrderedJson = nlohmann::ordered_json;
+
+constexpr const char* kExamples = R"(Examples:
+  shaken-worker measure runs/first --out wide -s measure.g2.bins=200
+  shaken-worker measure first.h5 --scene other-bins.json --out other
+
+  shaken-worker measure tracks.csv --scene dish.json --scale 0.05 --interval "20 ms" --flip-y --out seen
+
+Exit codes: 0 done, 1 failed, 2 bad input.)";
+constexpr std::size_t kMostBytes = std::size_t{4} << 30;  ///< of a table
+
+struct MeasureOptions {
+  std::string file;
+  std::string scene;
+  std::vector<std::string> settings;
+  std::string out;
+  TrackConventions conventions;
+  bool json = false;
+};
+
+/// What the folder is to hold may take the place of another measurement, and of nothing else.
+void claim(const RunDirectory& directory) {
+  std::error_code none;
+  if (!fs::exists(directory.root, none) || fs::is_empty(directory.root, none)) return;
+  const Result<std::string> text = read_file(directory.summary());
+  const auto summary = OrderedJson::parse(text ? *text : "", nullptr, false);
+  if (summary.is_object() && summary.contains("frames")) return;
+  throw Failure(ExitCode::kBadInput,
+                fmt::format("{} holds something else than a measurement of frames: choose another folder by --out",
+                            printable(directory.root.string())));
+}
+
+/// 16 hex digits that name a measurement: XXH3-64 of the frames' file and of what is measured.
+std::string id_of(const scene::RunPlan& plan, const fs::path& file) {
+  const ContentHash frames = value_or_fail(content_hash(file));
+  const std::string text = fmt::format("shaken measure\n{}\n{:016x}", scene::run_id(plan), frames.xxh3);
+  return fmt::format("{:016x}", XXH3_64bits(text.data(), text.size()));
+}
+
+/// What is measured, on what, and what is said of it.
+struct Task {
+  FramesPlan by;
+  const RecordedFrames* frames;
+  bool may_be_drawn = true;  ///< as a trajectory.h5, in which the number of rods does not change
+};
+
+keys::Loaded<Task> task_of(const MeasureOptions& asked, const TrajectoryReader& frames) {
+  const std::string& own = frames.header().scene_json;
+  const std::string name = frames.path().string() + ", its scene";
+  const auto spacing = frame_spacing(frames.recorded());
+  if (!spacing) return std::vector<keys::Problem>{{asked.file, 0, 0, "", spacing.error().message}};
+  const std::string given = asked.scene.empty() ? own : value_or_fail(read_input(asked.scene), ExitCode::kBadInput);
+  auto made = plan_for_frames({own, name}, {given, asked.scene.empty() ? name : asked.scene}, asked.settings, *spacing);
+  if (!made) return made.error();
+  return Task{*std::move(made), &frames.recorded()};
+}
+
+/// Of a table; `tracks` takes what the task is of.
+keys::Loaded<Task> task_of(const MeasureOptions& asked, std::optional<TrackedRods>& tracks) {
+  if (asked.scene.empty()) {
+    return std::vector<keys::Problem>{
+        {asked.file, 0, 0, "", "--scene is missing: a table says nothing of the box, and of what is to be measured"}};
+  }
+  const auto plan =
+      scene::load_scene(value_or_fail(read_input(asked.scene), ExitCode::kBadInput), asked.scene, asked.settings);
+  if (!plan) return plan.error();
+  std::vector<keys::Problem> problems;
+  const std::string table = value_or_fail(read_input(asked.file, kMostBytes), ExitCode::kBadInput);
+  tracks = read_tracks(table, asked.file, *plan, asked.conventions, problems);
+  if (!tracks) return keys::tidied(std::move(problems));
+  const auto spacing = frame_spacing(*tracks->frames);
+  if (!spacing) return std::vector<keys::Problem>{{asked.file, 0, 0, "", spacing.error().message}};
+  const std::string& own = tracks->frames->header().scene_json;
+  auto made = plan_for_frames({own, asked.scene}, {own, asked.scene}, {}, *spacing, tracks->lacking);
+  if (!made) return made.error();
+  made->remarks.insert(made->remarks.begin(), tracks->remarks.begin(), tracks->remarks.end());
+  return Task{*std::move(made), tracks->frames.get(), tracks->has_constant_number};
+}
+
+/// Measures, and fills the directory; the summary comes last.
+MeasuredFrames write_run(const Task& task, const RunDirectory& directory, const std::string& file,
+                         const std::string& id) {
+  const auto& [plan, remarks] = task.by;
+  const RecordedFrames& frames = *task.frames;
+  done_or_fail(make_folder(directory.root));
+  const DirectoryLock lock = value_or_fail(DirectoryLock::acquire(directory.lock()));
+  Summary summary;
+  summary.started = utc_now();
+  const auto begin = std::chrono::steady_clock::now();
+  const InterruptGuard guard;
+  ProgressLine progress("measuring");
+  const auto n = static_cast<double>(frames.n_frames());
+  MeasuredFrames found = value_or_fail(measure_frames(plan, frames, [&](std::size_t frame) {
+    progress.show(static_cast<double>(frame) / n);
+    return !guard.interrupted();
+  }));
+  progress.clear();
+
+  summary.run_id = id;
+  summary.n_rods = plan.system.n_all_rods();
+  summary.sim_seconds = found.last;
+  summary.cpu_seconds = cpu_seconds();
+  summary.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  fill(summary, plan, found.reduction);
+  summary.frames = FramesOrigin{file, frames.n_frames(), found.first, found.last, remarks};
+  summary.tick = static_cast<Tick>(std::llround(found.last / plan.system.dt));
+
+  TrajectoryHeader header = frames.header();
+  header.scene_json = scene::to_json(plan).dump(2) + "\n";
+  header.provenance = {id, plan.system.seed};
+  for (const fs::path& before : {directory.summary(), directory.trajectory()}) fs::remove(before);
+  std::vector<fs::path> written{directory.observables()};
+  if (task.may_be_drawn) {
+    written.push_back(directory.trajectory());
+    done_or_fail(write_trajectory(directory.trajectory(), header, frames));
+  }
+  done_or_fail(write_observables(directory.observables(), found.reduction.arrays, header.provenance));
+  done_or_fail(write_file_atomically(directory.scene(), header.scene_json));
+  for (const fs::path& each : written) summary.files[each.filename().string()] = value_or_fail(content_hash(each));
+  summary.finished = utc_now();
+  done_or_fail(write_summary(directory.summary(), summary));
+  return found;
+}
+
+ExitCode measure(const MeasureOptions& asked) {
+  const fs::path file = fs::is_directory(asked.file) ? RunDirectory{asked.file}.recorded() : fs::path(asked.file);
+  if (!value_or_fail(file_exists(file)))
+    throw Failure(ExitCode::kBadInput, fmt::format("there is no {}: no frames", printable(file.string())));
+  std::optional<TrajectoryReader> trajectory;
+  std::optional<TrackedRods> tracks;
+  if (is_trajectory(file)) {
+    done_or_fail(try_to_read(file));
+    trajectory = value_or_fail(TrajectoryReader::open(file));
+  }
+  const keys::Loaded<Task> task = trajectory ? task_of(asked, *trajectory) : task_of(asked, tracks);
+  if (!task) return refuse(asked.file, task.error(), asked.json);
+
+  const std::string id = id_of(task->by.plan, file);
+  const RunDirectory directory{asked.out.empty() ? "measured-" + id.substr(0, 8) : asked.out};
+  claim(directory);
+  const MeasuredFrames found = write_run(*task, directory, asked.file, id);
+  const std::vector<std::string>& remarks = task->by.remarks;
+  if (asked.json) {
+    std::cout << OrderedJson{{"ok", true},
+                             {"run_id", id},
+                             {"directory", directory.root.string()},
+                             {"n_frames", task->frames->n_frames()},
+                             {"remarks", remarks}}
+                     .dump(2, ' ', false, OrderedJson::error_handler_t::replace)
+              << "\n";
+    return ExitCode::kOk;
+  }
+  std::cout << fmt::format("{} of {}, {:.6g} s to {:.6g} s: measured in {}\n",
+                           counted(task->frames->n_frames(), "frame"),
+                           counted(static_cast<std::size_t>(task->by.plan.system.n_all_rods()), "rod"), found.first,
+                           found.last, printable(directory.root.string()));
+  for (const std::string& remark : remarks) std::cout << remark << "\n";
+  return ExitCode::kOk;
+}
+
+}  // namespace
+
+int measure_command(int argc, char** argv) {
+  Program app("shaken-worker measure", "Measures recorded frames of a run, or tracked rods of an experiment.",
+              kExamples);
+  MeasureOptions asked;
+  std::string interval;
+  std::vector<std::string> columns;
+  bool radians = false, degrees = false;
+  app.add_option("FILE", asked.file, "A run directory, its trajectory.h5 or trajectory.part, or a table in CSV")
+      ->required();
+  app.add_option("--scene", asked.scene, "Measure what this scene measures; of frames that may be left out")
+      ->type_name("SCENE");
+  app.add_option("-s,--set", asked.settings, "Change one value of the scene; of frames: of measure, or time.steady")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
+  app.add_option("-o,--out", asked.out, "Folder of the results; measured-ID if not given")->type_name("DIR");
+  app.add_option("--scale", asked.conventions.scale, "Table: mm in one unit of its lengths, as a pixel")
+      ->type_name("MM")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--interval", interval, "Table: time from frame to frame, e.g. 20ms; by its times if not given")
+      ->type_name("TIME");
+  app.add_option("--columns", columns, "Table: what columns are called, as in x=POSITION_X,angle=phi")
+      ->type_name("NAME=COLUMN")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  app.add_flag("--flip-y", asked.conventions.flips_y, "Table: y is counted downwards, from the upper edge");
+  app.add_flag("--wrap", asked.conventions.wraps, "Table: put positions into the periodic box");
+  app.add_option("--fill", asked.conventions.filled, "Table: interpolate rods that are missed for up to N frames")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1000));
+  app.add_flag("--complete", asked.conventions.only_complete, "Table: leave rods out that are not in every frame");
+  app.add_flag("--degrees", degrees, "Table: angles are in degrees")
+      ->excludes(app.add_flag("--radians", radians, "Table: in radians"));
+  app.add_flag("--json", asked.json, "Print JSON");
+  return app.run(argc, argv, [&] {
+    if (radians || degrees) asked.conventions.radians = radians;
+    if (!interval.empty()) {
+      const auto time = keys::parse_quantity(interval, keys::Dimension::kTime);
+      if (!time || !(*time > 0)) {
+        throw Failure(ExitCode::kBadInput,
+                      "--interval: " + (time ? interval + " is not above 0" : time.error().message));
+      }
+      asked.conventions.interval = *time;
+    }
+    for (const std::string& column : columns) {
+      const std::size_t equals = column.find('=');
+      if (equals == std::string::npos)
+        throw Failure(ExitCode::kBadInput, fmt::format("--columns takes NAME=COLUMN, not '{}'", printable(column)));
+      asked.conventions.columns[column.substr(0, equals)] = column.substr(equals + 1);
+    }
+    return measure(asked);
+  });
+}
+
+}  // namespace shaken::run

@@ -1,0 +1,440 @@
+#include "run/recorded/track_table.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <utility>
+
+#include "base/core/sincos.h"
+#include "base/text.h"
+#include "run/import/csv_fields.h"
+#include "run/loop/open_run.h"
+#include "scene/canonical.h"
+#include "scene/load.h"
+#include "sim/world.h"
+
+namespace shaken::run {
+namespace {
+
+using keys::Problem;
+
+constexpr double kRadian = kPi / 180;
+constexpr double kMostRadians = 1.6;  ///< angles none of which is larger are likely radians
+constexpr double kEqual = 1e-3;       ///< by which intervals between frames may differ, of themselves
+constexpr std::size_t kMostProblems = 20;
+constexpr double kMostAngle = 1e6;     ///< of whatever unit
+constexpr double kMostBoxes = 1e6;     ///< that a path goes on through
+constexpr double kMostInterval = 1e5;  ///< between frames [s]
+
+/// What a column is, and what trackers call it: trackpy, TrackMate, ImageJ, and others.
+struct Column {
+  const char* name;
+  std::vector<const char*> known_as;
+};
+const std::vector<Column>& columns() {
+  static const std::vector<Column> all{{"frame", {"frame", "FRAME", "Frame", "Slice"}},
+                                       {"t", {"t", "time", "time_s", "t_s", "POSITION_T"}},
+                                       {"id", {"id", "particle", "TRACK_ID", "track", "Track"}},
+                                       {"x", {"x", "X", "POSITION_X"}},
+                                       {"y", {"y", "Y", "POSITION_Y"}},
+                                       {"z", {"z"}},
+                                       {"angle", {"angle", "Angle", "theta", "ELLIPSE_THETA"}},
+                                       {"tilt", {"tilt"}},
+                                       {"nx", {"nx"}},
+                                       {"ny", {"ny"}},
+                                       {"nz", {"nz"}}};
+  return all;
+}
+constexpr std::string_view kInRadians = "ELLIPSE_THETA";
+constexpr std::string_view kCountedUpwards = "Angle";   ///< ImageJ measures it as one sees it, but y from the top
+constexpr std::string_view kHeadsAreFour = "TRACK_ID";  ///< TrackMate has three more lines of titles below its names
+
+/// One rod in one frame.
+struct Sighting {
+  double id = 0;
+  Vec3 position = Vec3::Zero();  ///< outside of a periodic box where it was
+  Vec3 director = Vec3::UnitX();
+};
+
+/// Frames in memory.
+class TrackFrames final : public RecordedFrames {
+ public:
+  TrackFrames(TrajectoryHeader header, std::vector<Snapshot> frames)
+      : header_(std::move(header)), frames_(std::move(frames)) {}
+  const TrajectoryHeader& header() const override { return header_; }
+  std::size_t n_frames() const override { return frames_.size(); }
+  Result<RecordedFrame> frame(std::size_t index) const override { return record(frames_[index]); }
+
+ private:
+  TrajectoryHeader header_;
+  std::vector<Snapshot> frames_;
+};
+
+class TrackTable {
+ public:
+  TrackTable(const std::string& file, const scene::RunPlan& plan, const TrackConventions& conventions,
+             std::vector<Problem>& problems)
+      : file_(file), plan_(plan), conventions_(conventions), problems_(problems) {
+    for (const Eigen::Index k : {0, 1}) {
+      view_[k] = period_[k] > 0 ? plan.system.box()[k] : plan.system.walls->extent()[k];
+    }
+  }
+
+  std::optional<TrackedRods> read(std::string_view text) {
+    const std::size_t n_before = problems_.size();
+    if (plan_.system.has_species(1)) report("a table of tracks has rods of one species, and the scene has more");
+    read_rows(text);
+    if (problems_.size() > n_before) return std::nullopt;
+    if (frames_.empty()) {
+      report("the table has no rods");
+      return std::nullopt;
+    }
+    note_identities();
+    const double interval = interval_of_frames();
+    if (problems_.size() > n_before) return std::nullopt;
+    return made(interval);
+  }
+
+ private:
+  void report(const std::string& message, int line = 0, int column = 0) {
+    if (problems_.size() < kMostProblems)
+      problems_.push_back({file_, line, line > 0 ? std::max(column, 1) : 0, "", message});
+  }
+  bool has(const std::string& name) const { return place_.contains(name); }
+
+  void read_rows(std::string_view text) {
+    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // a mark that spreadsheets set
+    int line = 0, first = 0;
+    for (std::size_t begin = 0; begin < text.size();) {
+      const std::size_t end = std::min(text.find('\n', begin), text.size());
+      std::string_view row = text.substr(begin, end - begin);
+      begin = end + 1;
+      ++line;
+      if (row.ends_with('\r')) row.remove_suffix(1);
+      if (row.find_first_not_of(" \t") == std::string_view::npos || row.starts_with('#')) continue;
+      if (first == 0) {
+        first = line;
+        if (!read_names(row)) return;
+        continue;
+      }
+      const std::vector<CsvField> fields = fields_of(row, separator_);
+      if (fields.size() != n_columns_) {
+        report(
+            fmt::format("{} for {}: each has its own", counted(fields.size(), "field"), counted(n_columns_, "column")),
+            line);
+        continue;
+      }
+      const bool is_title = line <= first + 3 && has_titles_ && !number_in(fields[place_.at("x")].text);
+      if (!is_title) add(fields, line);
+    }
+    if (first == 0) report("the file is empty: its first line names the columns");
+  }
+
+  bool read_names(std::string_view row) {
+    separator_ = separator_of(row);
+    const std::vector<CsvField> names = fields_of(row, separator_);
+    n_columns_ = names.size();
+    const std::size_t n_before = problems_.size();
+    for (const Column& column : columns()) {
+      std::vector<std::string> wanted(column.known_as.begin(), column.known_as.end());
+      const auto given = conventions_.columns.find(column.name);
+      if (given != conventions_.columns.end()) wanted = {given->second};
+      for (std::size_t k = 0; k < names.size(); ++k) {
+        if (std::ranges::find(wanted, names[k].text) == wanted.end()) continue;
+        if (!place_.emplace(column.name, k).second) {
+          report(fmt::format("{} and {} are both {}: choose one by --columns {}=NAME",
+                             printable(names[place_[column.name]].text), printable(names[k].text), column.name,
+                             column.name),
+                 1, names[k].column);
+        }
+        called_[column.name] = names[k].text;
+        has_titles_ = has_titles_ || names[k].text == kHeadsAreFour;
+      }
+      if (given != conventions_.columns.end() && !has(column.name))
+        report(fmt::format("there is no column '{}', which --columns names", printable(given->second)), 1);
+    }
+    std::vector<std::string> missing;
+    for (const char* name : {"x", "y"}) {
+      if (!has(name)) missing.emplace_back(name);
+    }
+    if (!has("angle") && !(has("nx") && has("ny"))) missing.emplace_back("angle");
+    if (!has("frame") && !has("t")) missing.emplace_back("frame");
+    if (!missing.empty()) {
+      report(fmt::format("no column is {}: name {} by --columns {}=NAME", fmt::join(missing, ", or "),
+                         missing.size() > 1 ? "them" : "it", fmt::join(missing, "=NAME,")),
+             1);
+    }
+    if (has("frame") && !has("t") && !conventions_.interval)
+      report("the table has numbers of frames and no times: --interval says the time from one to the next", 1);
+    return problems_.size() == n_before;
+  }
+
+  void add(const std::vector<CsvField>& fields, int line) {
+    bool is_missed = false;
+    const auto value = [&](const char* name, double otherwise) {
+      const auto at = place_.find(name);
+      if (at == place_.end()) return otherwise;
+      const CsvField& field = fields[at->second];
+      const bool is_nan = field.text.empty() || field.text == "nan" || field.text == "NaN" || field.text == "NA";
+      is_missed = is_missed || is_nan;
+      if (is_nan) return otherwise;
+      const std::optional<double> number = number_in(field.text);
+      if (!number) report(fmt::format("{}: '{}' is not a number", name, printable(field.text)), line, field.column);
+      return number.value_or(otherwise);
+    };
+    const bool flips = conventions_.flips_y;
+    Sighting rod;
+    rod.id = value("id", 0);
+    rod.position = {conventions_.scale * value("x", 0), conventions_.scale * value("y", 0),
+                    has("z") ? conventions_.scale * value("z", 0) : plan_.system.gap / 2};
+    if (flips) rod.position.y() = view_.y() - rod.position.y();
+    if (has("angle")) {
+      const double unit = in_radians() ? 1 : kRadian;
+      const double angle = value("angle", 0), tilt = value("tilt", 0);
+      largest_angle_ = std::max(largest_angle_, std::abs(angle));
+      if (std::max(std::abs(angle), std::abs(tilt)) > kMostAngle) {
+        report(fmt::format("an angle is larger than {:g}", kMostAngle), line);
+        return;
+      }
+      const SinCos in_plane = sincos(unit * angle), out_of_plane = sincos(unit * tilt);
+      rod.director = {out_of_plane.cos * in_plane.cos, out_of_plane.cos * in_plane.sin, out_of_plane.sin};
+    } else {
+      rod.director = {value("nx", 0), value("ny", 0), value("nz", 0)};
+      const double length = rod.director.norm();
+      is_missed = is_missed || length == 0;
+      if (length > 0) rod.director /= length;
+    }
+    if (flips && called_["angle"] != kCountedUpwards) rod.director.y() = -rod.director.y();
+    const double frame = has("frame") ? value("frame", 0) : value("t", 0);
+    if (has("t")) time_of_.emplace(frame, value("t", 0));
+    if (is_missed) {
+      ++n_missed_;
+      return;
+    }
+    const Box box = plan_.system.box();
+    for (const Eigen::Index k : {0, 1}) {
+      const bool folds = conventions_.wraps && period_[k] > 0;
+      const double least = folds ? -kMostBoxes * box[k] : 0, most = folds ? kMostBoxes * box[k] : view_[k];
+      if (rod.position[k] >= least && rod.position[k] <= most) {
+        rod.position[k] += (box[k] - view_[k]) / 2;
+        continue;
+      }
+      report(
+          fmt::format("{} = {:.6g} mm is outside of the {}, which is {:.6g} mm long: see --scale{}", k == 0 ? "x" : "y",
+                      rod.position[k], period_[k] > 0 ? "box" : "arena", view_[k], period_[k] > 0 ? " and --wrap" : ""),
+          line);
+      return;
+    }
+    std::vector<Sighting>& there = frames_[frame];
+    there.push_back(rod);
+    if (has("id") && !seen_[rod.id].insert(frame).second)
+      report(fmt::format("rod {:g} is twice in frame {:g}", rod.id, frame), line);
+  }
+
+  bool in_radians() { return conventions_.radians.value_or(called_["angle"] == kInRadians); }
+
+  /// Puts rods that were missed for a while between where they were before and after: straight on, by the shorter way.
+  void fill_gaps() {
+    std::vector<double> numbers;
+    std::map<double, std::vector<std::pair<std::size_t, Sighting>>> tracks;  ///< by id, with the indices of frames
+    for (const auto& [number, rods] : frames_) {
+      for (const Sighting& rod : rods) tracks[rod.id].emplace_back(numbers.size(), rod);
+      numbers.push_back(number);
+    }
+    const auto most = static_cast<std::size_t>(conventions_.filled);
+    std::size_t n_filled = 0;
+    for (const auto& [id, track] : tracks) {
+      for (std::size_t k = 1; k < track.size(); ++k) {
+        const std::size_t from = track[k - 1].first, to = track[k].first;
+        for (std::size_t index = from + 1; index < to && to - from - 1 <= most; ++index) {
+          const double part = static_cast<double>(index - from) / static_cast<double>(to - from);
+          frames_[numbers[index]].push_back(between(track[k - 1].second, track[k].second, part));
+          seen_[id].insert(numbers[index]);
+          ++n_filled;
+        }
+      }
+    }
+    remarks_.push_back(
+        fmt::format("{} interpolated, over {} at most", counted(n_filled, "sighting"), counted(most, "frame")));
+  }
+
+  Sighting between(const Sighting& before, const Sighting& after, double part) const {
+    Vec3 step = after.position - before.position;
+    for (const Eigen::Index k : {0, 1}) {
+      if (period_[k] > 0 && !conventions_.wraps) step[k] -= period_[k] * std::round(step[k] / period_[k]);
+    }
+    const double cosine = before.director.dot(after.director);
+    const Vec3 end = cosine < 0 ? Vec3(-after.director) : after.director;  // of an axis either is meant
+    const double angle = std::acos(std::min(1.0, std::abs(cosine)));
+    const Vec3 turned =
+        angle < 1e-9
+            ? before.director
+            : Vec3((std::sin((1 - part) * angle) * before.director + std::sin(part * angle) * end) / std::sin(angle));
+    return {before.id, before.position + part * step, turned.normalized()};
+  }
+
+  /// Which rods can be followed.
+  void note_identities() {
+    if (conventions_.filled > 0 && has("id")) fill_gaps();
+    const std::size_t n = frames_.size();
+    if (has("id")) {
+      const auto n_complete = static_cast<std::size_t>(
+          std::ranges::count_if(seen_, [&](const auto& track) { return track.second.size() == n; }));
+      is_followed_ = n_complete == seen_.size();
+      if (!is_followed_ && conventions_.only_complete) {
+        for (auto& [frame, rods] : frames_)
+          std::erase_if(rods, [&](const Sighting& rod) { return seen_[rod.id].size() < n; });
+        remarks_.push_back(
+            fmt::format("{} of {} tracks are in every frame: the others are left out", n_complete, seen_.size()));
+        if (n_complete == 0) report("no rod is in every frame: measure without --complete");
+        is_followed_ = true;
+      } else if (!is_followed_) {
+        remarks_.push_back(
+            fmt::format("{} of {} tracks are in every frame: --complete measures these alone, and then follows them; "
+                        "--fill N closes gaps of up to N frames before",
+                        n_complete, seen_.size()));
+      }
+      for (auto& [frame, rods] : frames_) std::ranges::sort(rods, {}, &Sighting::id);
+    }
+    if (n_missed_ > 0) remarks_.push_back(fmt::format("{} without a position or an angle", counted(n_missed_, "row")));
+    if (has("angle") && !in_radians() && largest_angle_ <= kMostRadians) {
+      remarks_.push_back(
+          fmt::format("no angle is larger than {:.3g}: they are taken as degrees; --radians if they are "
+                      "not",
+                      largest_angle_));
+    }
+  }
+
+  /// From frame to frame [s]; none may be missing.
+  double interval_of_frames() {
+    std::vector<double> numbers, times;
+    for (const auto& [frame, rods] : frames_) {
+      numbers.push_back(frame);
+      times.push_back(conventions_.interval ? *conventions_.interval * frame : time_of_[frame]);
+    }
+    if (times.size() == 1) return conventions_.interval.value_or(plan_.system.dt);
+    const double interval = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
+    if (!(interval > 0 && interval <= kMostInterval))
+      report(fmt::format("frames are {:.6g} s apart on average: more than 0 s, and up to {:g} s, is read", interval,
+                         kMostInterval));
+    for (std::size_t k = 1; interval > 0 && k < times.size(); ++k) {
+      if (std::abs(times[k] - times[k - 1] - interval) <= kEqual * interval) continue;
+      report(
+          fmt::format("frames {:g} and {:g} are {:.6g} s apart, where others are {:.6g} s: frames without a rod, or "
+                      "missing ones, are not measured across",
+                      numbers[k - 1], numbers[k], times[k] - times[k - 1], interval));
+      break;
+    }
+    return interval;
+  }
+
+  /// The scene of the rods in the table: `dt` is a whole part of the interval.
+  std::optional<scene::RunPlan> plan_of_table(double interval, Tick spacing, std::size_t n_rods) {
+    nlohmann::ordered_json scene = scene::to_json(plan_);
+    scene["rods"].erase("start");
+    scene["rods"].erase("area_fraction");
+    scene["rods"]["count"] = n_rods;
+    scene["time"]["step"] = interval / static_cast<double>(spacing);
+    const double length = interval * static_cast<double>(std::max<std::size_t>(frames_.size(), 2) - 1);
+    scene["time"]["measure"] = std::max(length - plan_.steady.value_or(0), interval);
+    auto plan = scene::load_scene(scene.dump(), file_ + ", as a scene");
+    if (plan) return *std::move(plan);
+    problems_.insert(problems_.end(), plan.error().begin(), plan.error().end());
+    return std::nullopt;
+  }
+
+  std::optional<TrackedRods> made(double interval) {
+    const auto spacing = std::max<Tick>(1, static_cast<Tick>(std::ceil(interval / plan_.system.dt)));
+    std::size_t n_all = 0, least = std::numeric_limits<std::size_t>::max(), most = 0;
+    for (const auto& [frame, rods] : frames_) {
+      n_all += rods.size();
+      least = std::min(least, rods.size());
+      most = std::max(most, rods.size());
+    }
+    const auto mean =
+        static_cast<std::size_t>(std::llround(static_cast<double>(n_all) / static_cast<double>(frames_.size())));
+    auto plan = plan_of_table(interval, spacing, std::max<std::size_t>(mean, 1));
+    if (!plan) return std::nullopt;
+    TrackedRods found;
+    found.has_constant_number = least == most;
+    found.lacking = {Needs::kImpacts, Needs::kSpins, Needs::kVelocities};
+    if (!is_followed_) found.lacking.insert(Needs::kIdentities);
+    if (!has("tilt") && !has("nz")) found.lacking.insert(Needs::kTilts);
+    if (least < most) remarks_.push_back(fmt::format("{} to {} rods in a frame, {} on average", least, most, mean));
+
+    std::vector<Snapshot> frames;
+    for (const auto& [number, rods] : frames_) {
+      frames.push_back(snapshot_of(rods, spacing * static_cast<Tick>(frames.size()), *plan,
+                                   frames.empty() || !is_followed_ ? nullptr : &frames.back()));
+    }
+    TrajectoryHeader header = trajectory_header(empty_world(plan->system), scene::to_json(*plan).dump(2) + "\n", {});
+    header.n_rods = static_cast<int>(mean);
+    found.frames = std::make_unique<TrackFrames>(std::move(header), std::move(frames));
+    found.plan = *std::move(plan);
+    found.remarks = std::move(remarks_);
+    return found;
+  }
+
+  /// Rods in the box. How often one has left it follows from `before`, the same rods one frame earlier: it has moved by
+  /// less than half a box; without that, and without --wrap, it has never left.
+  Snapshot snapshot_of(const std::vector<Sighting>& rods, Tick tick, const scene::RunPlan& plan,
+                       const Snapshot* before) const {
+    Snapshot frame;
+    frame.tick = tick;
+    frame.time = static_cast<double>(tick) * plan.system.dt;
+    frame.box = plan.system.box();
+    for (std::size_t i = 0; i < rods.size(); ++i) {
+      Vec3 at = rods[i].position;
+      std::array<std::int32_t, 2> image{};
+      for (std::size_t k = 0; k < 2; ++k) {
+        const auto axis = static_cast<Eigen::Index>(k);
+        const double side = period_[axis];
+        if (side == 0) continue;
+        image[k] = static_cast<std::int32_t>(std::floor(at[axis] / side));
+        at[axis] -= image[k] * side;
+        if (before != nullptr && !conventions_.wraps) {
+          const double moved = at[axis] - before->position[i][axis];
+          image[k] = before->image[i][k] - static_cast<std::int32_t>(std::lround(moved / side));
+        }
+      }
+      frame.position.push_back(at);
+      frame.image.push_back(image);
+      frame.director.push_back(rods[i].director);
+    }
+    frame.velocity.assign(rods.size(), Vec3::Zero());
+    return frame;
+  }
+
+  const std::string& file_;
+  const scene::RunPlan& plan_;
+  const TrackConventions& conventions_;
+  std::vector<Problem>& problems_;
+  const Vec2 period_ = period_of(plan_.system.box(), plan_.system.walls);
+  Vec2 view_;  ///< sides of what the table is of: the box, or the rectangle around the arena [mm]
+  std::vector<std::string> remarks_;
+  char separator_ = ',';
+  std::size_t n_columns_ = 0;
+  std::map<std::string, std::size_t> place_;        ///< of each column
+  std::map<std::string, std::string> called_;       ///< by the table
+  bool has_titles_ = false;                         ///< more lines of them may follow the names
+  std::map<double, std::vector<Sighting>> frames_;  ///< by number, or by time
+  std::map<double, double> time_of_;                ///< of frames [s]
+  std::map<double, std::set<double>> seen_;         ///< in which frames a rod is
+  bool is_followed_ = false;
+  std::size_t n_missed_ = 0;
+  double largest_angle_ = 0;
+};
+
+}  // namespace
+
+std::optional<TrackedRods> read_tracks(std::string_view text, const std::string& file, const scene::RunPlan& plan,
+                                       const TrackConventions& conventions, std::vector<Problem>& problems) {
+  return TrackTable(file, plan, conventions, problems).read(text);
+}
+
+}  // namespace shaken::run

@@ -1,0 +1,234 @@
+// Tables of tracked rods: what trackers write is read as it was meant, and what cannot be known is said.
+#include "run/recorded/track_table.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "run/recorded/measure_frames.h"
+#include "sim/snapshot.h"
+
+namespace shaken::run {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::IsSupersetOf;
+
+constexpr double kInterval = 0.02;
+
+scene::RunPlan dish() {
+  scene::RunPlan plan;
+  plan.system.box_side = 20;
+  plan.order = scene::MeasureOrder{kInterval};
+  plan.msd.emplace().every = kInterval;
+  plan.trajectory.reset();
+  plan.stream.reset();
+  plan.movie.reset();
+  return plan;
+}
+
+TrackConventions at_intervals() {
+  TrackConventions conventions;
+  conventions.interval = kInterval;
+  return conventions;
+}
+
+TrackedRods tracks_in(const std::string& text, const TrackConventions& conventions = at_intervals(),
+                      const scene::RunPlan& plan = dish()) {
+  std::vector<keys::Problem> problems;
+  auto tracks = read_tracks(text, "tracks.csv", plan, conventions, problems);
+  if (!tracks) throw std::runtime_error(keys::to_string(problems));
+  return *std::move(tracks);
+}
+
+std::string problems_in(const std::string& text, const TrackConventions& conventions = at_intervals(),
+                        const scene::RunPlan& plan = dish()) {
+  std::vector<keys::Problem> problems;
+  EXPECT_FALSE(read_tracks(text, "tracks.csv", plan, conventions, problems));
+  return keys::to_string(problems);
+}
+
+Snapshot frame_of(const TrackedRods& tracks, std::size_t index) {
+  return *decode(*tracks.frames->frame(index), tracks.frames->header().cell.box);
+}
+
+void expect_rod(const Snapshot& frame, std::size_t rod, const Vec2& position, double degrees) {
+  EXPECT_NEAR(frame.position[rod].x(), position.x(), 1e-5);
+  EXPECT_NEAR(frame.position[rod].y(), position.y(), 1e-5);
+  const double angle = degrees * kPi / 180;
+  EXPECT_NEAR((frame.director[rod] - Vec3(std::cos(angle), std::sin(angle), 0)).norm(), 0, 1e-6) << degrees;
+}
+
+TEST(TrackTable, OfTrackpyIsReadInAnyOrderOfItsRows) {
+  const TrackedRods tracks = tracks_in(
+      ",frame,particle,y,x,angle\n"
+      "0,1,7,6,5,30\n"
+      "1,0,9,2,1,90\n"
+      "2,0,7,4,3,60\n"
+      "3,1,9,2.5,1.5,-45\n");
+  ASSERT_EQ(tracks.frames->n_frames(), 2U);
+  EXPECT_EQ(tracks.plan.system.n_rods, 2);
+  EXPECT_TRUE(tracks.has_constant_number);
+  expect_rod(frame_of(tracks, 0), 0, {3, 4}, 60);
+  expect_rod(frame_of(tracks, 0), 1, {1, 2}, 90);
+  expect_rod(frame_of(tracks, 1), 0, {5, 6}, 30);
+  expect_rod(frame_of(tracks, 1), 1, {1.5, 2.5}, -45);
+  EXPECT_DOUBLE_EQ(frame_of(tracks, 1).time, kInterval);
+  EXPECT_THAT(tracks.lacking, ElementsAre(Needs::kImpacts, Needs::kSpins, Needs::kVelocities, Needs::kTilts));
+  EXPECT_THAT(tracks.remarks, IsEmpty());
+}
+
+TEST(TrackTable, OfTrackMateHasThreeMoreTitlesAndRadians) {
+  TrackConventions conventions;
+  conventions.scale = 0.1;
+  conventions.flips_y = true;
+  const TrackedRods tracks = tracks_in(
+      "LABEL,TRACK_ID,POSITION_X,POSITION_Y,POSITION_T,FRAME,ELLIPSE_THETA\n"
+      "Label,Track ID,X,Y,T,Frame,Ellipse angle\n"
+      "Label,Track ID,X,Y,T,Frame,El. angle\n"
+      ",,(pixel),(pixel),(sec),,(radians)\n"
+      "ID1,0,30,40,0.00,0,0.5\n"
+      "ID2,0,50,60,0.04,1,-0.25\n",
+      conventions);
+  ASSERT_EQ(tracks.frames->n_frames(), 2U);
+  expect_rod(frame_of(tracks, 0), 0, {3, 16}, -0.5 * 180 / kPi);
+  expect_rod(frame_of(tracks, 1), 0, {5, 14}, 0.25 * 180 / kPi);
+  EXPECT_NEAR(frame_of(tracks, 1).time, 0.04, 1e-12) << "times of the table";
+}
+
+TEST(TrackTable, OfImageJCountsDownwardsButItsAnglesAreSeenAsTheyAre) {
+  TrackConventions conventions = at_intervals();
+  conventions.flips_y = true;
+  const TrackedRods tracks =
+      tracks_in(" \tX\tY\tMajor\tAngle\tSlice\n1\t3\t4\t9\t120\t1\n2\t3\t4\t9\t121\t2\n", conventions);
+  expect_rod(frame_of(tracks, 0), 0, {3, 16}, 120);
+  EXPECT_THAT(tracks.lacking, IsSupersetOf({Needs::kIdentities})) << "no column tells which rod is which";
+}
+
+TEST(TrackTable, OfOtherNamesIsReadByThese) {
+  TrackConventions conventions = at_intervals();
+  conventions.columns = {{"x", "cx"}, {"y", "cy"}, {"angle", "phi"}, {"frame", "n"}, {"id", "rod"}};
+  conventions.radians = true;
+  const TrackedRods tracks = tracks_in("n;rod;cx;cy;phi\n0;1;2,5;3;1\n", conventions);
+  expect_rod(frame_of(tracks, 0), 0, {2.5, 3}, 180 / kPi);
+  EXPECT_THAT(problems_in("n,rod,cx,cy,psi\n", conventions),
+              HasSubstr("there is no column 'phi', which --columns names"));
+  EXPECT_THAT(problems_in("a,b\n"),
+              HasSubstr("no column is x, or y, or angle, or frame: name them by --columns x=NAME,y=NAME"));
+  EXPECT_THAT(problems_in("frame,x,X,y,angle\n"), HasSubstr("x and X are both x"));
+}
+
+/// Three rods in four frames; rod 2 is not seen in frame 1.
+const std::string kHoles =
+    "frame,id,x,y,angle\n"
+    "0,1,1,1,0\n0,2,5,5,90\n0,3,9,9,0\n"
+    "1,1,2,1,0\n1,2,nan,5,90\n1,3,9,9,0\n"
+    "2,1,3,1,0\n2,2,5,5,90\n2,3,9,9,0\n"
+    "3,1,4,1,0\n3,2,5,5,90\n3,3,9,9,0\n";
+
+TEST(TrackTable, WithHolesMeasuresWhatNeedsNoTracks) {
+  const TrackedRods tracks = tracks_in(kHoles);
+  EXPECT_FALSE(tracks.has_constant_number);
+  EXPECT_THAT(tracks.lacking, IsSupersetOf({Needs::kIdentities}));
+  EXPECT_THAT(tracks.remarks,
+              ElementsAre("2 of 3 tracks are in every frame: --complete measures these alone, and then follows them; "
+                          "--fill N closes gaps of up to N frames before",
+                          "1 row without a position or an angle", "2 to 3 rods in a frame, 3 on average"));
+  const std::string& own = tracks.frames->header().scene_json;
+  const auto made = plan_for_frames({own, "dish"}, {own, "dish"}, {}, *frame_spacing(*tracks.frames), tracks.lacking);
+  ASSERT_TRUE(made) << keys::to_string(made.error());
+  EXPECT_FALSE(made->plan.msd);
+  const auto found = measure_frames(made->plan, *tracks.frames);
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_THAT(found->reduction.arrays.at("/order/order"),
+              ElementsAre(testing::DoubleNear(1.0 / 3, 1e-6), testing::DoubleNear(1, 1e-6),
+                          testing::DoubleNear(1.0 / 3, 1e-6), testing::DoubleNear(1.0 / 3, 1e-6)));
+}
+
+TEST(TrackTable, CompleteTracksAreFollowed) {
+  TrackConventions conventions = at_intervals();
+  conventions.only_complete = true;
+  const TrackedRods tracks = tracks_in(kHoles, conventions);
+  EXPECT_EQ(tracks.plan.system.n_rods, 2);
+  EXPECT_FALSE(tracks.lacking.contains(Needs::kIdentities));
+  EXPECT_THAT(tracks.remarks[0], "2 of 3 tracks are in every frame: the others are left out");
+  const std::string& own = tracks.frames->header().scene_json;
+  const auto made = plan_for_frames({own, "dish"}, {own, "dish"}, {}, *frame_spacing(*tracks.frames), tracks.lacking);
+  ASSERT_TRUE(made) << keys::to_string(made.error());
+  const auto found = measure_frames(made->plan, *tracks.frames);
+  ASSERT_TRUE(found) << found.error().message;
+  // one of two rods moves by 1 mm a frame
+  EXPECT_THAT(found->reduction.arrays.at("/msd/total_mm2").at(0), testing::DoubleNear(0.5, 1e-5));
+}
+
+TEST(TrackTable, GapsAreFilledStraightOnByTheShorterWay) {
+  TrackConventions conventions = at_intervals();
+  conventions.filled = 2;
+  const std::string text =
+      "frame,id,x,y,angle\n0,2,5,5,0\n1,2,5,5,0\n2,2,5,5,0\n3,2,5,5,0\n0,1,18.5,4,10\n3,1,1.5,7,-140\n";
+  const TrackedRods tracks = tracks_in(text, conventions);
+  EXPECT_FALSE(tracks.lacking.contains(Needs::kIdentities));
+  EXPECT_THAT(tracks.remarks, ElementsAre("2 sightings interpolated, over 2 frames at most"));
+  expect_rod(frame_of(tracks, 1), 0, {19.5, 5}, 20);  // as an axis, it turns from 10 to 40 degrees
+  expect_rod(frame_of(tracks, 2), 0, {0.5, 6}, 30);
+  EXPECT_EQ(frame_of(tracks, 2).image[0], (std::array<std::int32_t, 2>{1, 0}));
+  conventions.filled = 1;
+  EXPECT_TRUE(tracks_in(text, conventions).lacking.contains(Needs::kIdentities)) << "the gap is longer";
+}
+
+TEST(TrackTable, RodsThatCrossThePeriodicBorderGoOn) {
+  const std::string text = "frame,id,x,y,angle\n0,1,19.5,1,0\n1,1,0.5,1,0\n2,1,19,19.8,0\n";
+  const TrackedRods tracks = tracks_in(text);
+  EXPECT_EQ(frame_of(tracks, 1).image[0], (std::array<std::int32_t, 2>{1, 0}));
+  EXPECT_EQ(frame_of(tracks, 2).image[0], (std::array<std::int32_t, 2>{0, -1}));
+
+  TrackConventions wrapping = at_intervals();
+  wrapping.wraps = true;
+  const TrackedRods far = tracks_in("frame,id,x,y,angle\n0,1,45,-1,0\n", wrapping);
+  expect_rod(frame_of(far, 0), 0, {5, 19}, 0);
+  EXPECT_EQ(frame_of(far, 0).image[0], (std::array<std::int32_t, 2>{2, -1}));
+
+  EXPECT_THAT(
+      problems_in("frame,id,x,y,angle\n0,1,45,-1,0\n"),
+      HasSubstr("tracks.csv:2:1: x = 45 mm is outside of the box, which is 20 mm long: see --scale and --wrap\n"));
+  scene::RunPlan walled = dish();
+  walled.system.walls.emplace().arena = Arena::kSquare;
+  walled.system.walls->size = 20;
+  walled.system.box_side = 22;  // in the middle of which the arena lies
+  EXPECT_THAT(problems_in("frame,id,x,y,angle\n0,1,45,1,0\n", wrapping, walled),
+              HasSubstr("is outside of the arena, which is 20 mm long: see --scale\n"))
+      << "walls are no periodic border";
+  const TrackedRods inside = tracks_in(text, at_intervals(), walled);
+  EXPECT_EQ(frame_of(inside, 1).image[0], (std::array<std::int32_t, 2>{0, 0}));
+  expect_rod(frame_of(inside, 0), 0, {20.5, 2}, 0);
+}
+
+TEST(TrackTable, SaysWhatIsWrongWithItsLines) {
+  EXPECT_THAT(problems_in(""), HasSubstr("the file is empty"));
+  EXPECT_THAT(problems_in("frame,x,y,angle\n"), HasSubstr("the table has no rods"));
+  EXPECT_THAT(problems_in("frame,x,y,angle\n0,a,2,3\n0,1,2\n"),
+              testing::AllOf(HasSubstr("tracks.csv:2:3: x: 'a' is not a number"),
+                             HasSubstr("tracks.csv:3:1: 3 fields for 4 columns")));
+  EXPECT_THAT(problems_in("frame,id,x,y,angle\n0,1,1,2,3\n0,1,1,2,3\n"), HasSubstr("rod 1 is twice in frame 0"));
+  EXPECT_THAT(problems_in("frame,x,y,angle\n0,1,2,3\n", {}), HasSubstr("--interval says the time"));
+  EXPECT_THAT(problems_in("frame,x,y,angle\n0,1,2,3\n1,1,2,3\n3,1,2,3\n"),
+              HasSubstr("frames 0 and 1 are 0.02 s apart, where others are 0.03 s"));
+  scene::RunPlan mixed = dish();
+  mixed.system.added[0].emplace();
+  EXPECT_THAT(problems_in("frame,x,y,angle\n0,1,2,3\n", at_intervals(), mixed), HasSubstr("rods of one species"));
+}
+
+TEST(TrackTable, AnglesThatMayBeRadiansGetARemark) {
+  EXPECT_THAT(tracks_in("frame,x,y,angle\n0,1,2,1.5\n").remarks,
+              ElementsAre("no angle is larger than 1.5: they are taken as degrees; --radians if they are not"));
+  TrackConventions degrees = at_intervals();
+  degrees.radians = false;
+  EXPECT_THAT(tracks_in("frame,x,y,angle\n0,1,2,170\n", degrees).remarks, IsEmpty());
+}
+
+}  // namespace
+}  // namespace shaken::run
