@@ -137,10 +137,18 @@ void Arguments::optional(const std::string& name, const std::string& help, Names
 }
 
 void Arguments::list(const std::string& name, const std::string& help, const std::vector<std::string>& words) {
+  add_list(name, help, joined(words));
+}
+
+void Arguments::list(const std::string& name, const std::string& help, Names names) {
+  add_list(name, help, std::string(value_name_of(names)));
+}
+
+void Arguments::add_list(const std::string& name, const std::string& help, const std::string& values) {
   without_variable_.push_back(app_.add_option(name, help)
                                   ->expected(1, CLI::detail::expected_max_vector_size)
                                   ->allow_extra_args()
-                                  ->type_name(joined(words))
+                                  ->type_name(values)
                                   ->option_text(kNothing));
 }
 

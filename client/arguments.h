@@ -49,6 +49,7 @@ class Arguments {
   /// The same without a variable, of a verb that hands its words on.
   void optional(const std::string& name, const std::string& help, Names names);
   void list(const std::string& name, const std::string& help, const std::vector<std::string>& words);
+  void list(const std::string& name, const std::string& help, Names names);
   void option(const std::string& flags, const std::string& value_name, const std::string& help,
               Names names = Names::kAnything);
   void repeatable(const std::string& flags, const std::string& value_name, const std::string& help,
@@ -74,6 +75,8 @@ class Arguments {
   void flag(const std::string& flags, bool& value, const std::string& help);
 
  private:
+  void add_list(const std::string& name, const std::string& help, const std::string& values);
+
   CLI::App& app_;
   std::vector<CLI::Option*> without_variable_;
 };

@@ -15,13 +15,16 @@ class Plot : public InPython {
             "  shaken plot s3 --where 'rods.length=4.5 and box.gap<2mm' --width 183mm\n"
             "  shaken plot s3 --format svg   as PDF or SVG instead of PNG\n"
             "  shaken plot s3 --map -o map.png   the last frames of its runs, by one or two swept numbers\n"
+            "  shaken plot sim seen paper.csv   a run, an experiment and curves of a paper over each other\n"
             "  shaken plot runs/first        what `shaken run` has left there",
             kExitCodesOfDaemon};
   }
 
   void declare_options(Arguments& arguments) override {
-    arguments.optional("ID", "A sweep, a job, a run directory or a folder of runs; the newest sweep if left out",
-                       Names::kRun);
+    arguments.list("ID",
+                   "A sweep, a job, a run directory or a folder of runs; the newest sweep if left out. Or several run "
+                   "directories and tables of curves, to be drawn over each other",
+                   Names::kRun);
     arguments.option("--x", "PATH", "One figure: against this parameter or field; the longest swept one if left out",
                      Names::kField);
     arguments.option("--y", "FIELD", "One figure: of this field of `results --csv`, or scalar; order.mean if left out",

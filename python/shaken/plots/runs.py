@@ -166,7 +166,9 @@ def read_run(directory: str | Path, parameters: Mapping[str, Any], state: str = 
 
 
 @dataclass
-class _Curve:
+class Curve:
+    """What is drawn of an observable of a run."""
+
     x: np.ndarray
     y: np.ndarray
     error: np.ndarray | None
@@ -184,7 +186,8 @@ def _row(run: PlottedRun, of: Observable, name: str) -> np.ndarray | None:
     return values[first:first + length]
 
 
-def _curve_of(run: PlottedRun, of: Observable) -> _Curve | None:
+def curve_of(run: PlottedRun, of: Observable) -> Curve | None:
+    """None where the run lacks it."""
     parts = [part for name in of.ys if (part := _row(run, of, name)) is not None]
     x = _row(run, of, of.x)
     if x is None or not parts:
@@ -200,13 +203,13 @@ def _curve_of(run: PlottedRun, of: Observable) -> _Curve | None:
     for value, log in ((x, of.log[0]), (y, of.log[1])):
         if log:
             y = np.where(value > 0, y, np.nan)  # logarithms: zero lag has no place
-    return _Curve(x, np.asarray(y), error, True if of.is_trace else run.steady)
+    return Curve(x, np.asarray(y), error, True if of.is_trace else run.steady)
 
 
-def _averaged(curves: Sequence[_Curve]) -> Iterator[_Curve]:
+def _averaged(curves: Sequence[Curve]) -> Iterator[Curve]:
     """One curve for all replicas at the same places; others as they are. It is steady if all of them are. Places that
     were measured, as the number of rods in a box, differ a little, and are averaged too."""
-    groups: list[list[_Curve]] = []
+    groups: list[list[Curve]] = []
     for curve in curves:
         group = next((g for g in groups if g[0].x.shape == curve.x.shape and
                       np.allclose(g[0].x, curve.x, rtol=0.02, atol=1e-9)), None)
@@ -218,13 +221,13 @@ def _averaged(curves: Sequence[_Curve]) -> Iterator[_Curve]:
         y, error = mean_curve([curve.y for curve in group], [curve.error for curve in group])
         states = [curve.steady for curve in group]
         x = np.mean([curve.x for curve in group], axis=0) if len(group) > 1 else group[0].x
-        yield _Curve(x, y, error, False if False in states else None if None in states else True)
+        yield Curve(x, y, error, False if False in states else None if None in states else True)
 
 
-def _thinned(curve: _Curve) -> _Curve:
+def _thinned(curve: Curve) -> Curve:
     """Every k-th point of what is long: more than that cannot be seen."""
     each = -(-len(curve.x) // _MOST_OF_TRACE)
-    return _Curve(curve.x[::each], curve.y[::each], None if curve.error is None else curve.error[::each], curve.steady)
+    return Curve(curve.x[::each], curve.y[::each], None if curve.error is None else curve.error[::each], curve.steady)
 
 
 def run_figures(runs: Sequence[PlottedRun], width: str | None = None) -> Iterator[tuple[str, Sheet]]:
@@ -242,7 +245,7 @@ def run_figures(runs: Sequence[PlottedRun], width: str | None = None) -> Iterato
             of_point.append([])
         of_point[points.index(point)].append(run)
     for of in OF_EVERY_SPECIES:
-        curves = [[curve for run in of_one if (curve := _curve_of(run, of)) is not None] for of_one in of_point]
+        curves = [[curve for run in of_one if (curve := curve_of(run, of)) is not None] for of_one in of_point]
         known = [k for k, found in enumerate(curves) if found]
         if not known:
             continue

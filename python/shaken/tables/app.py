@@ -19,7 +19,7 @@ class _Misunderstood(ShakenError):
 
 def _options(words: Sequence[str]) -> argparse.Namespace:
     parser = Options()
-    parser.add_argument("id", nargs="?", default="")
+    parser.add_argument("ids", nargs="*")
     parser.add_argument("--root")
     for name in ("where", "job"):
         parser.add_argument(f"--{name}", action="append", default=[])
@@ -27,7 +27,9 @@ def _options(words: Sequence[str]) -> argparse.Namespace:
         parser.add_argument(f"--{flag}", action="store_true")
     for name in ("columns", "x", "y", "out", "format", "width"):
         parser.add_argument(f"--{name}", default="")
-    return parser.parse_args(words[1:])
+    options = parser.parse_args(words[1:])
+    options.id = options.ids[0] if options.ids else ""
+    return options
 
 
 def _run(verb: str, options: argparse.Namespace) -> None:

@@ -12,6 +12,7 @@ from .. import __version__
 from ..daemon import Daemon
 from ..errors import ShakenError
 from ..plots import runs, sweeps
+from ..plots.beside import agreement, read_beside
 from ..plots.save import origin_list
 from ..rows import Row, Target, aggregated, axes_of, resolved, target_of
 from .conditions import read, selected
@@ -114,7 +115,13 @@ def plot(options: argparse.Namespace) -> None:
     picture, origin = _picture(options), {"Software": f"shaken plot {__version__}"}
     figures: list[tuple[str, Any]] = []
     rows: list[Row] = []
-    if options.id and os.path.exists(f"{options.id}/scene.json"):
+    if len(options.ids) > 1:
+        if options.is_one or options.where:
+            raise ShakenError("--x, --y, --map and --where are for sweeps, not for runs beside each other")
+        folder, drawn = Path("plots-beside"), read_beside(options.ids)
+        for line in agreement(drawn):
+            print(line, file=sys.stderr)
+    elif options.id and os.path.exists(f"{options.id}/scene.json"):
         if options.is_one or options.where:
             raise ShakenError("--x, --y, --map and --where are for sweeps, not for a run directory")
         folder, drawn = Path(options.id) / "plots", _runs([(Path(options.id), {}, "")])
