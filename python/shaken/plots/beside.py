@@ -44,8 +44,8 @@ def _read_table(path: Path) -> PlottedRun:
         base = [array.rpartition("/")[2] for array in (of.x, of.y, error_name(of.y))]
         if base[0] in columns and base[1] in columns:
             order = np.argsort(columns[base[0]])
-            arrays |= {array: np.array(columns[name])[order] for array, name in zip((of.x, of.y, error_name(of.y)), base)
-                       if name in columns}
+            arrays |= {array: np.array(columns[name])[order]
+                       for array, name in zip((of.x, of.y, error_name(of.y)), base) if name in columns}
     if not arrays:
         raise ShakenError(f"no figure has two of its columns ({', '.join(columns)}) against each other; `shaken "
                           "export` shows what columns are called")
