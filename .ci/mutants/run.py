@@ -102,14 +102,13 @@ def put(path: Path, content: bytes) -> None:
 def build(mutants: dict) -> None:
     """Builds the copy, without the mutants that do not compile: these are taken out of `mutants`."""
     BUILT.unlink(missing_ok=True)
+    lines = write_sources(mutants)
     if not any(point.file.endswith(".cpp") for point in mutants.values()):
-        write_sources(mutants)
         return
     subprocess.run(["cmake", "-S", COPY, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Mutants",
                     "-DCMAKE_CXX_FLAGS_MUTANTS=-O1 -w", "-DSHAKEN_WERROR=OFF", "-DCMAKE_UNITY_BUILD=ON",
                     "-DCMAKE_UNITY_BUILD_BATCH_SIZE=8"], check=True, stdout=subprocess.DEVNULL)
     while True:
-        lines = write_sources(mutants)
         done = subprocess.run(["cmake", "--build", BUILD, "--", "-k", "0"], capture_output=True, text=True)
         if done.returncode == 0:
             BUILT.touch()
@@ -123,6 +122,7 @@ def build(mutants: dict) -> None:
         print(f"   {len(wrong)} do not compile", flush=True)
         for k in wrong:
             del mutants[k]
+        lines = write_sources(mutants)
 
 
 def tests(of_cpp: bool, longest: float, slow: dict[str, float]) -> dict[str, tuple[list[str], str]]:
