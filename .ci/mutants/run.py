@@ -5,6 +5,7 @@
     ./dev mutants sim              of a folder
     ./dev mutants --all -n 40      40 of each folder
     ./dev mutants sim --seed 2     others of the same folder
+    ./dev mutants analysis --tests analysis_test unit_run      with these tests alone, which is built sooner
 
 All mutants are built at once, in a copy of the sources (build/mutants), each behind a switch. First every test that
 takes less than --longest seconds runs once and says to which mutants' places it comes; then each mutant is switched on
@@ -99,8 +100,8 @@ def put(path: Path, content: bytes) -> None:
         path.write_bytes(content)
 
 
-def build(mutants: dict) -> None:
-    """Builds the copy, without the mutants that do not compile: these are taken out of `mutants`."""
+def build(mutants: dict, programs: list[str]) -> None:
+    """Builds programs of the copy, or all, without mutants that do not compile: these are taken out of `mutants`."""
     BUILT.unlink(missing_ok=True)
     lines = write_sources(mutants)
     if not any(point.file.endswith(".cpp") for point in mutants.values()):
@@ -109,7 +110,8 @@ def build(mutants: dict) -> None:
                     "-DCMAKE_CXX_FLAGS_MUTANTS=-O1 -w", "-DSHAKEN_WERROR=OFF", "-DCMAKE_UNITY_BUILD=ON",
                     "-DCMAKE_UNITY_BUILD_BATCH_SIZE=8"], check=True, stdout=subprocess.DEVNULL)
     while True:
-        done = subprocess.run(["cmake", "--build", BUILD, "--", "-k", "0"], capture_output=True, text=True)
+        done = subprocess.run(["cmake", "--build", BUILD, "--target", *(programs or ["all"]), "--", "-k", "0"],
+                              capture_output=True, text=True)
         if done.returncode == 0:
             BUILT.touch()
             return
@@ -132,7 +134,7 @@ def tests(of_cpp: bool, longest: float, slow: dict[str, float]) -> dict[str, tup
     found = {}
     for test in listed:
         values = {entry["name"]: entry["value"] for entry in test["properties"]}
-        if slow.get(test["name"], 0) <= longest and not any(
+        if "command" in test and slow.get(test["name"], 0) <= longest and not any(
                 label.startswith(("e2e", "cluster")) for label in values.get("LABELS", [])):
             found[test["name"]] = (test["command"], values.get("WORKING_DIRECTORY", str(BUILD)))
     found.pop("unit/Python.Package", None)
@@ -257,6 +259,7 @@ def main() -> int:
     parser.add_argument("--longest", type=float, default=30, help="seconds of the longest test that takes part (30)")
     parser.add_argument("--most", type=float, default=120, help="seconds of tests for one mutant (120)")
     parser.add_argument("--least", type=float, default=92, help="per cent that must be killed in each folder (92)")
+    parser.add_argument("--tests", nargs="+", metavar="PROGRAM", help="test programs that take part (all)")
     parser.add_argument("--jobs", type=int, default=int(os.environ.get("JOBS", os.cpu_count() or 1)))
     parser.add_argument("--json", metavar="FILE", help="what became of each, as JSON")
     options = parser.parse_args()
@@ -275,7 +278,7 @@ def main() -> int:
         sys.exit("no file there in which a mutant could be made")
     mutants = dict(enumerate(chosen))
     print(f"== {len(mutants)} mutants of {sum(map(len, of_folder.values()))} possible ones", flush=True)
-    build(mutants)
+    build(mutants, options.tests)
     costs = {}
     for log in (ROOT / "build").glob("*/Testing/Temporary/CTestCostData.txt"):
         costs.update({line.split()[0]: float(line.split()[2]) for line in log.read_text().split("\n")

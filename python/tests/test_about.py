@@ -47,6 +47,14 @@ def test_neighbours_are_where_and_move_as_the_tagged_rod_sees_them() -> None:
         assert found.density.sum() == pytest.approx(2) and np.isnan(found.velocity).sum() == 2 * (144 - 2)
 
 
+def test_errors_are_those_of_the_mean_of_what_was_seen() -> None:
+    path, theta, species = np.array([[10.0, 10.0], [12.5, 10.5]]), np.zeros(2), np.array([1, 0])
+    frames = [frame(time, path + [[0, 0], [x, 0]], theta, species) for time, x in ((0.0, 0.0), (0.1, 0.3), (0.2, 0.4))]
+    found = field_about(frames, reach=6)
+    assert found.velocity[6, 8] == pytest.approx([2, 0]) and found.velocity_error[6, 8] == pytest.approx(
+        [np.sqrt((9 + 1) / 2 - 4) / np.sqrt(2), 0])
+
+
 def test_without_structure_the_field_is_flat() -> None:
     rng = np.random.default_rng(1)
     n, drift = 3000, np.array([2.0, 0.0])

@@ -144,6 +144,12 @@ def first(name, key, value):
     return hostile(lambda header: header[name][0].__setitem__(key, value))
 
 
+def end_of(header):
+    """Where the numbers end: every snapshot has two bytes for an angle."""
+    return max([entry["at"] + 4 * entry["n"] for entry in header["arrays"]] +
+               [entry["at"] + 6 * entry["n"] for entry in header["snapshots"]])
+
+
 @pytest.mark.parametrize("damage", [
     hostile(lambda header: header.pop("arrays") and None), hostile(lambda header: header.pop("scene") and None),
     changed("arrays", None), changed("arrays", {"a": 1}), changed("arrays", [1]), changed("snapshots", None),
@@ -155,8 +161,9 @@ def first(name, key, value):
     hostile(lambda header: header["summary"]["order"].update(mean=10**400)),
     first("arrays", "n", -1), first("arrays", "n", 10**9), first("arrays", "n", 2.5), first("arrays", "at", -4),
     first("arrays", "name", ["a"]), first("snapshots", "n", -1), first("snapshots", "side", None),
-    first("snapshots", "n", 10**6), hostile(lambda header: next(entry for entry in header["arrays"] if entry["name"] ==
-                                                                "/pairs/g").update(n=7))])
+    first("snapshots", "n", 10**6), hostile(lambda header: header["arrays"][0].update(n=end_of(header) // 4 + 1, at=0)),
+    hostile(lambda header: header["snapshots"][0].update(at=end_of(header) - 5 * header["snapshots"][0]["n"])),
+    hostile(lambda header: next(entry for entry in header["arrays"] if entry["name"] == "/pairs/g").update(n=7))])
 def test_hostile_files_are_refused_in_words(tmp_path, damage):
     path = archive.add_run(made_up_run(tmp_path / "run", arrays=curves(np.random.default_rng(2)), frames=2),
                            tmp_path / "archive")

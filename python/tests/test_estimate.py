@@ -69,6 +69,8 @@ def test_an_estimate_is_computed_with_as_a_number():
             (a * Estimate(3.0, 0.0), 6, 0.9, "mm"), (a + Estimate(1.0, 0.4, unit="s"), 3, 0.5, None)):
         assert found.value == pytest.approx(value) and found.error == pytest.approx(error) and found.unit == unit
     assert (a + b).steady is None and (a + 1).steady is True
+    inverse = 1 / Estimate(4.0, 0.4, drift=0.8, drift_error=0.2)
+    assert (inverse.drift, inverse.drift_error) == pytest.approx((-0.05, 0.0125))
     assert a < b and b > 3 and a >= 2 and a <= 2 and sorted([b, a]) == [a, b]
     assert (f"{a:.3f}", round(a, 1), float(a), f"{a}") == ("2.000", 2.0, 2.0, str(a))
     assert [str(Estimate(2.0, 0.3, word)) for word in (True, False, None)] == ["2.0 ± 0.3", "~2.0 ± 0.3", "?2.0 ± 0.3"]

@@ -175,6 +175,12 @@ def test_marks_and_bars_keep_off_the_axes() -> None:
     sheet.finish()
     (left, right), (low, high) = sheet[0].axes.get_xlim(), sheet[0].axes.get_ylim()
     assert left < 1 and right > 3 and low < -0.05 and high > 1.03
+    sheet = style.sheet()
+    sheet[0].titles("x", "y").dots(["a"], [2.0], error=[0.0])
+    sheet.finish()
+    left, right = sheet[0].axes.get_xlim()
+    assert left < 2 < right, "axes around one point"
+    assert sheet[0].axes.lines[0].get_zorder() > sheet[0].axes.collections[0].get_zorder(), "marks lie on their bars"
 
 
 def test_an_eighth_named_curve_is_refused() -> None:

@@ -212,7 +212,9 @@ def test_a_finished_run_is_archived_once_however_long_the_others_take(monkeypatc
     monkeypatch.setattr(running, "archive_job",
                         lambda job, name, archive: read.append((job["id"], job["finished_utime"])))
     daemon = SimpleNamespace(jobs=jobs, submit=lambda sweep, **terms: "s1", ask=lambda method, path: {})
-    assert running.run_plan(plan, daemon, say=lambda line: None, every=0.0) == []
+    said: list[str] = []
+    assert running.run_plan(plan, daemon, say=said.append, every=0.0) == []
+    assert "one: 2 runs, about 0.03 CPU-h" in said
     assert read == [("a", 5), ("a", 9), ("b", 7)]
 
 

@@ -90,6 +90,10 @@ def test_every_problem_of_a_condition_is_marked_at_its_place():
         "  länge='\\u001b' or )\n"
         "                    ^ a comparison is missing before ')': FIELD OP VALUE, for example order.mean>0.5\n"
         "                    ^ this ) closes nothing")
+    assert problems_of("rods.length>(3)") == (
+        "  rods.length>(3)\n"
+        "              ^ a value is missing before '('\n"
+        "                ^ this ) closes nothing")
 
 
 @pytest.mark.parametrize("words, message", [
@@ -98,7 +102,7 @@ def test_every_problem_of_a_condition_is_marked_at_its_place():
     ("state=done and", "a comparison is missing before the end"), ("not", "a comparison is missing before the end"),
     (">3", "a comparison is missing before '>'"), ("rods.length>", "a value is missing before the end"),
     ("rods.length> and state=done", "a value is missing before 'and'"),
-    ("rods.length>(3)", "a value is missing before '('"), ("1<rods.length<3", "'<' follows a whole comparison"),
+    ("1<rods.length<3", "'<' follows a whole comparison"),
     ("rods.length ! 3", "'!' compares nothing"), ("rods.length<>3", "'<>' compares nothing"),
     ("state=done order.mean>0.5", "'order.mean' follows a whole comparison: join them by and, or"),
     ("state=done && order.mean>0.5", "did you mean and?"), ("state=done || order.mean>0.5", "did you mean or?"),
@@ -471,6 +475,8 @@ def test_plots_say_what_they_are_made_of_and_what_is_left_out(tmp_path, monkeypa
     assert "left out: no observables.h5 there" in said and "shaken: there is nothing to plot yet" in said
     assert plotted(monkeypatch, [answer(2.5, 1, 0.5)], "--y=S") == 1
     assert "no numeric parameter is swept" in capsys.readouterr().err
+    assert plotted(monkeypatch, [answer(2.5, 1, 0.5)], "--y=S", "--map") == 2
+    assert "--map goes with neither --x nor --y" in capsys.readouterr().err
     windowed = [answer(length, k, 0.5, measured={"velocity_rms_mm_s": {"value": 1.0, "over_s": 0.4}})
                 for k, length in enumerate((2.5, 4.5))]
     assert plotted(monkeypatch, windowed, "--y=velocity_rms_mm_s", f"--out={tmp_path}/v.svg") == 0
