@@ -8,6 +8,7 @@ from typing import Any, Iterator, Mapping, Sequence
 
 import numpy as np
 
+from ..catalogue import ARRAYS
 from ..errors import ShakenError
 from ..hdf5 import open_file
 from ..run import axes_of, error_name
@@ -28,7 +29,6 @@ class Observable:
     name:      of the files
     y, also:   the array, and another one that is added to it
     factors:   that x and y are multiplied with; units: in print, if not those of the arrays
-    is_trace:  recorded over time, and no average: it says nothing about steadiness
     rows:      what y (and x, perhaps) has a row for each value of, one behind the other: that of `row` is drawn
     log, zero, x_range, y_range: of the axes; ranges begin at 0 if left out, unless they are logarithmic or have a zero
     species:   "rods_2" of another one than the first
@@ -40,7 +40,6 @@ class Observable:
     y_title: str = ""
     factors: tuple[float, float] = (1.0, 1.0)
     units: tuple[str | None, str | None] = (None, None)
-    is_trace: bool = False
     rows: str = ""
     row: int = 0
     log: tuple[bool, bool] = (False, False)
@@ -58,6 +57,11 @@ class Observable:
         return self.array(axes_of(self.y)[-1])
 
     @property
+    def is_trace(self) -> bool:
+        """Recorded over time, and no average: it says nothing about steadiness."""
+        return self.x.endswith("/time_s")
+
+    @property
     def ys(self) -> list[str]:
         return [self.array(name) for name in (self.y, self.also) if name]
 
@@ -73,42 +77,42 @@ class Observable:
 
 
 _FROM_ZERO, _ANY = (0.0, None), (None, None)
-OBSERVABLES = (
-    Observable("order_time", "/order/order", is_trace=True, y_range=(0, 1)),
+_LISTED = (
+    Observable("order_time", "/order/order", y_range=(0, 1)),
     Observable("order_pdf", "/order/pdf/density", x_range=(0, 1)),
     Observable("angles", "/angles/density_per_rad", factors=(_DEGREES, 1 / _DEGREES), units=("°", "1/°"),
                x_range=(-90, 90), x_ticks=(-90, -45, 0, 45, 90)),
     Observable("tilt", "/tilt/v_along_mm_s", zero=True, x_range=_ANY),
-    Observable("defects", "/defects/n_plus", "/defects/n_minus", y_title=names.axis_title("/defects/n"), is_trace=True),
+    Observable("defects", "/defects/n_plus", "/defects/n_minus", y_title=names.axis_title("/defects/n")),
     Observable("g2", "/g2/g2", zero=True),
     Observable("g", "/g2/g"),
     Observable("g2_across", "/pairs/cut/g2_across", zero=True),
-    Observable("layers", "/layers/spectrum_across"),
-    Observable("structure", "/structure/factor"),
-    Observable("polar_time", "/polar/order", is_trace=True, y_range=(0, 1)),
-    Observable("temperature_time", "/temperatures/horizontal_pJ", is_trace=True),
+    Observable("polar_time", "/polar/order", y_range=(0, 1)),
+    Observable("temperature_time", "/temperatures/horizontal_pJ"),
     Observable("scattering", "/scattering/f", rows="/scattering/q_per_mm",
                y_title=names.axis_title("/scattering/f") + ", smallest $q$", log=(True, False), zero=True),
     Observable("non_gaussian", "/scattering/alpha_2", log=(True, False), zero=True),
     Observable("van_hove", "/van_hove/along_per_mm", rows="/van_hove/lag_s", row=-1,
                y_title="van Hove function $G_s(x, t)$, longest $t$ (1/mm)", log=(False, True)),
     Observable("flow", "/flow/c", zero=True),
-    Observable("clusters_time", "/clusters/largest", is_trace=True, y_range=(0, 1)),
+    Observable("clusters_time", "/clusters/largest", y_range=(0, 1)),
     Observable("cluster_sizes", "/clusters/sizes/density", log=(True, True)),
-    Observable("power_time", "/collisions/power_given_pJ_s", is_trace=True),
+    Observable("power_time", "/collisions/power_given_pJ_s"),
     Observable("pressure_time", "/stress/collisional_xx_pJ_mm2", "/stress/collisional_yy_pJ_mm2",
-               y_title="pressure of impacts (pJ/mm²)", is_trace=True),
+               y_title="pressure of impacts (pJ/mm²)"),
     Observable("g_between", "/mixing/g_12"),
     Observable("density_memory", "/density/memory/correlation", zero=True),
-    Observable("drift", "/drift/x_mm", "/drift/y_mm", y_title="displacement of all rods (mm)", is_trace=True,
-               zero=True),
+    Observable("drift", "/drift/x_mm", "/drift/y_mm", y_title="displacement of all rods (mm)", zero=True),
     Observable("msd", "/msd/total_mm2", log=(True, True)),
     Observable("orientation_memory", "/rotation/c2", log=(True, False), zero=True),
     Observable("velocity_memory", "/velocity/c_v", log=(True, False), zero=True),
     Observable("number_fluctuations", "/fluctuations/std_n", log=(True, True)),
 )
-
-
+#: Of each observable that is not listed, the first array that has a title and one axis.
+_REST = {path.split("/")[1]: path for path in reversed(ARRAYS)
+         if ARRAYS[path]["title"] and len(ARRAYS[path]["axes"]) == 1}
+OBSERVABLES = (*_LISTED, *(Observable(name, path) for name, path in _REST.items()
+                           if not any(one.y.startswith(f"/{name}/") for one in _LISTED)))
 #: The same of the species that `measure.of` = "each" adds.
 OF_EVERY_SPECIES = (*OBSERVABLES, *(replace(of, name=f"{species}_{of.name}", species=species)
                                     for species in ("rods_2", "rods_3") for of in OBSERVABLES))
