@@ -11,7 +11,7 @@
 namespace shaken::run {
 
 /// The arrays of observables.h5, by path in the file: "/msd/total_mm2". Names end in their units; a standard error has
-/// `_sem` before the unit. run/measure/NAME.cpp says which there are below "/NAME/", and docs/files.md lists them.
+/// `_sem` before the unit. run/measure/NAME.cpp says which there are below "/NAME/".
 using Observables = std::map<std::string, std::vector<double>>;
 
 /// Every data set has its unit as the attribute `unit` (unit_of_name), the file says which run it is of.

@@ -1,5 +1,5 @@
-// docs/files.md against the files themselves: it names all that a run writes, with the units that the files say, and
-// nothing else.
+// docs/files.md and docs/observables.md against the files themselves: they name all that a run writes, with the units
+// that the files say, and nothing else.
 #include <gtest/gtest.h>
 #include <hdf5.h>
 
@@ -27,25 +27,25 @@
 namespace shaken::run {
 namespace {
 
-/// The page from the headline "## title" to the next.
-std::string section(const std::string& title) {
-  const auto page = read_file(std::filesystem::path(SHAKEN_SOURCE_DIR) / "docs" / "files.md");
+/// A page from the headline "## title" to the next.
+std::string section(const std::string& title, const char* name = "files.md") {
+  const auto page = read_file(std::filesystem::path(SHAKEN_SOURCE_DIR) / "docs" / name);
   EXPECT_TRUE(page) << page.error().message;
   const std::size_t begin = page->find("\n## " + title + "\n");
   EXPECT_NE(begin, std::string::npos) << title;
   return begin == std::string::npos ? "" : page->substr(begin, page->find("\n## ", begin + 1) - begin);
 }
 
-/// A row of one of the page's tables of data sets.
+/// A row of a table of data sets.
 struct Row {
   std::string unit;
   bool has_error = false;
 };
 
 /// The rows by path, by the titles of the columns "unit" and, where there is one, "error".
-std::map<std::string, Row> rows_of(const std::string& title) {
+std::map<std::string, Row> rows_of(const std::string& section) {
   std::map<std::string, Row> rows;
-  std::istringstream lines(section(title));
+  std::istringstream lines(section);
   std::vector<std::string> columns;
   for (std::string line; std::getline(lines, line);) {
     if (!line.starts_with("| ")) continue;
@@ -64,7 +64,7 @@ std::map<std::string, Row> rows_of(const std::string& title) {
     }
     rows[cells.front().substr(1, cells.front().size() - 2)] = row;
   }
-  EXPECT_FALSE(rows.empty()) << title;
+  EXPECT_FALSE(rows.empty()) << section;
   return rows;
 }
 
@@ -139,8 +139,8 @@ nlohmann::json json_in(const std::filesystem::path& file) {
   return nlohmann::json::parse(*text);
 }
 
-TEST(FilesPage, NamesEveryObservableWithItsUnit) {
-  const auto documented = rows_of("observables.h5");
+TEST(ObservablesPage, NamesEveryArrayWithItsUnit) {
+  const auto documented = rows_of(section("Arrays", "observables.md"));
   std::map<std::string, std::string> written;
   for (const auto& [path, unit] : data_sets(files().observables())) {
     written[std::regex_replace(path, std::regex("/trace/[0-9]+/"), "/trace/K/")] = unit;
@@ -148,12 +148,12 @@ TEST(FilesPage, NamesEveryObservableWithItsUnit) {
   for (const auto& [path, unit] : written) {
     const bool is_error = path.find("_sem") != std::string::npos;
     const auto row = documented.find(is_error ? std::regex_replace(path, std::regex("_sem"), "") : path);
-    ASSERT_NE(row, documented.end()) << path << " is not in docs/files.md";
+    ASSERT_NE(row, documented.end()) << path << " is not in docs/observables.md";
     EXPECT_EQ(row->second.unit, unit) << path;
-    EXPECT_TRUE(!is_error || row->second.has_error) << path << " has no ± in docs/files.md";
+    EXPECT_TRUE(!is_error || row->second.has_error) << path << " has no ± in docs/observables.md";
   }
   for (const auto& [path, row] : documented) {
-    EXPECT_TRUE(written.count(path)) << path << " is in docs/files.md only";
+    EXPECT_TRUE(written.count(path)) << path << " is in docs/observables.md only";
     const bool has_error = std::any_of(written.begin(), written.end(), [&, &name = path](const auto& other) {
       return other.first.find("_sem") != std::string::npos &&
              std::regex_replace(other.first, std::regex("_sem"), "") == name;
@@ -174,7 +174,7 @@ TEST(ObservablesPage, NamesEveryNumberThatARunWrites) {
 }
 
 TEST(FilesPage, NamesEveryPartOfTheTrajectoryWithItsUnit) {
-  const auto documented = rows_of("trajectory.h5");
+  const auto documented = rows_of(section("trajectory.h5"));
   auto written = data_sets(files().trajectory());
   const ScratchFolder folder;
   scene::RunPlan of_sizes = everything();
@@ -286,7 +286,7 @@ TEST(ObservablesPage, ListsEveryNumber) {
   expect_generated(kPages + "observables.md", "numbers", table.str());
 }
 
-TEST(FilesPage, ListsEveryArray) {
+TEST(ObservablesPage, ListsEveryArray) {
   std::ostringstream table;
   table << "| data set | unit | error | meaning |\n|---|---|---|---|\n";
   for (const MeasurementKind& kind : measurement_kinds()) {
@@ -296,7 +296,7 @@ TEST(FilesPage, ListsEveryArray) {
             << (array.has_error ? " ± " : " ") << "| " << kind.meaning(array) << " |\n";
     }
   }
-  expect_generated(kPages + "files.md", "arrays", table.str());
+  expect_generated(kPages + "observables.md", "arrays", table.str());
 }
 
 TEST(MeasurementKinds, AreTheObservablesOfScenes) {
