@@ -1,10 +1,11 @@
 #!/usr/bin/python3
 """Works out a run's observables again by other programs, from its trajectory, and compares.
 
+    tests/validate/check_observables.py --scene > SCENE
     tests/validate/check_observables.py RUN_DIR [--all] [--only NAME...] [--observables FILE]
 
 RUN_DIR holds trajectory.h5, observables.h5 and summary.json of a run without side walls, of one species, whose
-measurements fall on instants that were recorded (configs/tests/observables.json is such a scene). Every number of
+measurements fall on instants that were recorded (`--scene` prints such a scene). Every number of
 observables.h5 and summary.json is worked out from positions and directors: by MDAnalysis (reading the file, pairs,
 mean square displacements), emcee and pymbar (autocorrelation, steady state), scipy (fits, neighbours) where they have
 it, otherwise by twins: the shortest numpy that follows the definitions of docs/physics.md and of the headers in
@@ -41,6 +42,21 @@ import pymbar.timeseries  # noqa: E402
 
 RELATIVE = 2e-5  # of numbers made of single-precision positions and directors
 EDGE = 1e-5  # a sample this near a bin's edge, in mm or rad, may be in either bin
+
+CHECKS = {}  # observable -> its check
+#: With every observable, of which each check says when it is measured here, and the trajectory at the same instants.
+#: 360 rods, since the director's fluctuations take account of the places of 336 or more.
+SCENE = {"rods": {"length": "2.5 mm", "area_fraction": 0.65, "count": 360}, "box": {"gap": "1.2 mm"},
+         "time": {"steady": "auto", "measure": "2 s", "seed": 3}, "measure": {}, "trajectory": {"every": "10 ms"}}
+
+
+def observable(**settings):
+    """Of check_NAME: `measure.NAME` in SCENE."""
+    def added(check):
+        name = check.__name__.removeprefix("check_")
+        CHECKS[name], SCENE["measure"][name] = check, settings
+        return check
+    return added
 
 
 # ---- the table ----
@@ -323,6 +339,7 @@ def universe_of(run, frames, coordinates, box):
 # ---- order ----
 
 
+@observable(every="10 ms")
 def check_order(run, table):
     frames = run.frames("order")
     order, times = run.order[frames], run.time[frames]
@@ -440,6 +457,7 @@ def two_gaussians(theta, density):
     return np.degrees(at), dip, abs(np.degrees(fold(top)))
 
 
+@observable(every="10 ms", bins=90)
 def check_angles(run, table):
     frames = run.frames("angles")
     parts = steady_parts(run, frames)
@@ -465,6 +483,7 @@ def check_angles(run, table):
 # ---- tilt ----
 
 
+@observable(every="10 ms", phases="locked")
 def check_tilt(run, table):
     frames = run.frames("tilt")
     parts = steady_parts(run, frames)
@@ -566,6 +585,7 @@ def check_tilt(run, table):
         table.add("sem of " + name, "numpy", run.sem_if_steady(name), sem, 0.05 * sem)
 
 
+@observable(every="10 ms", phases="locked")
 def check_polar(run, table):
     frames = run.frames("polar")
     heads = np.exp(1j * run.theta[frames])
@@ -597,6 +617,7 @@ def mass_of(run):
     return run.scene["rods"]["density"] * np.pi * scipy.integrate.simpson(squares, x)
 
 
+@observable(every="10 ms", phases="locked")
 def check_temperatures(run, table):
     frames = run.frames("temperatures")
     parts = steady_parts(run, frames)
@@ -626,6 +647,7 @@ def check_temperatures(run, table):
         scalar(run, table, f"speed_{name}_mm_s", "numpy", value, sem)
 
 
+@observable(every="10 ms")
 def check_collisions(run, table):
     frames = run.frames("collisions")
     step = run.time[frames[1]] - run.time[frames[0]]
@@ -647,6 +669,7 @@ def check_collisions(run, table):
     scalar(run, table, "mean_free_time_s", "numpy", value, sem)
 
 
+@observable(every="10 ms", phases="locked")
 def check_stress(run, table):
     frames = run.frames("stress")
     area = run.box[0] * run.box[1] if np.ndim(run.box) else run.box ** 2
@@ -681,6 +704,7 @@ def check_stress(run, table):
         scalar(run, table, name + "_pJ_mm2", "numpy", value, sem, allowed=1e-5 * abs(value))
 
 
+@observable(every="20 ms", bins=100)
 def check_mixing(run, table):
     """Of one species, whose pairs are those of g2 where both sample alike; of several: tests/unit/analysis."""
     same = run.scene["measure"]["g2"]
@@ -692,6 +716,7 @@ def check_mixing(run, table):
                   run.arrays["/g2/g" + sem][known], 1e-9)
 
 
+@observable(every="10 ms")
 def check_drift(run, table):
     frames = run.frames("drift")
     centre = run.unwrapped[frames].mean(1)
@@ -729,6 +754,7 @@ def axes_apart(places, director, tail, head, box):
     return np.where(inside, np.minimum(least, apart(np.where(inside, s, 0), np.where(inside, t, 0))), least), np.abs(dot)
 
 
+@observable(every="20 ms", angle=20)
 def check_clusters(run, table):
     frames = run.frames("clusters")
     plan = run.scene["measure"]["clusters"]
@@ -791,6 +817,7 @@ def pair_sums(run, frames, samples, visit):
         yield visit(d, value, other, frame)
 
 
+@observable(every="20 ms")
 def check_g2(run, table):
     frames = run.frames("g2")
     parts = steady_parts(run, frames)
@@ -833,6 +860,7 @@ def check_g2(run, table):
                   doubt / expected + 1e-9)
 
 
+@observable(every="20 ms")
 def check_pairs(run, table):
     frames = run.frames("pairs")
     parts = steady_parts(run, frames)
@@ -992,6 +1020,7 @@ def half_plane(box, most, everything=False):
     return m[keep], n[keep], q[keep]
 
 
+@observable(every="20 ms")
 def check_layers(run, table):
     frames = run.frames("layers")
     parts = steady_parts(run, frames)
@@ -1059,6 +1088,7 @@ def check_layers(run, table):
         scalar(run, table, name, "direct sums", value[k], sem[k])
 
 
+@observable(every="20 ms", waves=24)
 def check_structure(run, table):
     frames = run.frames("structure")
     parts = steady_parts(run, frames)
@@ -1095,6 +1125,7 @@ def check_structure(run, table):
             scalar(run, table, "structure_longest_wave", "direct sums", value[0], sem[0])
 
 
+@observable(every="20 ms")
 def check_lattice(run, table):
     frames = run.frames("lattice")
     parts = steady_parts(run, frames)
@@ -1260,6 +1291,7 @@ def decay_time(lags, value, sem):
     return np.interp(-np.exp(-1), -c[k - 1:k + 1], t[k - 1:k + 1]), error / ((c[k - 1] - c[k]) / step)
 
 
+@observable(every="10 ms")
 def check_msd(run, table):
     frames = lag_frames(run, "msd")
     r, axis, n = run.unwrapped[frames], run.axis[frames], run.n
@@ -1318,6 +1350,7 @@ def check_msd(run, table):
         scalar(run, table, name, "definition", value)
 
 
+@observable(every="10 ms")
 def check_rotation(run, table):
     frames = lag_frames(run, "rotation")
     angle = np.unwrap(run.theta[frames], period=np.pi, axis=0)
@@ -1349,6 +1382,7 @@ def check_rotation(run, table):
            allowed=np.sum(np.abs(steps - np.pi / 3) < 1e-5))
 
 
+@observable(every="10 ms", window="100 ms")
 def check_velocity(run, table):
     frames = lag_frames(run, "velocity")
     times = run.time[frames]
@@ -1415,6 +1449,7 @@ def check_velocity(run, table):
     scalar(run, table, "velocity_decay_s", "numpy interp", *decay_time(lags.lags[1:], c_v[1:], c_v_sem[1:]))
 
 
+@observable(every="10 ms", wavelength="4 mm")
 def check_scattering(run, table):
     frames = lag_frames(run, "scattering")
     r, axis = run.unwrapped[frames], run.axis[frames]
@@ -1465,6 +1500,7 @@ def check_scattering(run, table):
             scalar(run, table, "alpha_2_peak_lag_s", "numpy", lags.lags[peak])
 
 
+@observable(every="10 ms", lag="160 ms", range="2 mm")
 def check_van_hove(run, table):
     frames = lag_frames(run, "van_hove")
     plan = run.scene["measure"]["van_hove"]
@@ -1507,6 +1543,7 @@ def check_van_hove(run, table):
     scalar(run, table, "van_hove_beyond", "numpy", value[0], sem[0], 1e-4, allowed_sem=0.05)
 
 
+@observable(every="20 ms")
 def check_flow(run, table):
     frames = lag_frames(run, "flow")
     bins = run.scene["measure"]["flow"]["bins"]
@@ -1558,6 +1595,7 @@ def check_flow(run, table):
     scalar(run, table, "flow_length_mm", "numpy interp", values[-1], sems[-1], 2e-2 * abs(values[-1]), allowed_sem=0.1)
 
 
+@observable(every="10 ms", count=4, duration="1.5 s")
 def check_rods(run, table):
     frames = run.frames("rods")
     start = run.steady_given or 0
@@ -1577,6 +1615,7 @@ def check_rods(run, table):
 # ---- numbers in boxes ----
 
 
+@observable(every="20 ms")
 def check_fluctuations(run, table):
     frames = run.frames("fluctuations")
     parts = steady_parts(run, frames)
@@ -1615,6 +1654,7 @@ def check_fluctuations(run, table):
 # ---- the director's fluctuations ----
 
 
+@observable(every="20 ms")
 def check_frank(run, table):
     frames = run.frames("frank")
     parts = steady_parts(run, frames)
@@ -1735,6 +1775,7 @@ def direction_of(q, mesh, x, y, charge, radius):
     return np.angle(mode) / 2 / (1 - charge)
 
 
+@observable(every="20 ms", list=True, min_lifetime="100 ms")
 def check_defects(run, table):
     frames = run.frames("defects")
     plan = run.scene["measure"]["defects"]
@@ -1954,6 +1995,7 @@ def check_tracks(run, table, frames, plan):
             scalar(run, table, prefix + name + "_mm_s", by, curve[2], sem[2])
 
 
+@observable(every="20 ms", bins=11, separation="1.25 mm")
 def check_defect_maps(run, table):
     """About the defects of the list of measure.defects, which check_defects finds again."""
     frames = run.frames("defect_maps")
@@ -2053,6 +2095,7 @@ def check_defect_maps(run, table):
             scalar(run, table, "core_flow_across_mm_s", by, across, error[3], 20 * doubtful + 2e-3, allowed_sem=0.02)
 
 
+@observable(every="10 ms", duration="50 ms")
 def check_density(run, table):
     frames = run.frames("density")
     plan = run.scene["measure"]["density"]
@@ -2107,23 +2150,17 @@ def check_density(run, table):
     scalar(run, table, "density_correlation_s", "numpy interp", time, sem, 1e-6, allowed_sem=1e-2)
 
 
-CHECKS = {"order": check_order, "angles": check_angles, "tilt": check_tilt, "defects": check_defects, "g2": check_g2,
-          "pairs": check_pairs, "layers": check_layers, "lattice": check_lattice, "structure": check_structure,
-          "polar": check_polar, "fluctuations": check_fluctuations,
-          "frank": check_frank, "msd": check_msd, "rotation": check_rotation, "velocity": check_velocity, "rods": check_rods,
-          "temperatures": check_temperatures, "scattering": check_scattering, "van_hove": check_van_hove,
-          "flow": check_flow, "clusters": check_clusters, "collisions": check_collisions,
-          "stress": check_stress, "mixing": check_mixing, "defect_maps": check_defect_maps,
-          "density": check_density, "drift": check_drift}
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("run", metavar="RUN_DIR")
+    parser.add_argument("run", metavar="RUN_DIR", nargs="?")
+    parser.add_argument("--scene", action="store_true", help="print the scene of such a run")
     parser.add_argument("--all", action="store_true", help="show errors (sem) that agree as well")
     parser.add_argument("--only", metavar="NAME", nargs="+", choices=CHECKS, help="these measurements only")
     parser.add_argument("--observables", metavar="FILE", help="instead of RUN_DIR/observables.h5")
     arguments = parser.parse_args()
+    if arguments.scene:
+        print(json.dumps(SCENE))
+        return 0
     run = Run(arguments.run, arguments.observables or os.path.join(arguments.run, "observables.h5"))
     table = Table()
     check_reading(run, table)
