@@ -13,7 +13,7 @@ bool is_in_plate(const Species& species, const Pose& pose, const PlateState& pla
   return std::ranges::any_of(species.outer_beads, [&](int bead) {
     const double z = pose.position.z() + species.bead_offset[bead] * pose.director.z();
     const double radius = species.bead_radius[bead];
-    return (rules.has_base && z - radius < plates.base) || (rules.has_lid && z + radius > plates.lid);
+    return (rules.system.base && z - radius < plates.base) || (rules.system.lid && z + radius > plates.lid);
   });
 }
 
@@ -23,7 +23,7 @@ void off_surface_ticks(std::span<const int> rods, const World& world, const std:
                        Tick horizon, const TickRules& rules, PlateLanes& lanes, Tick* ticks) {
   const Species& species = rules.species_of(rods.front());
   std::fill_n(ticks, kLanes, horizon);
-  if (rules.has_base || rules.has_lid) {
+  if (rules.system.base || rules.system.lid) {
     for (std::size_t lane = 0; lane < rods.size(); ++lane) {
       const Flight& flight = world.rods[rods[lane]];
       const Pose& pose = at_tick[rods[lane]].pose;
@@ -35,9 +35,9 @@ void off_surface_ticks(std::span<const int> rods, const World& world, const std:
       lanes.rate2[lane] = static_cast<float>(flight.rate * flight.rate);
     }
     plate_safe_ticks(species, world.plates, lanes, static_cast<int>(rods.size()), rules.gravity.down, rules.dt, now,
-                     horizon, ticks, {rules.has_base, rules.has_lid, rules.rest});
+                     horizon, ticks, {rules.system.base, rules.system.lid, rules.rest});
   }
-  if (rules.impacts_at_instant) {
+  if (rules.system.has_impacts_at_instant()) {
     // An impact on one bead may have pressed another deeper into a plate than it was found, though it recedes: the next
     // tick sees how deep.
     const PlateState plates = world.plates.at(now);
@@ -53,7 +53,7 @@ void off_surface_ticks(std::span<const int> rods, const World& world, const std:
     Flight flight = world.rods[rods[lane]];
     if (pull > 0) flight.velocity = velocity_at(flight, now, rules);
     double time = static_cast<double>(horizon) * rules.dt;
-    if (rules.walls) time = wall_safe_time(*rules.walls, rules.box, species, pose, flight, time, pull);
+    if (rules.system.walls) time = wall_safe_time(*rules.system.walls, rules.box, species, pose, flight, time, pull);
     if (rules.posts) time = post_safe_time(*rules.posts, rules.box, species, pose, flight, time, pull);
     ticks[lane] = std::min(ticks[lane], static_cast<Tick>(time / rules.dt * (1.0 - margins::kWallTime)));
   }

@@ -333,7 +333,7 @@ constexpr std::array kEffects{
     line<SeveralSpecies>("species", "rods", "rods_*.count", "Rods of other species beside the first."),
     line<Polydispersity>("polydispersity", "rods", "rods*.length_spread rods*.end_diameter_spread",
                          "Rods of one species differ in size."),
-    line<Taper>("taper", "rods", "rods*.bead_diameters rods*.end_diameter",
+    line<Taper>("taper", "rods", "rods*.bead_diameters rods*.end_diameter rods*.end_diameter_spread",
                 "Rods are thinner at their ends than in the middle, or thicker."),
     line<Spin>("spin", "impulses", "contacts.*.friction walls*.friction posts*.friction",
                "Rods spin about their own axes."),

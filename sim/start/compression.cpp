@@ -157,23 +157,21 @@ class Compression {
 
   /// The system in which the rods fly about, but for its box, gap and thicker beads.
   System gas() const {
-    System gas = system_;
+    System gas;  // of the scene's effects, it has those that follow
+    gas.rod = system_.rod;
+    gas.n_rods = system_.n_rods;
+    gas.added = system_.added;
+    gas.box_side = system_.box_side;
+    gas.box_aspect = system_.box_aspect;
+    gas.gap = system_.gap;
+    gas.posts = system_.posts;
+    gas.seed = system_.seed;
     gas.start = Start::kRandom;
-    gas.amplitude = gas.horizontal_amplitude = gas.inclination = 0;
-    gas.second.reset();
-    gas.lid_motion.reset();
-    gas.gravity = 0;
+    gas.amplitude = gas.gravity = 0;
     gas.base = gas.lid = !system_.is_planar();
     const ContactParameters elastic{0.0, 1.0};
     gas.rod_rod = gas.rod_base = gas.rod_lid = elastic;
     if (gas.posts) gas.posts->contact = elastic;
-    gas.rotational_noise = 0;
-    gas.added_noise = {};
-    gas.law = ImpulseLaw::kNewton;
-    gas.solver_sweeps = 1;
-    gas.order = ContactOrder::kSorted;
-    gas.impacts = ImpactTime::kTickEnd;
-    gas.stepper = StepperKind::kScheduled;
     gas.dt = kWay * thinnest_ / kStartSpeed;
     return gas;
   }

@@ -24,7 +24,7 @@ struct RodStates {
   RodStates(const TickRules& tick_rules, std::size_t n_shares)
       : rules(tick_rules),
         at_tick(rules.shape_of_rod.size()),
-        flight_poses(rules.impacts_at_instant ? at_tick.size() : 0),
+        flight_poses(rules.system.has_impacts_at_instant() ? at_tick.size() : 0),
         skin_budgets(at_tick.size()),
         marks(at_tick.size()),
         owners(at_tick.size()) {

@@ -141,10 +141,10 @@ struct PlateHitKernel {
         const PlateMet& plate = plates_met[k];
         meet_plate<W>(l, PlateMet{side, plate.height, plate.velocity, plate.contact}, rods, hits.of_plate[k]);
       };
-      if (rules.has_base) met(1.0, 0);
-      if (rules.has_lid) met(-1.0, 1);
+      if (rules.system.base) met(1.0, 0);
+      if (rules.system.lid) met(-1.0, 1);
     } else {  // one copy: it must fit into the cache
-      for (int k = rules.has_base ? 0 : 1; k < (rules.has_lid ? 2 : 1); ++k) {
+      for (int k = rules.system.base ? 0 : 1; k < (rules.system.lid ? 2 : 1); ++k) {
         meet_plate<W>(l, plates_met[k], rods, hits.of_plate[k]);
       }
     }
@@ -232,7 +232,7 @@ struct PlateHitKernel {
     contacts.arm = beads.offset * rods.pose.director - beads.radius * contacts.normal;
     contacts.u = rods.motion.velocity + rods.motion.angular_velocity.cross(contacts.arm);
     contacts.u.z -= velocity.z;
-    if (rules.has_horizontal_vibration) {
+    if (rules.system.has_horizontal_vibration()) {
       contacts.u.x -= velocity.x;
       contacts.u.y -= velocity.y;
     }
@@ -240,7 +240,7 @@ struct PlateHitKernel {
     return contacts;
   }
 
-  bool is_at_instant() const { return !kIsUsual && rules.impacts_at_instant; }
+  bool is_at_instant() const { return !kIsUsual && rules.system.has_impacts_at_instant(); }
   bool has_noise() const { return !kIsUsual && species.has_rotational_noise(); }
   bool rests(const PlateMet& plate) const {
     return !kIsUsual && rules.rest.matters() && plate.contact.restitution < 1 && plate.side > 0;
@@ -433,9 +433,9 @@ bool are_usual(const TickRules& rules, const SpeciesMechanics& species) {
   const auto is_usual = [](const ContactParameters& contact) {
     return contact.has_friction() && !contact.has_restitution_speed();
   };
-  return (!rules.has_base || is_usual(species.base)) && (!rules.has_lid || is_usual(species.lid)) &&
-         rules.impulse == &newton_coulomb_impulse && !rules.impacts_at_instant && !species.has_rotational_noise() &&
-         !rules.rest.matters();
+  return (!rules.system.base || is_usual(species.base)) && (!rules.system.lid || is_usual(species.lid)) &&
+         rules.impulse == &newton_coulomb_impulse && !rules.system.has_impacts_at_instant() &&
+         !species.has_rotational_noise() && !rules.rest.matters();
 }
 
 /// The compiler asks for every law; one that the kernel does not compute is to return false.
@@ -467,7 +467,7 @@ std::uint32_t meet_plates_in_lanes(std::span<const int> rods, const std::vector<
   const SpeciesMechanics& species = rules.species_of(rods.front());
   PlateHits hits;
   hits.has_noise = species.has_rotational_noise();
-  hits.are_at_instant = rules.impacts_at_instant;
+  hits.are_at_instant = rules.system.has_impacts_at_instant();
   for (PlateHits::OfPlate& of_plate : hits.of_plate) std::fill_n(of_plate.overlap, kDoubleLanes, 0.0);
   thread_local FlightLanes in{};  // lanes beyond n hold rods of before, which count for nothing
   alignas(64) double since[kDoubleLanes]{};

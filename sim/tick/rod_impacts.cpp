@@ -49,7 +49,7 @@ namespace {
                    {species_j, rod_j, offset_j, offset_j * rod_j.pose.director - radius_j * normal}, normal, overlap,
                    rules.rod_rod(contact.i, contact.j), rules.impulse, counters.ledger);
   };
-  if (!rules.impacts_at_instant) {
+  if (!rules.system.has_impacts_at_instant()) {
     if (collide_along(beads.normal, beads.overlap)) ++counters.impulses_rod_rod;
     return;
   }

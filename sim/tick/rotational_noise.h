@@ -8,7 +8,7 @@ namespace shaken {
 /// To which side noise turns a rod, +1 or -1. It depends on seed, rod, tick and `hit`, which of the rod's hits in the
 /// tick this is, only, so it is the same for every stepper and number of threads.
 inline double sign_of_noise(int index, int hit, Tick now, const TickRules& rules) {
-  Rng rng(rules.seed, RngStream::kNoise, now,
+  Rng rng(rules.system.seed, RngStream::kNoise, now,
           (static_cast<std::uint64_t>(index) << 16) + static_cast<std::uint64_t>(hit));
   return rng.bits() >> 63 ? 1.0 : -1.0;
 }

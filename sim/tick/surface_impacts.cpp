@@ -91,7 +91,7 @@ Vec3 velocity_of(const Vec3& normal, const PlateState& plates, const TickRules& 
   const auto bead = [&] { return impact::Bead{species, rod, offset, offset * rod.pose.director - radius * normal}; };
   const bool rests = rules.rest.matters() && contact.restitution < 1 && normal.z() > 0;
   const double rest_speed = rests ? rules.rest.at(overlap) : 0.0;
-  if (rules.impacts_at_instant) {
+  if (rules.system.has_impacts_at_instant()) {
     const double speed = -(bead().velocity().dot(normal) - upwards(plates, normal) * normal.z());
     if (const auto ago = impact::time_since_touch(overlap, speed, rules.dt)) {
       impact::fly(rod, -*ago, species, rules.gravity);
@@ -205,12 +205,12 @@ struct PlateVisit {
   }
 
   /// Whether a rod stays where it is, whatever impulses it gets: noise changes its motion only.
-  static bool pose_stays(const TickRules& rules) { return !rules.impacts_at_instant; }
+  static bool pose_stays(const TickRules& rules) { return !rules.system.has_impacts_at_instant(); }
 };
 
 std::optional<NumericalTrouble> meet_plates(PlateVisit visit) {
   for (const double side : {1.0, -1.0}) {
-    if (!(side > 0 ? visit.rules.has_base : visit.rules.has_lid) || visit.is_out_of_reach(side)) continue;
+    if (!(side > 0 ? visit.rules.system.base : visit.rules.system.lid) || visit.is_out_of_reach(side)) continue;
     if (auto trouble = visit.meet_all(side)) return trouble;
   }
   return {};
@@ -266,7 +266,7 @@ struct UprightVisit {
 };
 
 std::optional<NumericalTrouble> meet_side_walls(UprightVisit& visit) {
-  const SideWalls& walls = *visit.rules.walls;
+  const SideWalls& walls = *visit.rules.system.walls;
   const Box& box = visit.rules.box;
   if (!may_touch_walls(walls, box, visit.species, visit.rod.pose)) return {};
   const auto see = [&](const Vec3& center, double radius, const auto& note) {
@@ -291,7 +291,7 @@ std::optional<NumericalTrouble> meet_posts(UprightVisit& visit) {
 std::optional<NumericalTrouble> meet_uprights(int index, RodAtTick& rod, const Flight& flight, const PlateState& plates,
                                               Tick now, const TickRules& rules, Counters& counters) {
   UprightVisit visit{index, rod, flight, plates, now, rules, counters};
-  if (rules.walls) {
+  if (rules.system.walls) {
     if (auto trouble = meet_side_walls(visit)) return trouble;
   }
   if (rules.posts) return meet_posts(visit);
@@ -300,7 +300,7 @@ std::optional<NumericalTrouble> meet_uprights(int index, RodAtTick& rod, const F
 
 std::optional<NumericalTrouble> meet_surfaces(int index, RodAtTick& rod, const Flight& flight, const PlateState& plates,
                                               Tick now, const TickRules& rules, Counters& counters) {
-  if (rules.has_base || rules.has_lid) {
+  if (rules.system.base || rules.system.lid) {
     if (auto trouble = meet_plates({index, rod, flight, plates, now, rules, counters})) return trouble;
   }
   if (rules.has_uprights()) return meet_uprights(index, rod, flight, plates, now, rules, counters);

@@ -45,23 +45,18 @@ void set_materials(const System& system, std::span<const std::uint8_t> species_o
 }  // namespace
 
 TickRules::TickRules(const World& world)
-    : shape_of_rod(world.shape_of_rod),
-      gravity(world.system.gravity_on_plates()),
-      dt(world.system.dt),
-      box(world.system.box()),
-      impulse(impulse_function(world.system.law)),
-      impacts_at_instant(world.system.has_impacts_at_instant()),
-      has_base(world.system.base),
-      has_lid(world.system.lid),
-      walls(world.system.walls),
-      has_horizontal_vibration(world.system.has_horizontal_vibration()),
-      seed(world.system.seed),
+    : system(world.system),
+      shape_of_rod(world.shape_of_rod),
+      gravity(system.gravity_on_plates()),
+      dt(system.dt),
+      box(system.box()),
+      impulse(impulse_function(system.law)),
       plates(world.plates) {
   for (const Species& one : world.species) species.emplace_back(one);
-  if (world.system.posts) posts.emplace(standing_posts(world.system), box, period_of(box, walls));
-  set_materials(world.system, world.species_of_shape, species);
+  if (system.posts) posts.emplace(standing_posts(system), box, period_of(box, system.walls));
+  set_materials(system, world.species_of_shape, species);
   max_speed2 = max_speed(world) * max_speed(world);
-  if (world.system.lets_rods_rest()) rest = {0.5 * gravity.down * dt, kRiseRate};
+  if (system.lets_rods_rest()) rest = {0.5 * gravity.down * dt, kRiseRate};
 }
 
 NumericalTrouble motion_trouble(int index, const RodAtTick& rod, Tick now, const TickRules& rules) {

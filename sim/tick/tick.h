@@ -59,19 +59,15 @@ struct TickRules {
   /// Of two rods.
   const ContactParameters& rod_rod(int i, int j) const { return species_of(i).rods[species_of(j).number]; }
 
+  System system;
   std::vector<SpeciesMechanics> species;   ///< (n_shapes) each size of each species
   std::vector<std::uint8_t> shape_of_rod;  ///< (n_rods)
   Gravity gravity;
   double dt;
   Box box;                  ///< sides along x and y [mm]
   ImpulseFunction impulse;  ///< of contacts with friction
-  bool impacts_at_instant;
-  bool has_base, has_lid;
-  std::optional<SideWalls> walls;
   std::optional<PostGrid> posts;
-  bool has_uprights() const { return walls || posts; }
-  bool has_horizontal_vibration;
-  std::uint64_t seed;
+  bool has_uprights() const { return system.walls || posts; }
   PlateMotion plates;
   double max_speed2;  ///< [mm^2/s^2]
   RestSpeed rest;

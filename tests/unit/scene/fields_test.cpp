@@ -1,9 +1,14 @@
 #include "scene/keys/fields.h"
 
+#include <fnmatch.h>
+
 #include <set>
+#include <sstream>
 
 #include "scene/canonical.h"
 #include "scene/keys/settings.h"
+#include "sim/effects/registry.h"
+#include "tests/support/everything_on.h"
 #include "tests/support/generated_page.h"
 #include "tests/unit/scene/scene_support.h"
 
@@ -62,6 +67,33 @@ TEST(Fields, SuggestPaths) {
 // The table in docs/scene.md. To write it anew: SHAKEN_UPDATE_DOCS=1 and run this test.
 TEST(Fields, TheReferenceIsUpToDate) {
   expect_generated(SHAKEN_SOURCE_DIR "/docs/scene.md", "keys", fields().as_markdown());
+}
+
+// An effect that is switched off changes keys that its line names, or turns off the block that they are in.
+TEST(Fields, AreAllThatAnEffectSwitchesOff) {
+  RunPlan on;
+  on.system = test::everything_on();
+  for (const Effect& effect : all_effects()) {
+    const auto is_named = [&](const Field& key) {
+      std::istringstream patterns{std::string(effect.keys)};
+      for (std::string pattern; patterns >> pattern;) {
+        if (fnmatch(pattern.c_str(), key.path.c_str(), 0) == 0) return true;
+      }
+      return false;
+    };
+    RunPlan off = on;
+    if (effect.switch_off != nullptr) effect.switch_off(off.system);
+    for (const Field& key : fields()) {
+      const bool follows = key.path == "plates.gamma" || key.path.ends_with("area_fraction");
+      if (fields().value(off, key) == fields().value(on, key) || is_named(key) || follows) continue;
+      const Field* block = key.form == Form::kBlock ? &key : fields().block_of(key);
+      const bool is_gone = block != nullptr && block->fetch(off) == Value(false) &&
+                           std::ranges::any_of(fields(), [&](const Field& other) {
+                             return fields().block_of(other) == block && is_named(other);
+                           });
+      EXPECT_TRUE(is_gone) << effect.name << " changes " << key.path;
+    }
+  }
 }
 
 TEST(Settings, ReplaceWhatTheFileSays) {

@@ -159,7 +159,7 @@ TEST(PlateImpacts, InLanesAreBitForBitThoseOfOneRodAfterTheOther) {
         continue;
       }
       RodAtTick rod = rod_at_tick(near.world.rods[i], now, rules);
-      if (rules.impacts_at_instant) {
+      if (rules.system.has_impacts_at_instant()) {
         ASSERT_TRUE(are_same(flight_pose[i].position, rod.pose.position)) << trial;
         ASSERT_TRUE(are_same(flight_pose[i].director, rod.pose.director)) << trial;
       }
