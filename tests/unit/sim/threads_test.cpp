@@ -1,11 +1,15 @@
 // The short form of what steppers_agree_test does at length: small enough for the thread sanitizer.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
+#include "base/core/thread_team.h"
 #include "sim/lanes/lanes.h"
 #include "sim/schedule/sharing_trial.h"
 #include "sim/simulation.h"
+#include "tests/support/random_rods.h"
 
 namespace shaken {
 namespace {
@@ -82,6 +86,176 @@ TEST(Threads, ATrialThatChangesItsMindDoesNotChangeABit) {
   ASSERT_FALSE(several->advance_to(kEnd));
   EXPECT_GT(g_readings, 4 * SharingTrial::kStretch) << "several trials, with stretches that are shared";
   EXPECT_EQ(several->state_hash(), one->state_hash());
+}
+
+TEST(ThreadTeam, CallsEachThreadOnce) {
+  for (const int n_threads : {1, 2, 3, 4}) {
+    ThreadTeam team(n_threads);
+    EXPECT_EQ(team.size(), n_threads);
+    for (int round = 0; round < 300; ++round) {
+      std::vector<int> calls(n_threads, 0);
+      std::vector<std::thread::id> threads(n_threads);
+      team.run([&](int thread) {
+        ++calls.at(thread);
+        threads.at(thread) = std::this_thread::get_id();
+      });
+      EXPECT_EQ(calls, std::vector<int>(n_threads, 1));
+      EXPECT_EQ(threads[0], std::this_thread::get_id());
+    }
+  }
+}
+
+TEST(ThreadTeam, WhatACallWritesIsSeenByTheNext) {
+  ThreadTeam team(4);
+  std::vector<std::int64_t> values(1000);
+  std::iota(values.begin(), values.end(), 0);
+  for (int round = 0; round < 200; ++round) {
+    std::vector<std::int64_t> next(values.size());
+    team.run([&](int thread) {
+      for (std::size_t k = thread; k < values.size(); k += 4) next[k] = values[values.size() - 1 - k] + 1;
+    });
+    values = next;
+  }
+  for (std::size_t k = 0; k < values.size(); ++k) EXPECT_EQ(values[k], static_cast<std::int64_t>(k) + 200);
+}
+
+TEST(ThreadTeam, SleepersWakeUp) {
+  ThreadTeam team(2);
+  std::atomic<int> calls{0};
+  for (int round = 0; round < 3; ++round) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));  // far longer than anyone spins
+    team.run([&](int) { ++calls; });
+  }
+  EXPECT_EQ(calls, 6);
+}
+
+double g_now = 0;
+
+/// A machine on which ticks take made-up times.
+struct Machine {
+  double alone = 1e-4;  ///< time of a tick [s]
+  double shared = 1e-4;
+  double noise = 0;  ///< each tick takes up to so much more, in parts of its time
+  test::Draw draw{5};
+  SharingTrial trial;
+
+  Machine() {
+    trial.use([] { return g_now; });
+  }
+
+  /// Returns how many of the next ticks were shared.
+  int run(int ticks) {
+    int n_shared = 0;
+    for (int tick = 0; tick < ticks; ++tick) {
+      const bool shares = trial.next_tick();
+      n_shared += shares ? 1 : 0;
+      g_now += (shares ? shared : alone) * (1 + noise * draw.uniform(0, 1));
+    }
+    return n_shared;
+  }
+};
+
+constexpr int kTrial = 2 * SharingTrial::kPairs * SharingTrial::kStretch;
+constexpr int kShortTrial = 2 * SharingTrial::kLeastPairs * SharingTrial::kStretch;
+
+TEST(SharingTrial, WithoutAClockEveryTickIsShared) {
+  SharingTrial trial;
+  for (int tick = 0; tick < 2 * kTrial; ++tick) EXPECT_TRUE(trial.next_tick());
+  trial.use([] { return g_now; });
+  EXPECT_FALSE(trial.next_tick());  // the first stretch is one alone
+  trial.use(nullptr);
+  EXPECT_TRUE(trial.next_tick());
+}
+
+TEST(SharingTrial, HalfOfATrialIsShared) {
+  Machine machine;
+  EXPECT_EQ(machine.run(SharingTrial::kStretch), 0);
+  EXPECT_EQ(machine.run(2 * SharingTrial::kStretch), 2 * SharingTrial::kStretch);
+  EXPECT_EQ(machine.run(kTrial - 3 * SharingTrial::kStretch), kTrial / 2 - 2 * SharingTrial::kStretch);
+}
+
+TEST(SharingTrial, TheFasterWayIsChosen) {
+  Machine machine;
+  machine.shared = 0.8 * machine.alone;
+  machine.run(kTrial);
+  EXPECT_EQ(machine.run(SharingTrial::kLeastWait), SharingTrial::kLeastWait);
+  Machine busy;
+  busy.shared = 1.2 * busy.alone;
+  busy.run(kTrial);
+  EXPECT_EQ(busy.run(SharingTrial::kLeastWait), 0);
+}
+
+TEST(SharingTrial, OneThreadDoesWhatTwoDoAsFast) {
+  Machine machine;
+  machine.shared = 0.97 * machine.alone;
+  machine.run(kTrial);
+  EXPECT_EQ(machine.run(SharingTrial::kLeastWait), 0);
+}
+
+TEST(SharingTrial, AClearAnswerEndsTheTrialEarly) {
+  Machine machine;
+  machine.shared = 3 * machine.alone;
+  machine.run(kShortTrial);
+  EXPECT_EQ(machine.run(SharingTrial::kLeastWait), 0);
+  EXPECT_GT(machine.run(2 * SharingTrial::kStretch), 0);  // the next trial begins
+}
+
+TEST(SharingTrial, TrialsBecomeRareWhileTheAnswerStaysTheSame) {
+  Machine machine;
+  machine.shared = 3 * machine.alone;
+  machine.run(kShortTrial);
+  for (int wait = SharingTrial::kLeastWait; wait < 4 * SharingTrial::kMostWait; wait *= 2) {
+    EXPECT_EQ(machine.run(std::min(wait, SharingTrial::kMostWait)), 0) << wait;
+    EXPECT_EQ(machine.run(kShortTrial), kShortTrial / 2) << wait;
+  }
+  // of all ticks in the long run, so many are done in the slower way
+  const int many = 20 * SharingTrial::kMostWait;
+  EXPECT_LT(machine.run(many), many / 100);
+}
+
+TEST(SharingTrial, AnotherLoadChangesTheAnswer) {
+  Machine machine;
+  machine.shared = 0.6 * machine.alone;
+  machine.run(kShortTrial);
+  EXPECT_EQ(machine.run(SharingTrial::kLeastWait), SharingTrial::kLeastWait);
+  machine.shared = 2.5 * machine.alone;  // other programs begin
+  machine.run(kShortTrial);
+  EXPECT_EQ(machine.run(SharingTrial::kLeastWait), 0);
+  machine.shared = 0.6 * machine.alone;  // and end: trials had become frequent again
+  machine.run(kShortTrial);
+  EXPECT_EQ(machine.run(SharingTrial::kLeastWait), SharingTrial::kLeastWait);
+}
+
+TEST(SharingTrial, AHopelessTrialIsCutShort) {
+  Machine machine;
+  machine.shared = 100 * machine.alone;  // all cores are taken
+  machine.run(SharingTrial::kStretch);
+  const double before = g_now;
+  const int most = static_cast<int>(SharingTrial::kHopeless * SharingTrial::kStretch / 100) + 2;
+  EXPECT_LE(machine.run(SharingTrial::kLeastWait), most);
+  EXPECT_LT(g_now - before, 1.1 * SharingTrial::kLeastWait * machine.alone);
+}
+
+TEST(SharingTrial, SharingEndsSoonWhereALoadBegins) {
+  Machine machine;
+  machine.shared = 0.6 * machine.alone;
+  machine.run(kShortTrial);
+  machine.run(SharingTrial::kLeastWait / 2 + 100);
+  machine.shared = 1.2 * machine.alone;  // other programs begin
+  EXPECT_LE(machine.run(SharingTrial::kLeastWait), 2 * SharingTrial::kWatch);
+  machine.shared = 0.6 * machine.alone;
+  machine.run(2 * SharingTrial::kWatch + kShortTrial);
+  EXPECT_EQ(machine.run(SharingTrial::kLeastWait / 2), SharingTrial::kLeastWait / 2);
+}
+
+TEST(SharingTrial, TimesThatScatterAreAveraged) {
+  for (const double shared : {0.8, 1.25}) {
+    Machine machine;
+    machine.noise = 4;  // a tick takes one to five times as long
+    machine.shared = shared * machine.alone;
+    machine.run(kTrial);
+    EXPECT_EQ(machine.run(SharingTrial::kLeastWait), shared < 1 ? SharingTrial::kLeastWait : 0) << shared;
+  }
 }
 
 }  // namespace

@@ -1,0 +1,315 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <random>
+#include <set>
+#include <type_traits>
+#include <vector>
+
+#include "base/core/exact_sum.h"
+#include "base/core/natural_log.h"
+#include "base/core/result.h"
+#include "base/core/rng.h"
+#include "base/core/state_io.h"
+
+namespace shaken {
+namespace {
+
+Result<int> half_of(int n) {
+  if (n % 2 != 0) return Error{"odd"};
+  return n / 2;
+}
+
+Result<void> must_be_even(int n) {
+  if (n % 2 != 0) return Error{"odd"};
+  return {};
+}
+
+TEST(Result, IsAValueOrTheReasonWhyThereIsNone) {
+  const Result<int> good = half_of(6), bad = half_of(7);
+  ASSERT_TRUE(good);
+  EXPECT_EQ(*good, 3);
+  EXPECT_THROW(good.error(), std::bad_variant_access);
+  ASSERT_FALSE(bad);
+  EXPECT_EQ(bad.error().message, "odd");
+  EXPECT_THROW(bad.value(), std::bad_variant_access);
+}
+
+TEST(Result, AValueThatCannotBeCopiedCanBeTakenOut) {
+  Result<std::unique_ptr<int>> made = std::make_unique<int>(5);
+  const std::unique_ptr<int> taken = std::move(made).value();
+  EXPECT_EQ(*taken, 5);
+}
+
+TEST(Result, MayHaveSeveralReasons) {
+  const Result<int, std::vector<Error>> bad = std::vector<Error>{{"one"}, {"two"}};
+  ASSERT_FALSE(bad);
+  EXPECT_EQ(bad.error().size(), 2U);
+}
+
+// True means the same for all of them. That of std::optional<Error> would be the opposite, and nothing warns of `if`.
+TEST(ResultOfNothing, IsTrueOnSuccess) {
+  EXPECT_TRUE(Result<void>());
+  EXPECT_TRUE(must_be_even(6));
+  EXPECT_THROW(must_be_even(6).error(), std::bad_optional_access);
+  const Result<void> bad = must_be_even(7);
+  ASSERT_FALSE(bad);
+  EXPECT_EQ(bad.error().message, "odd");
+}
+
+TEST(ResultOfNothing, AFailureIsPassedOnAsOneOfAnyType) {
+  const auto third_of_even = [](int n) -> Result<double> {
+    if (auto done = must_be_even(n); !done) return done.error();
+    return n / 3.0;
+  };
+  const auto both_even = [](int a, int b) -> Result<void> {
+    if (auto done = must_be_even(a); !done) return done;
+    return must_be_even(b);
+  };
+  EXPECT_EQ(*third_of_even(6), 2);
+  EXPECT_EQ(third_of_even(7).error().message, "odd");
+  EXPECT_TRUE(both_even(2, 4));
+  EXPECT_FALSE(both_even(1, 4));
+  EXPECT_FALSE(both_even(2, 3));
+}
+
+TEST(ResultOfNothing, IsNoNumberAndNoFlag) {
+  EXPECT_FALSE((std::is_convertible_v<Result<void>, bool>));
+  EXPECT_FALSE((std::is_convertible_v<bool, Result<void>>));
+}
+
+TEST(Rng, StreamsAndIndicesAreIndependentOfOrder) {
+  Rng a(7, RngStream::kVelocity, 0, 3);
+  Rng again(7, RngStream::kVelocity, 0, 3);
+  Rng other_index(7, RngStream::kVelocity, 0, 4);
+  Rng other_stream(7, RngStream::kLattice, 0, 3);
+  Rng other_seed(8, RngStream::kVelocity, 0, 3);
+  Rng other_tick(7, RngStream::kVelocity, 1, 3);
+  const auto first = a.bits();
+  EXPECT_EQ(first, again.bits());
+  EXPECT_NE(first, other_index.bits());
+  EXPECT_NE(first, other_stream.bits());
+  EXPECT_NE(first, other_seed.bits());
+  EXPECT_NE(first, other_tick.bits());
+}
+
+// Replicas have neighbouring seeds: what one draws at a tick must not be what another draws at the next one.
+TEST(Rng, NoTwoKeysNearEachOtherDrawTheSame) {
+  std::set<std::uint64_t> drawn;
+  int n = 0;
+  for (std::uint64_t seed = 0; seed < 16; ++seed) {
+    for (const RngStream stream : {RngStream::kNoise, RngStream::kContacts}) {
+      for (Tick tick = 0; tick < 64; ++tick) {
+        for (std::uint64_t index = 0; index < 16; ++index) {
+          drawn.insert(Rng(seed, stream, tick, index).bits());
+          ++n;
+        }
+      }
+    }
+  }
+  EXPECT_EQ(drawn.size(), static_cast<std::size_t>(n));
+}
+
+TEST(NaturalLog, AgreesWithLongDouble) {
+  double worst = 0;
+  for (std::uint64_t k = 0; k < 200000; ++k) {
+    Rng rng(1, RngStream::kVelocity, 0, k);
+    const double x = k % 2 ? rng.uniform() + 0x1p-53 : std::ldexp(1 + rng.uniform(), static_cast<int>(k % 100) - 50);
+    const auto exact = static_cast<double>(std::log(static_cast<long double>(x)));
+    worst = std::max(worst, std::abs(natural_log(x) - exact) / std::max(std::abs(exact), 1e-300));
+  }
+  EXPECT_LT(worst, 5e-16);
+  EXPECT_EQ(natural_log(1.0), 0.0);
+}
+
+TEST(Rng, MomentsOfUniformAndNormal) {
+  // n = 2e5 draws: standard errors 6.5e-4 (uniform mean), 2.2e-3 (normal mean), 3.2e-3 (normal variance); 5 sigma
+  const int n = 200000;
+  double sum = 0, normal = 0, normal2 = 0;
+  for (int i = 0; i < n; ++i) {
+    Rng rng(1, RngStream::kVelocity, 0, static_cast<std::uint64_t>(i));
+    const double u = rng.uniform();
+    EXPECT_GE(u, 0.0);
+    EXPECT_LT(u, 1.0);
+    sum += u;
+    const double z = rng.normal();
+    normal += z;
+    normal2 += z * z;
+  }
+  EXPECT_NEAR(sum / n, 0.5, 5 * 6.5e-4);
+  EXPECT_NEAR(normal / n, 0.0, 5 * 2.2e-3);
+  EXPECT_NEAR(normal2 / n, 1.0, 5 * 3.2e-3);
+}
+
+TEST(ExactSum, DoesNotDependOnTheOrderOfItsTerms) {
+  Rng rng(1, RngStream::kVelocity, 0, 0);
+  std::vector<double> terms;
+  for (int k = 0; k < 10000; ++k) terms.push_back(rng.normal() * std::pow(10.0, rng.uniform(-8, 6)));
+  ExactSum<34> forwards, backwards, halves[2], both;
+  for (std::size_t k = 0; k < terms.size(); ++k) {
+    forwards.add(terms[k]);
+    backwards.add(terms[terms.size() - 1 - k]);
+    halves[k % 2].add(terms[k]);
+  }
+  both.add(halves[0]);
+  both.add(halves[1]);
+  EXPECT_EQ(forwards.value(), backwards.value());
+  EXPECT_EQ(forwards.value(), both.value());
+  long double plain = 0;
+  for (const double term : terms) plain += term;
+  EXPECT_NEAR(forwards.value(), static_cast<double>(plain), 1e-6);
+  // a plain sum of doubles does depend on it
+  double up = 0;
+  for (const double term : terms) up += term;
+  std::reverse(terms.begin(), terms.end());
+  double down = 0;
+  for (const double term : terms) down += term;
+  EXPECT_NE(up, down);
+}
+
+TEST(ExactSum, AddsLargeTermsToSmallOnesExactly) {
+  ExactSum<34> sum;
+  for (const double large :
+       {3e8, 1e12, -1e12, 1e18, -1e18, 7e19, -7e19, 123456789012345.625, -123456789012345.625, -3e8}) {
+    sum.add(large);
+    sum.add(0.25);
+  }
+  EXPECT_EQ(sum.value(), 2.5);
+}
+
+TEST(ExactSum, GoesOnBeyond64BitsAndThroughItsParts) {
+  ExactSum<44> sum;
+  for (int k = 0; k < 1000000; ++k) sum.add(-200000.25);
+  EXPECT_EQ(sum.value(), -200000.25e6);
+  ExactSum<44> copy;
+  copy.restore(sum.low(), sum.high(), sum.overflow());
+  copy.add(0.25);
+  EXPECT_EQ(copy.value(), -200000.25e6 + 0.25);
+}
+
+TEST(ExactSum, SaysSoWhenATermIsTooLarge) {
+  ExactSum<44> sum;
+  sum.add(1e20);
+  EXPECT_TRUE(std::isnan(sum.value()));
+  ExactSum<34> other;
+  other.add(NAN);
+  EXPECT_TRUE(std::isnan(other.value()));
+}
+
+TEST(StateIo, ReadsBackWhatWasWrittenExactly) {
+  std::mt19937_64 random(1);
+  for (int i = 0; i < 100; ++i) {
+    const double real = std::ldexp(static_cast<double>(random()), static_cast<int>(random() % 2000) - 1000);
+    const auto integer = static_cast<std::int64_t>(random());
+    std::vector<double> reals(random() % 4);
+    for (double& value : reals) value = -1.0 / static_cast<double>(random());
+    std::vector<std::int64_t> integers(random() % 4);
+    for (std::int64_t& value : integers) value = static_cast<std::int64_t>(random());
+    StateWriter writer;
+    writer.tag("Thing");
+    writer.put(real);
+    writer.put(reals);
+    writer.put(integer);
+    writer.put(integers);
+    StateReader reader(writer.bytes());
+    reader.tag("Thing");
+    EXPECT_EQ(reader.real(), real);
+    EXPECT_EQ(reader.reals(), reals);
+    EXPECT_EQ(reader.integer(), integer);
+    EXPECT_EQ(reader.integers(integers.size()), integers);
+    reader.end();
+  }
+}
+
+TEST(StateIo, EveryNumberHasItsOwnWidthAndBytesComeBack) {
+  StateWriter inner;
+  inner.put(Vec3(1.5, -2, 0.25));
+  StateWriter writer;
+  writer.put(std::uint8_t{200});
+  writer.put(std::int32_t{-7});
+  writer.put(std::uint32_t{4000000000});
+  writer.put(inner.bytes());
+  writer.append(inner.bytes());
+  EXPECT_EQ(writer.bytes().size(), 1 + 4 + 4 + (8 + 24) + 24);
+  StateReader reader(writer.bytes());
+  std::uint8_t small = 0;
+  std::int32_t negative = 0;
+  std::uint32_t large = 0;
+  Vec3 vector = Vec3::Zero();
+  reader.get(small);
+  reader.get(negative);
+  reader.get(large);
+  EXPECT_EQ(small, 200);
+  EXPECT_EQ(negative, -7);
+  EXPECT_EQ(large, 4000000000);
+  EXPECT_TRUE(std::ranges::equal(reader.bytes(), inner.bytes()));
+  reader.get(vector);
+  EXPECT_EQ(vector, Vec3(1.5, -2, 0.25));
+  EXPECT_THROW(reader.bytes(1), StateError);
+  reader.end();
+}
+
+TEST(StateIo, KeepsEveryBitOfADouble) {
+  StateWriter writer;
+  for (const double value :
+       {-0.0, std::numeric_limits<double>::denorm_min(), std::numeric_limits<double>::infinity()}) {
+    writer.put(value);
+  }
+  writer.put(std::numeric_limits<double>::quiet_NaN());
+  StateReader reader(writer.bytes());
+  EXPECT_TRUE(std::signbit(reader.real()));
+  EXPECT_EQ(reader.real(), std::numeric_limits<double>::denorm_min());
+  EXPECT_TRUE(std::isinf(reader.real()));
+  EXPECT_TRUE(std::isnan(reader.real()));
+}
+
+TEST(StateIo, EveryTruncationIsFound) {
+  StateWriter writer;
+  writer.tag("Thing");
+  writer.put(1.5);
+  writer.put(std::vector<double>{1, 2});
+  writer.put(std::vector<std::int64_t>{3});
+  for (std::size_t size = 0; size < writer.bytes().size(); ++size) {
+    StateReader reader(std::span(writer.bytes()).first(size));
+    const auto read_all = [&] {
+      reader.tag("Thing");
+      reader.real();
+      reader.reals();
+      reader.integers();
+    };
+    EXPECT_THROW(read_all(), StateError) << size;
+  }
+}
+
+TEST(StateIo, LengthsAreNotTrusted) {
+  for (const std::int64_t length : {std::int64_t{-1}, std::int64_t{2}, std::numeric_limits<std::int64_t>::max(),
+                                    std::numeric_limits<std::int64_t>::min()}) {
+    StateWriter writer;
+    writer.put(length);
+    writer.put(1.0);
+    StateReader reader(writer.bytes());
+    EXPECT_THROW(reader.reals(), StateError) << length;
+  }
+}
+
+TEST(StateIo, RefusesWhatDoesNotFit) {
+  StateWriter writer;
+  writer.tag("Thing");
+  writer.put(std::int64_t{5});
+  writer.put(std::vector<double>{1, 2});
+  StateReader other(writer.bytes());
+  EXPECT_THROW(other.tag("Think"), StateError);
+  StateReader range(writer.bytes());
+  range.tag("Thing");
+  EXPECT_THROW(range.integer(0, 4), StateError);
+  EXPECT_THROW(range.reals(3), StateError);
+  StateReader left_over(writer.bytes());
+  left_over.tag("Thing");
+  EXPECT_THROW(left_over.end(), StateError);
+}
+
+}  // namespace
+}  // namespace shaken
