@@ -87,21 +87,6 @@ TEST(AngleDistribution, CountsThatNoRunReachesAreRefused) {
   EXPECT_TRUE(restores(kMostCounted));
   EXPECT_FALSE(restores(kMostCounted + 1));
   EXPECT_FALSE(restores(-1));
-}
-
-TEST(AngleDistribution, MergesAndIsEmptyAtFirst) {
-  Draw draw(22);
-  AngleDistribution first(10), second(10), both(10);
-  for (int i = 0; i < 6; ++i) {
-    const std::vector<Vec3> rods = random_axes(draw, 50);
-    (i < 3 ? first : second).accumulate(rods);
-    both.accumulate(rods);
-  }
-  first.merge(second);
-  EXPECT_EQ(first.reduce().density, both.reduce().density);
-  EXPECT_EQ(state(first), state(both));
-  AngleDistribution other(11);
-  EXPECT_THROW(other.merge(first), std::logic_error);
   EXPECT_EQ(AngleDistribution(10).reduce().density, std::vector<double>(10, 0.0));
 }
 

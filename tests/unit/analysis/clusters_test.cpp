@@ -7,8 +7,8 @@
 #include <functional>
 
 #include "analysis/geometry/segment_distance.h"
+#include "sim/contact/bead_contacts.h"
 #include "tests/unit/analysis/analysis_samples.h"
-#include "tests/unit/analysis/state_checks.h"
 
 namespace shaken::analysis {
 namespace clusters_test {
@@ -59,16 +59,6 @@ TEST(ClusterSizes, KnowWallsHeadsAndAngles) {
   EXPECT_EQ(cluster_sizes(near, std::vector<Vec3>{axis(0), axis(kPi + 0.29)}, kAxis, kBox, aligned), Sizes{2});
   EXPECT_EQ(cluster_sizes(near, std::vector<Vec3>{axis(0), axis(0.31)}, kAxis, kBox, aligned), (Sizes{1, 1}));
   EXPECT_EQ(cluster_sizes(near, std::vector<Vec3>{axis(0), axis(kPi / 2)}, kAxis, kBox, kRule), Sizes{2});
-}
-
-// Spheres are axes without length: those of a square lattice of spacing 1 make one cluster or none.
-TEST(ClusterSizes, OfSpheresOnALattice) {
-  std::vector<Vec3> places;
-  for (int i = 0; i < 400; ++i) places.push_back(Vec3(i % 20 + 0.5, i / 20 + 0.5, 0.5));
-  const std::vector<Vec3> directors(400, Vec3(0, 0, 1));
-  constexpr RodAxis kPoint[]{{}};
-  EXPECT_EQ(cluster_sizes(places, directors, kPoint, kBox, {.distance = 1.01}), Sizes{400});
-  EXPECT_EQ(cluster_sizes(places, directors, kPoint, kBox, {.distance = 0.99}), Sizes(400, 1));
 }
 
 // The slow twin looks at all pairs and all images of each, and walks from rod to rod.
@@ -146,18 +136,6 @@ TEST(ClusterStatistics, OfSizesByHand) {
   EXPECT_TRUE(std::isnan(ClusterStatistics().reduce().rods[0]));
 }
 
-TEST(ClusterStatistics, Merges) {
-  ClusterStatistics first, second, both;
-  first.accumulate({4, 1});
-  second.accumulate({2, 2, 1});
-  both.accumulate({4, 1});
-  both.accumulate({2, 2, 1});
-  first.merge(second);
-  EXPECT_EQ(first.reduce().size, both.reduce().size);
-  EXPECT_EQ(first.reduce().rods, both.reduce().rods);
-  EXPECT_EQ(state(first), state(both));
-}
-
 TEST(ClusterSeries, KeepsLargestAndMean) {
   ClusterSeries series;
   series.accumulate(1, {3, 1});
@@ -165,6 +143,43 @@ TEST(ClusterSeries, KeepsLargestAndMean) {
   EXPECT_EQ(series.times(), (std::vector<double>{1, 2}));
   EXPECT_EQ(series.largest(), (std::vector<double>{0.75, 0.5}));
   EXPECT_EQ(series.sizes(), (std::vector<double>{2.5, 2}));
+}
+
+TEST(SegmentDistance, ByHand) {
+  const Vec3 o(0, 0, 0), x(1, 0, 0), y(0, 1, 0);
+  EXPECT_EQ(segment_distance(o, o, Vec3(3, 4, 0), o), 5);                         // points
+  EXPECT_EQ(segment_distance(o, 2 * x, Vec3(1, 3, 0), o), 3);                     // a point beside
+  EXPECT_EQ(segment_distance(o, 2 * x, Vec3(5, 4, 0), o), 5);                     // and beyond the end
+  EXPECT_EQ(segment_distance(o, 2 * x, Vec3(1, -1, 0.5), 2 * y), 0.5);            // crossing, one above the other
+  EXPECT_EQ(segment_distance(o, 2 * x, Vec3(1, 2, 0), 2 * y), 2);                 // a T
+  EXPECT_EQ(segment_distance(o, 2 * x, Vec3(1, 0.75, 0), 2 * x), 0.75);           // side by side
+  EXPECT_EQ(segment_distance(o, 2 * x, Vec3(5, 4, 0), 2 * x), 5);                 // one behind the other
+  EXPECT_EQ(segment_distance(o, 2 * x, Vec3(1, 0, 0), 2 * x), 0);                 // on each other
+  EXPECT_EQ(segment_distance(Vec3(2, 0, 0), -2 * x, Vec3(-3, 4, 0), -1 * x), 5);  // the other way round
+}
+
+// Twins: the simulation's own, written for centres and half-lengths, and the smallest distance of many points.
+TEST(SegmentDistance, OfRandomSegments) {
+  Draw draw(341);
+  const auto vector = [&](double size) {
+    return Vec3(size * draw.normal(), size * draw.normal(), 0.3 * size * draw.normal());
+  };
+  for (int i = 0; i < 3000; ++i) {
+    const Vec3 a = vector(1), b = vector(1), u = vector(1);
+    const Vec3 w = i % 4 == 0 ? Vec3(draw.uniform(-2, 2) * u) : vector(1);  // many are parallel
+    const double found = segment_distance(a, u, b, w);
+    const double theirs = std::sqrt(
+        segment_distance_squared(b + w / 2 - a - u / 2, u.normalized(), u.norm() / 2, w.normalized(), w.norm() / 2));
+    EXPECT_NEAR(found, theirs, 1e-7);
+    EXPECT_NEAR(found, segment_distance(b, w, a, u), 1e-7);
+    if (i >= 100) continue;
+    double least = 1e9;
+    for (int k = 0; k <= 200; ++k) {
+      for (int l = 0; l <= 200; ++l) least = std::min(least, (a + k / 200.0 * u - b - l / 200.0 * w).norm());
+    }
+    EXPECT_LE(found, least + 1e-12);
+    EXPECT_GE(found, least - (u.norm() + w.norm()) / 400);
+  }
 }
 
 }  // namespace clusters_test

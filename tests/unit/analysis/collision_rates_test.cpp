@@ -34,28 +34,6 @@ TEST(CollisionSeries, RatesAreDifferencesOfTotals) {
   EXPECT_THROW(series.accumulate(2, {{}, 10}), std::logic_error);
 }
 
-// Random impacts at given rates: the mean rate is found within its own Poisson error, and the integral of the series is
-// all that happened.
-TEST(CollisionSeries, OfRandomImpactsHasTheirRate) {
-  constexpr double kRods = 50, kRate = 400, kStep = 0.01;  // pairs of rods per second
-  Draw draw(361);
-  CollisionSeries series;
-  CollisionTotals totals{{}, kRods};
-  const auto rod_rod = static_cast<std::size_t>(CollisionCount::kRodRod);
-  double next = -std::log(1 - draw.uniform(0, 1)) / kRate;
-  constexpr int kSteps = 5000;
-  for (int i = 0; i <= kSteps; ++i) {
-    for (; next <= i * kStep; next -= std::log(1 - draw.uniform(0, 1)) / kRate) totals.since_start[rod_rod] += 1;
-    series.accumulate(i * kStep, totals);
-  }
-  const double expected = kRate * kStep * kSteps;
-  EXPECT_NEAR(of(series.sums().all().reduce(), CollisionCount::kRodRod), 2 * kRate / kRods,
-              4.5 * 2 * kRate / kRods / std::sqrt(expected));
-  double integral = 0;
-  for (const double rate : series.of(CollisionCount::kRodRod)) integral += rate * kStep * kRods / 2;
-  EXPECT_NEAR(integral, totals.since_start[rod_rod], 1e-9 * expected);
-}
-
 TEST(CollisionSums, Merge) {
   CollisionSums first, second;
   first.accumulate(1, 2, {2, 4, 6, 8, 10, 12, 14});

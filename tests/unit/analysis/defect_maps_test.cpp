@@ -65,25 +65,6 @@ DefectMapSums maps_of(const Flow& flow, std::span<const Defect> defects, const R
   return maps.sums().all();
 }
 
-void expect_same(const std::vector<double>& a, const std::vector<double>& b, double allowed) {
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t k = 0; k < a.size(); ++k) {
-    if (std::isnan(a[k]) && std::isnan(b[k])) continue;
-    EXPECT_NEAR(a[k], b[k], allowed) << "bin " << k;
-  }
-}
-
-void expect_same(const DefectMap& a, const DefectMap& b, double allowed) {
-  EXPECT_EQ(a.defects, b.defects);
-  for (const auto column : {&DefectMap::density, &DefectMap::cos2, &DefectMap::sin2, &DefectMap::v_along,
-                            &DefectMap::v_across, &DefectMap::tilt2}) {
-    expect_same(a.*column, b.*column, allowed);
-  }
-  for (const auto number : {&DefectMap::core_density, &DefectMap::core_along, &DefectMap::core_across}) {
-    EXPECT_NEAR(a.*number, b.*number, allowed);
-  }
-}
-
 /// Of a field whose direction is found from the rods, turned by any angle: the map is the field in its own frame.
 /// With the head of +1/2 taken for its tail, or one of the other signs, cosines and velocities have the wrong sign.
 void expect_own_frame(double charge, double allowed_angle, const std::function<Vec2(const Vec2&)>& velocity) {
@@ -208,42 +189,6 @@ TEST(DefectMaps, AreTheMeansOverTheRodsOfEachBin) {
       EXPECT_NEAR(map.tilt2[bin], tilt[bin] / rods[bin], 1e-12);
     }
     EXPECT_NEAR(map.core_density, in_core / (2 * n_rays * kRods / box.area() * kPi * kCore * kCore), 1e-9);
-  }
-}
-
-// Turned by any angle about the middle of a disc, and moved across the borders of a periodic box, all is the same.
-TEST(DefectMaps, AreTheSameHoweverTheRodsAreTurnedAndMoved) {
-  Draw draw(64);
-  const Region disc(kBox, SideWalls{Arena::kDisc, kBox - 1});
-  for (int trial = 0; trial < 4; ++trial) {
-    const Region region = trial % 2 == 0 ? disc : Region(kBox);
-    Flow flow{{}, {}, {}};
-    while (flow.positions.size() < 2000) {
-      const Vec3 place(draw.uniform(0, kBox), draw.uniform(0, kBox), 0.5);
-      if (!region.contains(place.head<2>())) continue;
-      flow.positions.push_back(place);
-      flow.directors.push_back(axis(draw.uniform(-kPi, kPi), draw.uniform(-0.3, 0.3)));
-      flow.velocities.emplace_back(draw.normal(), draw.normal());
-    }
-    const std::vector<Defect> defects{{{30, 28}, 0.5, 0.4}, {{41, 30}, -0.5, 0.2}, {{20, 44}, 0.5, -2}};
-    const double angle = region.has_walls() ? draw.uniform(-kPi, kPi) : 0;
-    const Vec2 shift = region.has_walls() ? Vec2(0, 0) : Vec2(draw.uniform(0, kBox), draw.uniform(0, kBox));
-    const Vec2 middle(kBox / 2, kBox / 2);
-    const auto moved = [&](const Vec2& place) {
-      const Vec2 p = turned(place - middle, angle) + middle + shift;
-      return Vec2(p.x() - kBox * std::floor(p.x() / kBox), p.y() - kBox * std::floor(p.y() / kBox));
-    };
-    Flow other = flow;
-    std::vector<Defect> others = defects;
-    for (std::size_t i = 0; i < flow.positions.size(); ++i) {
-      other.positions[i].head<2>() = moved(flow.positions[i].head<2>());
-      other.directors[i].head<2>() = turned(flow.directors[i].head<2>(), angle);
-      other.velocities[i] = turned(flow.velocities[i], angle);
-    }
-    for (Defect& defect : others) defect = {moved(defect.position), defect.charge, defect.direction + angle};
-    const DefectMapSums a = maps_of(flow, defects, region), b = maps_of(other, others, region);
-    expect_same(a.plus(), b.plus(), 1e-9);
-    expect_same(a.minus(), b.minus(), 1e-9);
   }
 }
 

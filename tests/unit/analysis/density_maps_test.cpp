@@ -51,35 +51,6 @@ TEST(DensityMaps, AreTheMeanNumbersInTheCells) {
   EXPECT_TRUE(std::isnan(maps.reduce(0.35).mean[7])) << "it has begun before";
 }
 
-// A gas within walls has the same density in every cell, and none beyond them.
-TEST(DensityMaps, OfAGasAreEvenWithinTheWalls) {
-  Draw draw(72);
-  const Box box(40);
-  for (const SideWalls& walls : {SideWalls{Arena::kDisc, 36}, SideWalls{Arena::kAnnulus, 38, 16},
-                                 SideWalls{Arena::kSquare, 31}, SideWalls{Arena::kChannel, 33}}) {
-    const Region region(box, walls);
-    DensityMaps maps(region, Grid(8), kStep, 40);
-    for (int k = 0; k < 40; ++k) {
-      std::vector<Vec3> places;
-      while (places.size() < 2000) {
-        const Vec3 place(draw.uniform(0, 40), draw.uniform(0, 40), 0);
-        if (region.contains(place.head<2>())) places.push_back(place);
-      }
-      maps.accumulate(k * kStep, places);
-    }
-    int outside = 0;
-    for (const double density : maps.densities()) {
-      if (std::isnan(density)) {
-        ++outside;
-      } else {
-        EXPECT_NEAR(density, 1, 0.2) << static_cast<int>(walls.arena);
-      }
-    }
-    EXPECT_GE(outside, walls.arena == Arena::kChannel ? 0 : 4);
-    EXPECT_LT(maps.reduce(0).variance.value, 1e-3);
-  }
-}
-
 // Rods in the middle of a disc only: means over cells are weighted by what of each lies within the wall.
 TEST(DensityMaps, CellsCountByTheirArea) {
   Draw draw(76);

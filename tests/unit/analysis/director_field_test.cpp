@@ -49,16 +49,6 @@ TEST(DirectorField, EqualsItsDefinition) {
   }
 }
 
-TEST(DirectorField, OfAlignedRodsIsUniform) {
-  Draw draw(42);
-  const DirectorField field(random_places(draw, 500, 30), std::vector<Vec3>(500, axis(1.2, 0.2)), 30, 16, 2.0);
-  for (int i = 0; i < 16; ++i) {
-    EXPECT_NEAR(field.theta(i, 5), 1.2, 1e-12);
-    EXPECT_NEAR(order_at(field, i, 5), 1.0, 1e-12);
-  }
-  EXPECT_NEAR((field.q_at({-3.3, 71.9}) - 0.5 * Vec2(std::cos(2.4), std::sin(2.4))).norm(), 0, 1e-12);
-}
-
 TEST(DirectorField, IsPeriodicInRodsAndNodes) {
   Draw draw(43);
   std::vector<Vec3> positions = random_places(draw, 40, 10);

@@ -5,7 +5,6 @@
 #include <complex>
 
 #include "tests/unit/analysis/analysis_samples.h"
-#include "tests/unit/analysis/state_checks.h"
 
 namespace shaken::analysis {
 namespace director_fluctuations_test {
@@ -160,20 +159,6 @@ TEST(DirectorFluctuations, NothingWithoutOrder) {
   blocks.accumulate(3, std::vector<Vec3>{Vec3::Zero()}, std::vector<Vec3>{axis(0.3)});
   EXPECT_EQ(DirectorFluctuations::reduce(blocks, 0).samples, 1);  // one rod is its own director: no fluctuation
   EXPECT_TRUE(std::isnan(DirectorFluctuations::reduce(blocks, 0).ratio.value));
-}
-
-TEST(DirectorFluctuations, Merge) {
-  Draw draw(77);
-  DirectorFluctuations straight(kBox, 1), first(kBox, 1), second(kBox, 1);
-  Nematic nematic{.splay = 6, .bend = 18};
-  for (int i = 0; i < 4; ++i) {
-    nematic.theta = i;
-    nematic.draw(draw);
-    straight.accumulate(nematic.positions, nematic.directors);
-    (i < 3 ? first : second).accumulate(nematic.positions, nematic.directors);
-  }
-  first.merge(second);
-  EXPECT_EQ(state(straight), state(first));
 }
 
 }  // namespace director_fluctuations_test

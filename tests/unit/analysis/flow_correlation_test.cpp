@@ -24,38 +24,6 @@ FlowCurve curve_of(const std::vector<Vec2>& places, const std::vector<Vec2>& vel
   return sums.reduce();
 }
 
-TEST(FlowSums, OfIndependentRodsIsZero) {
-  Draw draw(331);
-  FlowSums sums(10, kBox / 2, 2);
-  constexpr int kSamples = 50, kRods = 100;
-  for (int i = 0; i < kSamples; ++i) {
-    std::vector<Vec2> velocities;
-    for (int rod = 0; rod < kRods; ++rod) velocities.push_back({3 * draw.normal(), draw.normal()});
-    sums.accumulate(random_places_2d(draw, kRods), velocities, 0.3, kBox);
-  }
-  const FlowCurve curve = sums.reduce();
-  for (std::size_t bin = 0; bin < 10; ++bin) {
-    const double ring = kPi * (2 * static_cast<double>(bin) + 1), pairs = kSamples * kRods * kRods * ring / 400 / 2;
-    EXPECT_NEAR(curve.c[bin], 0, 4.5 / std::sqrt(pairs));
-    EXPECT_NEAR(curve.along[bin], 0, 4.5 / std::sqrt(pairs));
-    EXPECT_NEAR(curve.across[bin], 0, 4.5 / std::sqrt(pairs));
-  }
-  EXPECT_NEAR(curve.near, 0, 4.5 / std::sqrt(kSamples * kRods * kRods * kPi * 4 / 400 / 2));
-  EXPECT_LT(curve.length, 1.0);
-}
-
-TEST(FlowSums, OfACommonDriftIsOne) {
-  Draw draw(332);
-  const FlowCurve curve = curve_of(random_places_2d(draw, 200), std::vector<Vec2>(200, {1.2, -0.5}), 0.9);
-  for (std::size_t bin = 0; bin < 10; ++bin) {
-    EXPECT_NEAR(curve.c[bin], 1, 1e-12);
-    EXPECT_NEAR(curve.along[bin], 1, 1e-12);
-    EXPECT_NEAR(curve.across[bin], 1, 1e-12);
-  }
-  EXPECT_NEAR(curve.near, 1, 1e-12);
-  EXPECT_TRUE(std::isnan(curve.length));
-}
-
 /// Places on a fine square lattice: sums over pairs become integrals.
 std::vector<Vec2> lattice(int n) {
   std::vector<Vec2> places;
@@ -81,36 +49,6 @@ TEST(FlowSums, OfAWaveIsABesselFunction) {
   }
   // J_0(x) = 1/e at x = 1.7464
   EXPECT_NEAR(curve.length, 1.7464 / q, 0.15);
-}
-
-// A disc that turns as a whole about its middle: v = w x r, and <v_i . v_j> = w^2 <r_i . r_j> = w^2 (<r^2> - <d^2> / 2)
-// over pairs at distance d, where <r^2> is that of the rods in the pairs.
-TEST(FlowSums, OfARigidRotationFollowsFromPlaces) {
-  const SideWalls disc{Arena::kDisc, 16};
-  Draw draw(333);
-  std::vector<Vec2> places, velocities;
-  while (places.size() < 400) {
-    const Vec2 place(draw.uniform(2, 18), draw.uniform(2, 18)), r = place - Vec2(10, 10);
-    if (r.norm() > 8) continue;
-    places.push_back(place);
-    velocities.push_back(0.7 * Vec2(-r.y(), r.x()));
-  }
-  const FlowCurve curve = curve_of(places, velocities, 0.2, Region(kBox, disc));
-  double square = 0;
-  for (const Vec2& place : places) square += (place - Vec2(10, 10)).squaredNorm() / 400;
-  for (std::size_t bin = 0; bin < 10; ++bin) {
-    double pairs = 0, product = 0;
-    for (const Vec2& a : places) {
-      for (const Vec2& b : places) {
-        const double d = (a - b).norm();
-        if (&a == &b || d < static_cast<double>(bin) || d >= static_cast<double>(bin + 1)) continue;
-        pairs += 1;
-        product += ((a - Vec2(10, 10)).squaredNorm() + (b - Vec2(10, 10)).squaredNorm() - d * d) / 2;
-      }
-    }
-    EXPECT_NEAR(curve.c[bin], product / pairs / square, 1e-10);
-  }
-  EXPECT_GT(curve.c.front(), 0.95);
 }
 
 // The slow twin tries all nine images of every pair.

@@ -93,21 +93,6 @@ TEST(OrientationCorrelation, TakesEveryRodInItsTurn) {
   for (std::size_t bin = 0; bin < 10; ++bin) EXPECT_NEAR(g2.reduce().g2[bin], sum[bin] / pairs[bin], 1e-9);
 }
 
-// g of a gas: pairs expected refs (n - 1) x ring / L^2, counted from both ends, so that their variance is twice that.
-TEST(OrientationCorrelation, PairDistributionOfAGasIsOne) {
-  constexpr double kBox = 40, kRods = 1000, kSamples = 10;
-  Draw draw(65);
-  OrientationCorrelation g2(20, 20);
-  for (int i = 0; i < kSamples; ++i) {
-    g2.accumulate(random_places(draw, 1000, kBox), random_axes(draw, 1000), kBox);
-  }
-  const OrientationCurve curve = g2.reduce();
-  for (std::size_t i = 0; i < 20; ++i) {
-    const double expected = kSamples * kRods * (kRods - 1) * 2 * kPi * curve.r[i] / (kBox * kBox);
-    EXPECT_LT(std::abs(curve.g[i] - 1) * std::sqrt(expected / 2), 4.0) << curve.r[i];
-  }
-}
-
 // However few the rods are: with n^2 pairs in place of n (n - 1), g of two rods would be a half, of seven 0.86.
 TEST(OrientationCorrelation, PairDistributionOfAFewRodsIsOne) {
   for (const std::size_t n : {2U, 3U, 7U, 20U}) {
@@ -125,33 +110,7 @@ TEST(OrientationCorrelation, PairDistributionOfAFewRodsIsOne) {
   OrientationCorrelation alone(5, 10);
   alone.accumulate(std::vector<Vec3>{{1, 1, 0}}, std::vector<Vec3>{axis(0)}, 20.0);
   for (const double g : alone.reduce().g) EXPECT_TRUE(std::isnan(g)) << "a single rod makes no pair";
-}
-
-// Shells of lattices, 4, 4, 4, 8 at 1, sqrt 2, 2, sqrt 5 and 6, 6, 6, 12 at 1, sqrt 3, 2, sqrt 7, from g times rho
-// times the ring. 2500 rods of which a third are references: each has the same neighbours. Rows 26 to 30 of the
-// hexagonal lattice are sqrt(3) / 2 apart but for 0.0006, well within a bin.
-TEST(OrientationCorrelation, PairDistributionOfLattices) {
-  struct Shells {
-    std::vector<Vec3> places;
-    double box;
-    std::vector<std::pair<double, double>> neighbours;  // distance, number
-  };
-  const double sqrt2 = std::sqrt(2.0), sqrt3 = std::sqrt(3.0), sqrt5 = std::sqrt(5.0), sqrt7 = std::sqrt(7.0);
-  for (const Shells& lattice :
-       {Shells{square_lattice(50, 1.0), 50, {{1, 4}, {sqrt2, 4}, {2, 4}, {sqrt5, 8}, {1.7, 0}}},
-        Shells{hexagonal_lattice(26, 30, 26), 26, {{1, 6}, {sqrt3, 6}, {2, 6}, {sqrt7, 12}, {1.4, 0}}}}) {
-    OrientationCorrelation g2(30, 3.0);
-    g2.accumulate(lattice.places, std::vector<Vec3>(lattice.places.size(), axis(0)), lattice.box);
-    const OrientationCurve curve = g2.reduce();
-    const double density = static_cast<double>(lattice.places.size() - 1) / (lattice.box * lattice.box);
-    for (const auto& [distance, number] : lattice.neighbours) {
-      double found = 0;  // within 0.1, as a shell may lie on the border of two bins
-      for (std::size_t i = 0; i < 30; ++i) {
-        if (std::abs(curve.r[i] - distance) < 0.1) found += curve.g[i] * density * 2 * kPi * curve.r[i] * 0.1;
-      }
-      EXPECT_NEAR(found, number, 1e-9) << distance;
-    }
-  }
+  EXPECT_THROW(alone.accumulate({}, {}, 9.9), std::logic_error) << "half a box is shorter than the range";
 }
 
 /// Places at random in a region.
@@ -213,26 +172,6 @@ TEST(OrientationCorrelation, HasNoPairsThroughWalls) {
   EXPECT_EQ(pairs_met(across_hole, Region(42, SideWalls{Arena::kAnnulus, 40, 10})), 0);
   const std::vector<Vec3> beside_hole{{30.5, 27, 0}, {11.5, 27, 0}};
   EXPECT_EQ(pairs_met(beside_hole, Region(42, SideWalls{Arena::kAnnulus, 40, 10})), 1);
-}
-
-TEST(OrientationCorrelation, Merges) {
-  constexpr double kBox = 20;
-  Draw draw(64);
-  OrientationCorrelation straight(8, 10), first(8, 10), second(8, 10);
-  for (int i = 0; i < 4; ++i) {
-    const std::vector<Vec3> positions = random_places(draw, 1500, kBox), directors = random_axes(draw, 1500);
-    straight.accumulate(positions, directors, kBox);
-    (i < 2 ? first : second).accumulate(positions, directors, kBox);
-  }
-  first.merge(second);
-  for (std::size_t i = 0; i < 8; ++i) {
-    EXPECT_NEAR(first.reduce().g2[i], straight.reduce().g2[i], 1e-12);
-    EXPECT_NEAR(first.reduce().g[i], straight.reduce().g[i], 1e-12);
-  }
-  for (OrientationCorrelation other : {OrientationCorrelation(8, 9), OrientationCorrelation(9, 10)}) {
-    EXPECT_THROW(other.merge(straight), std::logic_error);
-  }
-  EXPECT_THROW(straight.accumulate({}, {}, 19.9), std::logic_error);
 }
 
 }  // namespace

@@ -87,19 +87,8 @@ TEST(LatticeOrder, OfAGasIsTheFloor) {
   EXPECT_NEAR(means.psi_6_local, 0.37, 0.02);
 }
 
-TEST(LatticeOrder, MergeAndOddInput) {
+TEST(LatticeOrder, OddInput) {
   const LatticeOrder::Shape shape{10, 2.0, 1.0, 6};
-  Draw draw(173);
-  LatticeOrder straight(shape), first(shape), second(shape);
-  second.start_at(2);
-  for (int t = 0; t < 4; ++t) {
-    const std::vector<Vec3> places = random_places(draw, 1100, 10), axes = random_axes(draw, 1100);
-    straight.accumulate(places, axes);
-    (t < 2 ? first : second).accumulate(places, axes);
-  }
-  first.merge(second);
-  EXPECT_NEAR(first.reduce().psi_6_local, straight.reduce().psi_6_local, 1e-12);
-  EXPECT_THROW(LatticeOrder({10, 1.0, 1.0, 6}).merge(first), std::logic_error);
   EXPECT_THROW(LatticeOrder({10, 1.0, 6.0, 6}), std::logic_error);
 
   LatticeOrder odd(shape);

@@ -86,22 +86,6 @@ TEST(LayerOrder, InAStrip) {
   EXPECT_NEAR(layers.reduce().q[kWaves - 1], 2 * kPi * kWaves / 126, 1e-12);
 }
 
-// Stripes of equal width at +-theta_m: a square wave, whose first harmonic is 4 / pi.
-TEST(LayerOrder, OfStripes) {
-  constexpr double kThetaM = kPi / 18;
-  Draw draw(162);
-  LayerOrder layers(kBox, 4.5);
-  for (int t = 0; t < 20; ++t) {
-    const Rods rods =
-        layered(draw, 2000, 0, 0, 4, [](double phase) { return std::sin(phase) > 0 ? kThetaM : -kThetaM; });
-    layers.accumulate(rods.places, rods.axes);
-  }
-  EXPECT_NEAR(layers.peak()->wavelength, kBox / 4, 0.2);
-  EXPECT_NEAR(layers.peak()->order / (4 / kPi * std::sin(2 * kThetaM)), 1.0, 0.03);
-  EXPECT_NEAR(layers.peak()->floor, 2 * std::sin(2 * kThetaM) / std::sqrt(2000), 1e-3);
-  EXPECT_TRUE(layers.peak()->stands_out());
-}
-
 // A nematic without layers: the spectrum is <s^2>, flat, and the order the floor 2 sqrt(<s^2> / N) a little raised by
 // being the largest of some hundred means of 100 samples, each with a relative spread of 1 / 10: by less than 20 % in
 // the square root.
@@ -171,18 +155,7 @@ TEST(LayerOrder, ABackgroundAtTheEdgeOfTheConeMovesNothing) {
   }
 }
 
-TEST(LayerOrder, MergeAndOddInput) {
-  Draw draw(166);
-  LayerOrder straight(kBox, 10), first(kBox, 10), second(kBox, 10);
-  for (int t = 0; t < 4; ++t) {
-    const std::vector<Vec3> places = random_places(draw, 100, kBox), axes = random_axes(draw, 100);
-    straight.accumulate(places, axes);
-    (t < 2 ? first : second).accumulate(places, axes);
-  }
-  first.merge(second);
-  EXPECT_NEAR(first.peak()->order, straight.peak()->order, 1e-12);
-  EXPECT_NEAR(first.peak()->floor, straight.peak()->floor, 1e-12);
-  EXPECT_THROW(LayerOrder(kBox, 12).merge(first), std::logic_error);
+TEST(LayerOrder, OddInput) {
   EXPECT_THROW(LayerOrder(kBox, 0), std::logic_error);
 
   LayerOrder odd(kBox, 100);  // one wave at least

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "tests/unit/analysis/analysis_samples.h"
-#include "tests/unit/analysis/state_checks.h"
 
 namespace shaken::analysis {
 namespace number_fluctuations_test {
@@ -16,17 +15,6 @@ constexpr double kFitFrom = 6;  // a tenth of the box
 
 Blocked<NumberFluctuations> counting(double fit_from = kFitFrom) {
   return Blocked(NumberFluctuations(kBox, kBox * kBox, fit_from));
-}
-
-/// A square lattice of m x m rods, each up to `jitter` spacings off in each direction.
-std::vector<Vec3> lattice(Draw& draw, int m, double jitter) {
-  std::vector<Vec3> places;
-  for (int j = 0; j < m; ++j) {
-    for (int i = 0; i < m; ++i) {
-      places.push_back(kBox / m * Vec3{i + draw.uniform(-jitter, jitter), j + draw.uniform(-jitter, jitter), 0});
-    }
-  }
-  return places;
 }
 
 // N rods at random, N given: a box of area fraction f holds a binomial number, std^2 = N f (1 - f), about its own mean
@@ -107,21 +95,6 @@ TEST(NumberFluctuations, OfFrozenClumps) {
   EXPECT_TRUE(std::isnan(curve.exponent_without_map.value));
 }
 
-// A loose lattice, another each time: only rods next to a border matter, std^2 ~ perimeter ~ sqrt <N>, exponent 1/4.
-TEST(NumberFluctuations, OfALattice) {
-  Draw draw(94);
-  auto blocks = counting();
-  for (int i = 0; i < 400; ++i) {
-    std::vector<Vec3> places = lattice(draw, 60, 0.5);
-    const Vec3 shift{draw.uniform(0, kBox), draw.uniform(0, kBox), 0};
-    for (Vec3& place : places) place += shift;
-    blocks.accumulate(i, places);
-  }
-  const NumberFluctuationCurve curve = NumberFluctuations::reduce(blocks, 0);
-  EXPECT_NEAR(curve.exponent.value, 0.25, 0.04);
-  for (std::size_t k = 0; k < 7; ++k) EXPECT_LT(curve.std_n[k].value, 0.5 * std::sqrt(curve.mean_n[k]));
-}
-
 // Even within 2 mm, at random beyond: what counts is what boxes larger than that say. Cells of 2 mm, each with a number
 // of rods of its own, four of them at its own places.
 TEST(NumberFluctuations, AreFittedToBoxesLargerThanRods) {
@@ -184,20 +157,6 @@ TEST(NumberFluctuations, NothingOrOneRod) {
   EXPECT_TRUE(std::isnan(NumberFluctuations::reduce(blocks, 0).exponent.value));
   blocks.accumulate(1, std::vector<Vec3>{Vec3(kBox, -1e-18, 0)});
   EXPECT_DOUBLE_EQ(NumberFluctuations::reduce(blocks, 0).mean_n[0], 0.125);
-}
-
-TEST(NumberFluctuations, Merge) {
-  Draw draw(96);
-  NumberFluctuations straight(kBox, 1, 1), first(kBox, 1, 1), second(kBox, 1, 1);
-  for (int i = 0; i < 6; ++i) {
-    const std::vector<Vec3> places = random_places(draw, 100, kBox);
-    straight.accumulate(places);
-    (i < 4 ? first : second).accumulate(places);
-  }
-  first.merge(second);
-  EXPECT_EQ(state(straight), state(first));
-  NumberFluctuations other(kBox / 2, 1, 1);
-  EXPECT_THROW(other.merge(straight), std::logic_error);
 }
 
 }  // namespace number_fluctuations_test

@@ -99,58 +99,9 @@ TEST(PairMap, KnowsAlongFromAcross) {
   }
 }
 
-// Rods 2.125 mm apart along x, 3.125 mm along y, with the director along y: one neighbour at each of these distances
-// either way, none elsewhere. Counted as pairs per reference, exactly, also through the borders of the box.
-TEST(PairMap, CountsTheNeighboursOfALattice) {
-  constexpr double kAcross = 2.125, kAlong = 3.125, kBox = 25 * kAcross, kWidth = 0.5, kStrip = 1.0;
-  static_assert(kBox == 17 * kAlong);
-  std::vector<Vec3> places;
-  for (int i = 0; i < 25; ++i) {
-    for (int k = 0; k < 17; ++k) places.emplace_back(kAcross * i + 20, kAlong * k - 7, 0.5);
-  }
-  PairMap map({21, 21 * kWidth / 2, kStrip, kBox});
-  map.accumulate(places, std::vector<Vec3>(places.size(), axis(kPi / 2)));
-  const PairCurves curves = map.reduce();
-  const double density = static_cast<double>(places.size() - 1) / (kBox * kBox);
-  const auto neighbours = [&](double along, double across) {
-    const auto bin = [&](double d) { return static_cast<std::size_t>(std::lround(d / kWidth) + 10); };
-    return curves.g[bin(across) * 21 + bin(along)] * density * kWidth * kWidth;
-  };
-  EXPECT_NEAR(curves.along[16], 3.0, 1e-12);
-  for (const double sign : {1.0, -1.0}) {
-    EXPECT_NEAR(neighbours(sign * kAlong, 0), 1.0, 1e-9);
-    EXPECT_NEAR(neighbours(0, sign * kAcross), 1.0, 1e-9);
-    EXPECT_NEAR(neighbours(sign * kAlong, kAcross), 1.0, 1e-9);
-    EXPECT_EQ(neighbours(sign * kAcross, 0), 0.0);
-    EXPECT_EQ(neighbours(0, sign * kAlong), 0.0);
-  }
-  EXPECT_EQ(neighbours(0, 0), 0.0);
-  const auto in_cut = [&](const std::vector<double>& g, double distance) {  // either way
-    return g[static_cast<std::size_t>(distance / kWidth)] * density * 2 * kWidth * kStrip;
-  };
-  EXPECT_NEAR(in_cut(curves.g_along, kAlong), 2.0, 1e-9);
-  EXPECT_NEAR(in_cut(curves.g_along, 8 * kAlong), 2.0, 1e-9);
-  EXPECT_NEAR(in_cut(curves.g_across, kAcross), 2.0, 1e-9);
-  EXPECT_EQ(in_cut(curves.g_along, kAcross), 0.0);
-}
-
-TEST(PairMap, MergeAndOddInput) {
+TEST(PairMap, OddInput) {
   constexpr double kBox = 20;
   const PairMap::Shape shape{9, 4.0, 0.8, kBox};
-  Draw draw(153);
-  PairMap straight(shape), first(shape), second(shape);
-  for (int i = 0; i < 4; ++i) {
-    const std::vector<Vec3> positions = random_places(draw, 1500, kBox), directors = random_axes(draw, 1500);
-    straight.accumulate(positions, directors);
-    (i < 2 ? first : second).accumulate(positions, directors);
-  }
-  first.merge(second);
-  EXPECT_EQ(first.reduce().g, straight.reduce().g);
-  for (const PairMap::Shape& other :
-       {PairMap::Shape{9, 4.5, 0.8, kBox}, PairMap::Shape{11, 4.0, 0.8, kBox}, PairMap::Shape{9, 4.0, 0.8, 21.0}}) {
-    PairMap map(other);
-    EXPECT_THROW(map.merge(straight), std::logic_error);
-  }
   EXPECT_THROW(PairMap({9, 10.1, 0.8, kBox}), std::logic_error);
 
   PairMap odd(shape);

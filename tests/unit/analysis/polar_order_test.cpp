@@ -27,18 +27,6 @@ TEST(PolarOrder, LeavesOutUprightRods) {
   EXPECT_EQ(none.direction, 0.0);
 }
 
-// N P^2 of N random directions has the mean 1 and, for many rods, the spread 1 (exponential).
-TEST(PolarOrder, OfRandomRodsIsOneOverTheirNumber) {
-  constexpr double kRods = 40, kRepeats = 20000;
-  Draw draw(151);
-  double square = 0;
-  for (int i = 0; i < kRepeats; ++i) {
-    const double order = polar_order(random_axes(draw, static_cast<std::size_t>(kRods))).order;
-    square += kRods * order * order / kRepeats;
-  }
-  EXPECT_NEAR(square, 1.0, 4 / std::sqrt(kRepeats));
-}
-
 TEST(PolarSeries, AveragesDirectionsAsVectors) {
   PolarSeries series;
   for (int i = 0; i < 65536; ++i) series.accumulate(i, {0.5, i % 2 == 0 ? kPi - 0.1 : -kPi + 0.1});
@@ -74,27 +62,11 @@ TEST(PolarStatistics, FindsThePlantedVelocities) {
   EXPECT_NEAR(found.variance, (p * p + 2) / 3 - mean * mean, 1e-14);
 }
 
-TEST(PolarStatistics, MergeAndReset) {
-  Draw draw(152);
-  PolarStatistics first, second, both;
-  for (int i = 0; i < 60; ++i) {
-    const std::vector<Vec3> directors = random_axes(draw, 5), velocities = random_axes(draw, 5);
-    (i < 20 ? first : second).accumulate(directors, velocities, polar_order(directors));
-    both.accumulate(directors, velocities, polar_order(directors));
-  }
-  first.merge(PolarStatistics());
-  first.merge(second);
-  const PolarNumbers merged = first.reduce(), whole = both.reduce();
-  EXPECT_NEAR(merged.order, whole.order, 1e-14);
-  EXPECT_NEAR(merged.variance, whole.variance, 1e-14);
-  EXPECT_NEAR(merged.forward, whole.forward, 1e-14);
-  EXPECT_NEAR(merged.along_rms, whole.along_rms, 1e-14);
-  EXPECT_NEAR(merged.across_rms, whole.across_rms, 1e-14);
-  EXPECT_NEAR(merged.velocity_polarity, whole.velocity_polarity, 1e-14);
+TEST(PolarStatistics, OfNothing) {
   EXPECT_TRUE(std::isnan(PolarStatistics().reduce().order));
   EXPECT_TRUE(std::isnan(PolarStatistics().reduce().variance));
   EXPECT_TRUE(std::isnan(PolarStatistics().reduce().velocity_polarity));
-  EXPECT_THROW(first.accumulate(std::vector<Vec3>(2), std::vector<Vec3>(1), {}), std::logic_error);
+  EXPECT_THROW(PolarStatistics().accumulate(std::vector<Vec3>(2), std::vector<Vec3>(1), {}), std::logic_error);
 }
 
 }  // namespace

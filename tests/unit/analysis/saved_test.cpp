@@ -57,13 +57,15 @@ template <class Accumulator>
 using Accumulate = std::type_identity_t<std::function<void(Accumulator&, const Instant&)>>;
 
 /// Stopped after each sample and restored into `empty`, it goes on as one that is not stopped; its state is refused
-/// where it is cut off, and by `others`, of other settings.
+/// where it is cut off, and by `others`, of other settings. Two halves, merged, are as the whole.
 template <class Accumulator>
 void expect_saved(const Accumulator& empty, const std::type_identity_t<std::vector<Accumulator>>& others,
                   const Accumulate<Accumulator>& accumulate, int samples = 20, std::size_t n_rods = 6) {
   SCOPED_TRACE(typeid(Accumulator).name());
   Draw draw(17);
-  Accumulator straight = empty, stopped = empty;
+  Accumulator straight = empty, stopped = empty, halves[] = {empty, empty};
+  constexpr bool kMerges = requires { halves[0].merge(empty); };
+  if constexpr (requires { halves[1].start_at(0); }) halves[1].start_at(samples / 2);
   for (int i = 0; i < samples; ++i) {
     const Instant now{.time = static_cast<double>(i),
                       .places = random_places(draw, n_rods, 20),
@@ -73,6 +75,7 @@ void expect_saved(const Accumulator& empty, const std::type_identity_t<std::vect
                       .x = draw.uniform(0, 1)};
     accumulate(straight, now);
     accumulate(stopped, now);
+    accumulate(halves[2 * i / samples], now);
     stop_and_go_on(stopped, empty);
   }
   const std::vector<std::byte> bytes = state(straight);
@@ -82,6 +85,14 @@ void expect_saved(const Accumulator& empty, const std::type_identity_t<std::vect
   for (Accumulator other : others) {
     StateReader reader(bytes);
     EXPECT_THROW(other.restore(reader), StateError);
+    if constexpr (kMerges) {
+      EXPECT_THROW(other.merge(straight), std::logic_error);
+    }
+  }
+  if constexpr (kMerges) {
+    halves[0].merge(empty);
+    halves[0].merge(halves[1]);
+    expect_same_sums(state(halves[0]), bytes);
   }
 }
 
@@ -91,13 +102,17 @@ TEST(Saved, ObservablesOfEachInstantGoOnFromTheirState) {
   expect_saved(AngleDistribution(10), {AngleDistribution(11)}, [](auto& sums, A now) { sums.accumulate(now.axes); });
   expect_saved(ClusterStatistics(), {}, [](auto& sums, A now) { sums.accumulate({now.x < 0.5 ? 4u : 2u, 1}); });
   expect_saved(
-      DirectorFluctuations(20, 1), {DirectorFluctuations(20, 2), DirectorFluctuations(1, 1)},
+      DirectorFluctuations(20, 1), {DirectorFluctuations(1, 1)},
       [](auto& sums, A now) {
         const double theta = 2 * kPi * now.x;
         sums.accumulate(now.places,
                         std::vector{axis(theta), axis(theta), axis(theta), axis(theta), axis(theta), axis(1)});
       },
       4);
+  const std::vector<std::byte> to_another_q = state(DirectorFluctuations(20, 2));
+  DirectorFluctuations fluctuations(20, 1);
+  StateReader reader(to_another_q);
+  EXPECT_THROW(fluctuations.restore(reader), StateError);
   expect_saved(
       OrientationCorrelation(8, 10), {OrientationCorrelation(8, 9), OrientationCorrelation(9, 10)},
       [](auto& sums, A now) { sums.accumulate(now.places, now.axes, Region(20)); }, 4, 1500);

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstring>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -38,6 +41,19 @@ void expect_every_truncation_found(Accumulator& accumulator) {
     ASSERT_THROW(accumulator.restore(reader), StateError) << size << " of " << bytes.size();
   }
   EXPECT_EQ(state(accumulator), bytes);
+}
+
+/// Numbers of two states are the same, but for the rounding of sums in another order.
+inline void expect_same_sums(const std::vector<std::byte>& a, const std::vector<std::byte>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t at = a.size() % 8; at < a.size(); at += 8) {
+    if (std::equal(&a[at], &a[at] + 8, &b[at])) continue;
+    double x = 0, y = 0;
+    std::memcpy(&x, &a[at], 8);
+    std::memcpy(&y, &b[at], 8);
+    EXPECT_TRUE(std::isnormal(x) && std::isnormal(y)) << "counts, at byte " << at;
+    EXPECT_NEAR(x, y, 1e-12 * std::max(1.0, std::abs(y))) << "at byte " << at;
+  }
 }
 
 }  // namespace shaken::analysis

@@ -42,23 +42,6 @@ TEST(StressSeries, KineticPartOfFewRodsIsThatOfAGas) {
   EXPECT_EQ(series.sums().all().reduce(1).collisional, 0);
 }
 
-// By Galilei: a common velocity changes nothing. Of many rods that move at random, it is N m <v^2>.
-TEST(MomentumFlux, OfRandomVelocitiesIsTheirVariance) {
-  Draw draw(912);
-  constexpr int kRods = 40000;
-  std::vector<double> masses(kRods, 2.0);
-  std::vector<Vec3> still, moving;
-  for (int i = 0; i < kRods; ++i) {
-    still.emplace_back(3 * draw.normal(), 5 * draw.normal(), draw.normal());
-    moving.push_back(still.back() + Vec3(100, -70, 30));
-  }
-  const PlaneTensor flux = momentum_flux(masses, still), of_moving = momentum_flux(masses, moving);
-  EXPECT_NEAR(flux[0] / (kRods * 2 * 9), 1, 4 * std::sqrt(2.0 / kRods));
-  EXPECT_NEAR(flux[3] / (kRods * 2 * 25), 1, 4 * std::sqrt(2.0 / kRods));
-  EXPECT_NEAR(flux[1] / (kRods * 2 * 15), 0, 4 * std::sqrt(1.0 / kRods));
-  for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(of_moving[k], flux[k], 1e-9 * flux[3]) << k;
-}
-
 TEST(StressSeries, IsOfTheTimeSinceTheSampleBefore) {
   StressSeries series(kMany);
   series.accumulate(1, {{10, 2, 2, 20}, {100, 200, 300, 400}}, 5, 0);

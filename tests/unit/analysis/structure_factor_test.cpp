@@ -4,6 +4,7 @@
 
 #include <complex>
 
+#include "analysis/geometry/wave_sums.h"
 #include "tests/unit/analysis/analysis_samples.h"
 #include "tests/unit/analysis/lattices.h"
 
@@ -18,6 +19,7 @@ TEST(StructureFactor, IsTheSumAsWritten) {
   Draw draw(201);
   const std::vector<Vec3> places = random_places(draw, 40, box);
   StructureFactor structure(box, kWaves);
+  EXPECT_TRUE(std::isnan(structure.reduce().all[0]));
   structure.accumulate(places, std::vector<Vec3>(40, axis(kDirector, 0.2)));
   const StructureCurve curve = structure.reduce();
   ASSERT_EQ(curve.q.size(), 5U);
@@ -48,52 +50,38 @@ TEST(StructureFactor, IsTheSumAsWritten) {
   }
 }
 
-// Rods that do not know of each other: 1 at every q. Of the first shell there are 4 terms in each of 200 samples, each
-// exponentially distributed: 3.5 %, and less beyond.
-TEST(StructureFactor, OfAGasIsOne) {
-  Draw draw(202);
-  StructureFactor structure(30, 8);
-  for (int t = 0; t < 200; ++t) structure.accumulate(random_places(draw, 100, 30), random_axes(draw, 100));
-  const StructureCurve curve = structure.reduce();
-  for (const double s : curve.all) EXPECT_NEAR(s, 1.0, 0.14);
-}
-
-// A square lattice of 8 x 8: N on its reciprocal lattice, whose first points are the waves (8, 0) and (0, 8); nothing
-// elsewhere. Of 8 waves to the box the cone about an axis has one such point.
-TEST(StructureFactor, OfALatticeIsItsBraggPeaks) {
-  StructureFactor structure(16, 9);
-  structure.accumulate(square_lattice(8, 2.0), std::vector<Vec3>(64, axis(0)));
-  const StructureCurve curve = structure.reduce();
-  double vectors = 0, in_cone = 0;  // in the shell of 8 waves, of one sign
-  for (int m = 0; m <= 9; ++m) {
-    for (int n = m == 0 ? 1 : -9; n <= 9; ++n) {
-      if (std::lround(std::hypot(m, n)) != 8) continue;
-      vectors += 1;
-      in_cone += std::abs(n) <= std::tan(kPi / 6) * m ? 1 : 0;
+// Against the sum as it is written, for numbers of places and waves that fill no tile nor chunk.
+TEST(WavePowers, AreTheSumsAsWritten) {
+  const Box box(7, 11);
+  Draw draw(101);
+  for (const auto& [n, waves] : {std::pair(1, 1), {63, 4}, {130, 6}}) {
+    std::vector<Vec2> places;
+    std::vector<double> weights;
+    for (int i = 0; i < n; ++i) {
+      places.emplace_back(draw.uniform(-20, 20), draw.uniform(-20, 20));
+      weights.push_back(draw.normal());
+    }
+    const WaveVectors vectors(box, waves);
+    const std::vector<double> powers = wave_powers(places, weights, vectors);
+    ASSERT_EQ(powers.size(), vectors.size());
+    EXPECT_EQ(vectors.most_m, waves * 7 / 11);
+    EXPECT_EQ(vectors.most_n, waves);
+    for (int m = 0; m <= vectors.most_m; ++m) {
+      for (int k = -waves; k <= waves; ++k) {
+        std::complex<double> sum = 0;
+        for (std::size_t i = 0; i < places.size(); ++i) {
+          sum += weights[i] * std::polar(1.0, -2 * kPi * (m * places[i].x() / 7 + k * places[i].y() / 11));
+        }
+        EXPECT_NEAR(powers[vectors.index(m, k)], std::norm(sum), 1e-10 * n * n) << m << ' ' << k;
+      }
     }
   }
-  for (std::size_t k = 0; k < curve.q.size(); ++k) {
-    EXPECT_NEAR(curve.all[k], k == 7 ? 2 * 64 / vectors : 0, 1e-9) << k;
-    EXPECT_NEAR(curve.along[k], k == 7 ? 64 / in_cone : 0, 1e-9) << k;
-    EXPECT_NEAR(curve.across[k], k == 7 ? 64 / in_cone : 0, 1e-9) << k;
-  }
 }
 
-TEST(StructureFactor, Merges) {
-  Draw draw(203);
-  StructureFactor straight(10, 4), first(10, 4), second(10, 4);
-  EXPECT_TRUE(std::isnan(straight.reduce().all[0]));
-  for (int t = 0; t < 4; ++t) {
-    const std::vector<Vec3> places = random_places(draw, 20, 10), axes = random_axes(draw, 20);
-    straight.accumulate(places, axes);
-    (t < 2 ? first : second).accumulate(places, axes);
-  }
-  straight.accumulate({}, {});
-  first.merge(second);
-  for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(first.reduce().all[k], straight.reduce().all[k], 1e-12);
-  StructureFactor longer(11, 4), finer(10, 5);
-  EXPECT_THROW(longer.merge(first), std::logic_error);
-  EXPECT_THROW(finer.merge(first), std::logic_error);
+TEST(WavePowers, OfNothingAreZero) {
+  EXPECT_EQ(wave_powers({}, {}, {1.0, 2}), std::vector<double>(15, 0.0));
+  EXPECT_THROW(WaveVectors(1.0, 0), std::logic_error);
+  EXPECT_THROW(wave_powers(std::vector<Vec2>(1), {}, {1.0, 1}), std::logic_error);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <functional>
 #include <numeric>
 
+#include "analysis/errors/bounded_series.h"
 #include "tests/unit/analysis/analysis_samples.h"
 
 namespace shaken::analysis {
@@ -71,15 +72,6 @@ TEST(StatisticalInefficiency, AllowsForTheVarianceThatAveragingTakes) {
   EXPECT_NEAR(statistical_inefficiency(x), 12.4, 1.3);
 }
 
-// Every value three times: three samples are worth one. z as above.
-TEST(StatisticalInefficiency, OfRepeatedValues) {
-  Draw draw(13);
-  std::vector<double> x;
-  for (int i = 0; i < 20000; ++i) x.insert(x.end(), 3, draw.normal());
-  EXPECT_LT(std::abs(statistical_inefficiency(x) / 3 - 1) / relative_error_of_g(3, 60000), 4.0);
-  EXPECT_NEAR(autocorrelation_time(x), (statistical_inefficiency(x) - 1) / 2, 1e-12);
-}
-
 TEST(StatisticalInefficiency, IsOneWhereThereIsNothingToCorrelate) {
   for (const std::size_t n : {0, 1, 2, 3, 4, 1000}) {
     EXPECT_EQ(statistical_inefficiency(std::vector<double>(n, 0.1)), 1.0) << n;
@@ -88,15 +80,6 @@ TEST(StatisticalInefficiency, IsOneWhereThereIsNothingToCorrelate) {
   std::vector<double> alternating;
   for (int i = 0; i < 100; ++i) alternating.push_back(i % 2);
   EXPECT_EQ(statistical_inefficiency(alternating), 1.0);
-}
-
-TEST(SummarizeSeries, ErrorOfALongSeries) {
-  Draw draw(14);
-  for (const double a : {0.0, 0.5, 0.9}) {
-    const std::vector<double> x = ar1(draw, a, 200000);
-    const double truth = std::sqrt((1 + a) / (1 - a) / 200000);
-    EXPECT_NEAR(summarize_series(equal_times(x.size()), x, 0.0).sem, truth, 0.2 * truth) << a;
-  }
 }
 
 // The quoted error must cover: over 300 independent series, (mean - truth) / sem has mean square 1 within 8 % by
@@ -278,6 +261,21 @@ TEST(SteadyState, DriftHasItsError) {
     squares += std::pow(drift.value / drift.sem, 2) / 300;
   }
   EXPECT_NEAR(squares, 1.0, 0.25);
+}
+
+// Up to seven samples as they are; then, with room for eight, ever wider means.
+TEST(BoundedSeries, AveragesPairsWhenItIsFull) {
+  BoundedSeries<2> series(8);
+  for (int i = 0; i < 7; ++i) series.accumulate(i, {10.0 * i, 1.0});
+  EXPECT_EQ(series.times(), (std::vector<double>{0, 1, 2, 3, 4, 5, 6}));
+  for (int i = 7; i < 1000; ++i) series.accumulate(i, {10.0 * i, 1.0});
+  ASSERT_EQ(series.times().size(), 7U);  // of 128 samples each: 999 / 128 = 7.8
+  for (std::size_t i = 0; i < 7; ++i) {
+    EXPECT_DOUBLE_EQ(series.times()[i], 128.0 * static_cast<double>(i) + 63.5);
+    EXPECT_DOUBLE_EQ(series.column(0)[i], 10 * series.times()[i]);
+    EXPECT_DOUBLE_EQ(series.column(1)[i], 1);
+  }
+  EXPECT_THROW(series.accumulate(999, {0, 0}), std::logic_error);
 }
 
 }  // namespace
