@@ -288,53 +288,6 @@ TEST(EndToEnd, SweepIsRunStreamedTabledPlottedAndDrawn) {
   }
 }
 
-TEST(EndToEnd, KilledWorkerIsStartedAgainAndTheDaemonGoesOn) {
-  Daemon daemon;
-  const ScratchFolder out;
-  const std::string scene =
-      R"({"rods": {"length": "2.5 mm", "area_fraction": 0.5}, "box": {"side": "12 mm"}, "time": {"measure": "%"}})";
-  const auto with_time = [&](const std::string& time) { return std::string(scene).replace(scene.find('%'), 1, time); };
-  const auto long_file = write_file(out.path() / "long.json", with_time("1000 s"));
-  const auto short_file = write_file(out.path() / "short.json", with_time("50 ms"));
-
-  const std::string job = daemon.json({"submit", long_file.string()}).at("jobs")[0].at("id");
-  const auto job_now = [&] { return daemon.json({"status", job}).at("job"); };
-  pid_t pid = 0;
-  for (int k = 0; k < 200 && pid == 0; ++k) {
-    const Json now = job_now();
-    if (now.at("state") == "running" && now.at("pid").is_number() && !now.at("progress").is_null()) pid = now.at("pid");
-    usleep(50000);
-  }
-  ASSERT_GT(pid, 0);
-  ASSERT_EQ(kill(pid, SIGKILL), 0);
-  std::string reason;  // for as long as it waits
-  int attempt = 0;
-  for (int k = 0; k < 400 && attempt < 2; ++k) {
-    const Json now = job_now();
-    attempt = now.at("attempt");
-    if (now.at("state") == "queued") reason = now.at("reason");
-    usleep(50000);
-  }
-  EXPECT_EQ(attempt, 2);
-  EXPECT_NE(reason.find("SIGKILL"), std::string::npos) << reason;
-  const Finished history = daemon.shaken({"history", job});
-  EXPECT_NE(history.output.find("SIGKILL"), std::string::npos) << history.output;
-  EXPECT_EQ(daemon.json({"hold", job}).at("targets")[0].at("held"), 1);
-  for (int k = 0; k < 400 && job_now().at("state") != "held"; ++k) usleep(50000);
-  EXPECT_EQ(job_now().at("state"), "held");
-
-  // of another seed, or it would be the run that is held
-  const Finished next = daemon.shaken({"submit", short_file.string(), "-s", "time.seed=2", "--wait"});
-  EXPECT_EQ(next.code, 0) << next.output;
-}
-
-TEST(EndToEnd, SecondDaemonRefusesAndNamesTheFirst) {
-  Daemon daemon;
-  const Finished second = run_command({program("shakend"), "--root", daemon.root(), "--no-lcm"});
-  EXPECT_EQ(second.code, 1);
-  EXPECT_NE(second.output.find(std::to_string(daemon.process().pid())), std::string::npos) << second.output;
-}
-
 TEST(EndToEnd, StoppedDaemonGoesOnWhereItWas) {
   Daemon daemon;
   const ScratchFolder out;
@@ -362,26 +315,6 @@ TEST(EndToEnd, StoppedDaemonGoesOnWhereItWas) {
   EXPECT_EQ(hash(daemon.root() / "runs" / job), hash(out.path() / "alone"));
 }
 
-TEST(EndToEnd, ASweepGrowsByTheNewPoints) {
-  Daemon daemon;
-  const ScratchFolder out;
-  const auto with_points = [&](int n) {
-    return write_file(out.path() / "sweep.json", R"({ "$schema": "sweep.schema.json", "name": "space",
-      "scene": { "rods": { "length": "2.5 mm", "area_fraction": 0.3 }, "box": { "side": "8 mm" },
-                 "time": { "steady": 0, "measure": "2 ms" }, "measure": { "order": { "every": "1 ms" } } },
-      "sweep": [ { "grid": { "rods.length": "2.1:2.)" +
-                                                     std::to_string(n) + R"(:0.1" } },
-                 { "grid": { "plates.gamma": [6, 7] } }, { "list": [ { "plates.gamma": 7 }, {} ] } ] })");
-  };
-  const Json first = daemon.json({"submit", with_points(4).string()});
-  EXPECT_EQ(first.at("counts").at("new"), 4 + 2);  // a gamma of 7 is there, and the default
-  ASSERT_EQ(daemon.shaken({"wait", "--timeout", "100"}).code, 0);
-  const Json second = daemon.json({"submit", with_points(7).string()});
-  EXPECT_EQ(second.at("counts").at("new"), 2);  // a length of 2.5 is there, as that of the scene
-  EXPECT_EQ(second.at("counts").at("done"), 4 + 2);
-  EXPECT_EQ(daemon.shaken({"wait", "--timeout", "100"}).code, 0);
-}
-
 TEST(EndToEnd, AProtocolIsAChainOfRunsForEachReplica) {
   const Daemon daemon;
   const auto file = write_file(daemon.root() / "ramp.json", R"({
@@ -407,21 +340,6 @@ TEST(EndToEnd, AProtocolIsAChainOfRunsForEachReplica) {
   EXPECT_GT(sides[2][0], sides[3][1]);
   EXPECT_EQ(sides[3], sides[4]);
   EXPECT_EQ(daemon.shaken({"submit", file.string()}).code, 0) << "again, which is nothing new";
-}
-
-TEST(EndToEnd, MalformedSceneTellsEveryMistakeAtOnce) {
-  const ScratchFolder out;
-  const auto file = write_file(out.path() / "bad.json", R"({
-  "rods": { "lenght": "4.5 mm", "area_fraction": 1.7 },
-  "box": { "side": "83.73 kg" },
-  "time": { "step": "4 us", "step": "5 us" }
-})");
-  const Finished finished = run_command({program("shaken"), "validate", file});
-  EXPECT_EQ(finished.code, 2);
-  for (const char* part : {"bad.json:2:13", "/rods/lenght", "rods.length", "bad.json:2:", "area_fraction",
-                           "bad.json:3:", "kg", "bad.json:4:"}) {
-    EXPECT_NE(finished.output.find(part), std::string::npos) << part << " is missing in\n" << finished.output;
-  }
 }
 
 TEST(EndToEnd, WhatCannotBePlacedIsRefusedByEveryVerbInTheSameWords) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <sstream>
 
 #include "tests/e2e/run_command.h"
 
@@ -88,16 +87,6 @@ TEST_F(ExportedFiles, HaveWallsAndPolarRods) {
   }
   const Finished seen = read_back({path("all.gsd"), path("all.extxyz"), path("all.xyz")});
   EXPECT_EQ(seen.code, 0) << seen.output;
-}
-
-TEST_F(ExportedFiles, TextGoesToStdoutAsToAFile) {
-  simulate(kTwoKinds);
-  ASSERT_EQ(exported({"--last", "-o", path("last.xyz")}).code, 0);
-  std::stringstream file;
-  file << std::ifstream(path("last.xyz")).rdbuf();
-  const Finished printed = exported({"--last", "--format", "xyz", "-o", "-"});
-  EXPECT_EQ(printed.code, 0);
-  EXPECT_EQ(printed.output, file.str());
 }
 
 }  // namespace

@@ -116,30 +116,6 @@ TEST_F(RelayedRun, BadClientsCostNeitherTheRunNorTheGoodOnesAnything) {
   EXPECT_EQ(hash(folder_.path() / "runs" / id), hash(file("alone")));
 }
 
-TEST_F(RelayedRun, MoreClientsThanItTakesAreRefused) {
-  const auto good = recorder("good");
-  // The daemon itself and the recorder are connected, too, of 64.
-  const std::string greeting("\x28\x76\x17\xfb\0\0\1\0", 8);
-  std::vector<Descriptor> crowd;
-  crowd.reserve(70);
-  int n_taken = 0;
-  for (int i = 0; i < 70; ++i) {
-    crowd.push_back(connected(address_));
-    (void)send(crowd.back().value(), greeting.data(), greeting.size(), MSG_NOSIGNAL);
-    std::string answer(greeting.size(), '\0');
-    n_taken += recv(crowd.back().value(), answer.data(), answer.size(), MSG_WAITALL) > 0 ? 1 : 0;
-  }
-  EXPECT_EQ(n_taken, 62);
-  const std::size_t n_before = heard(*good)["SHAKEN_STATUS"].size();
-  const auto until = steady_clock::now() + seconds(20);
-  while (heard(*good)["SHAKEN_STATUS"].size() == n_before && steady_clock::now() < until) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  }
-  EXPECT_GT(heard(*good)["SHAKEN_STATUS"].size(), n_before) << "those who are connected hear on";
-  crowd.clear();
-  EXPECT_NE(recorder("late"), nullptr);
-}
-
 TEST_F(RelayedRun, IsRecordedAndReplayedByUsAndByLcm) {
   Process logger({"/usr/bin/lcm-logger", "--quiet", "--lcm-url=" + url_, file("theirs.lcmlog")}, file("logger.out"));
   Process ours({program("shaken"), "record", "--root", root(), "--force", "-o", file("all.lcmlog")}, file("all.out"));
