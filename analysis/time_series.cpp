@@ -97,10 +97,6 @@ double statistical_inefficiency(std::span<const double> values) {
   }
 }
 
-double autocorrelation_time(std::span<const double> values) {
-  return values.empty() ? 0.0 : 0.5 * (statistical_inefficiency(values) - 1.0);
-}
-
 std::size_t steady_index(std::span<const double> values) {
   if (values.empty()) return 0;
   const std::size_t group = (values.size() + kSearchPoints - 1) / kSearchPoints;

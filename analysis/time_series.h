@@ -10,14 +10,11 @@
 
 namespace shaken::analysis {
 
-/// Integrated autocorrelation time in samples, tau = sum of rho(t) for t = 1 .. M, the window M being the first with
-/// M >= 5 (1 + 2 tau(M)) (Sokal 1997, with the constant of emcee). At least 0; 0 for a constant series or fewer than
-/// four samples. Costs at most a bounded number of operations times log(n): where the window is long the series is
-/// first averaged in pairs, which leaves the error of the mean as it is. Only as good as the series is long: trust it
-/// where n > 100 tau.
-double autocorrelation_time(std::span<const double> values);
-
-/// g = 1 + 2 tau: the number of samples worth one independent one, in [1, n].
+/// g = 1 + 2 tau, the number of samples worth one independent one, in [1, n]. tau is the integrated autocorrelation
+/// time in samples, the sum of rho(t) for t = 1 .. M, the window M being the first with M >= 5 (1 + 2 tau(M)) (Sokal
+/// 1997, with the constant of emcee). 1 for a constant series or fewer than four samples. Costs at most a bounded
+/// number of operations times log(n): where the window is long the series is first averaged in pairs, which leaves the
+/// error of the mean as it is. Only as good as the series is long: trust it where n > 100 tau.
 double statistical_inefficiency(std::span<const double> values);
 
 /// Index at which the steady state begins: the first t0 that leaves nearly the most effective samples, nine tenths of

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <functional>
 
-#include "analysis/geometry/segment_distance.h"
 #include "sim/contact/bead_contacts.h"
 #include "tests/unit/analysis/analysis_samples.h"
 

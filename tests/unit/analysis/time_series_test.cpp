@@ -73,10 +73,8 @@ TEST(StatisticalInefficiency, AllowsForTheVarianceThatAveragingTakes) {
 }
 
 TEST(StatisticalInefficiency, IsOneWhereThereIsNothingToCorrelate) {
-  for (const std::size_t n : {0, 1, 2, 3, 4, 1000}) {
+  for (const std::size_t n : {0, 1, 2, 3, 4, 1000})
     EXPECT_EQ(statistical_inefficiency(std::vector<double>(n, 0.1)), 1.0) << n;
-    EXPECT_EQ(autocorrelation_time(std::vector<double>(n, 0.1)), 0.0) << n;
-  }
   std::vector<double> alternating;
   for (int i = 0; i < 100; ++i) alternating.push_back(i % 2);
   EXPECT_EQ(statistical_inefficiency(alternating), 1.0);
@@ -134,7 +132,7 @@ TEST(Summary, TauIsInTheUnitOfTheTimes) {
   Draw draw(16);
   const std::vector<double> x = ar1(draw, 0.9, 50000);
   const SteadySummary summary = summarize_series(equal_times(x.size(), 0.01), x, 0.0);
-  EXPECT_NEAR(summary.tau, 0.01 * autocorrelation_time(x), 1e-12);
+  EXPECT_NEAR(summary.tau, 0.01 * (statistical_inefficiency(x) - 1) / 2, 1e-12);
   EXPECT_DOUBLE_EQ(summary.sem, summary.std / std::sqrt(summary.n_effective));
   EXPECT_LE(summary.n_effective, 50000 / statistical_inefficiency(x) * (1 + 1e-9));
   EXPECT_NEAR(summary.n_effective, 50000 / 19.0, 0.4 * 50000 / 19);
