@@ -77,5 +77,8 @@ def test_what_is_wrong_is_said_with_code_2(folder):
     assert {problem["path"] for problem in problems} >= {"/box/gap"}
     (folder / "t.csv").write_text("frame,x,y,angle\n0,1,2,3\n")
     assert "--scene is missing" in measure(folder, folder / "t.csv", code=2)
+    measure(folder, folder / "sim")
+    text = said(PROGRAMS / "shaken-worker", folder / "out" / "scene.json", "--out", folder / "out", "--no-lcm", code=1)
+    assert "holds what was measured on recorded frames; choose another one" in text, "a run does not take its place"
     text = said(PROGRAMS / "shaken", "measure", folder / "sim", "-o", folder, code=2)
     assert "holds something else than a measurement of frames" in text

@@ -79,6 +79,8 @@ std::optional<double> former_end(const RunDirectory& directory, const std::strin
   return time->get<double>();
 }
 
+bool is_of_frames(const RunDirectory& directory) { return summary_of(directory, "").contains("frames"); }
+
 bool is_done(const RunDirectory& directory, const std::string& run_id) {
   return !summary_of_done(directory, run_id).is_null();
 }

@@ -18,5 +18,7 @@ std::optional<double> former_end(const RunDirectory& directory, const std::strin
 /// Whether the run of this plan came to its end there, and went on for as long as the plan asks (scene/length.h),
 /// and its results are still there.
 bool is_done(const RunDirectory& directory, const scene::RunPlan& plan);
+/// Whether there is no run, but what was measured on recorded frames (run/recorded/).
+bool is_of_frames(const RunDirectory& directory);
 
 }  // namespace shaken::run

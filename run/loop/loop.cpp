@@ -460,6 +460,9 @@ Result<void> claim(const scene::RunPlan& plan, const RunDirectory& directory) {
   if (!present) {
     return Error{directory.root.string() + " holds a run whose scene cannot be read:\n" + present.error().message};
   }
+  if (is_of_frames(directory)) {
+    return Error{directory.root.string() + " holds what was measured on recorded frames; choose another one"};
+  }
   if (scene::run_id(*present) != scene::run_id(plan)) {
     return Error{directory.root.string() + " holds the run of another scene (see its scene.json); choose another one"};
   }

@@ -18,6 +18,7 @@
 #include "base/text.h"
 #include "run/files/content_hash.h"
 #include "run/files/directory.h"
+#include "run/files/done.h"
 #include "run/files/foreign_file.h"
 #include "run/files/trajectory.h"
 #include "run/import/refusal.h"
@@ -55,9 +56,7 @@ struct MeasureOptions {
 void claim(const RunDirectory& directory) {
   std::error_code none;
   if (!fs::exists(directory.root, none) || fs::is_empty(directory.root, none)) return;
-  const Result<std::string> text = read_file(directory.summary());
-  const auto summary = OrderedJson::parse(text ? *text : "", nullptr, false);
-  if (summary.is_object() && summary.contains("frames")) return;
+  if (is_of_frames(directory)) return;
   throw Failure(ExitCode::kBadInput,
                 fmt::format("{} holds something else than a measurement of frames: choose another folder by --out",
                             printable(directory.root.string())));

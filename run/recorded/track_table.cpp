@@ -189,7 +189,8 @@ class TrackTable {
     };
     const bool flips = conventions_.flips_y;
     Sighting rod;
-    rod.id = value("id", 0);
+    rod.id = value("id", -1 - line);  // without one, it is seen but once
+    is_missed = false;
     rod.position = {conventions_.scale * value("x", 0), conventions_.scale * value("y", 0),
                     has("z") ? conventions_.scale * value("z", 0) : plan_.system.gap / 2};
     if (flips) rod.position.y() = view_.y() - rod.position.y();
@@ -315,7 +316,7 @@ class TrackTable {
     std::vector<double> numbers, times;
     for (const auto& [frame, rods] : frames_) {
       numbers.push_back(frame);
-      times.push_back(conventions_.interval ? *conventions_.interval * frame : time_of_[frame]);
+      times.push_back(conventions_.interval && has("frame") ? *conventions_.interval * frame : time_of_[frame]);
     }
     if (times.size() == 1) return conventions_.interval.value_or(plan_.system.dt);
     const double interval = (times.back() - times.front()) / static_cast<double>(times.size() - 1);

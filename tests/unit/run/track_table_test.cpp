@@ -100,6 +100,19 @@ TEST(TrackTable, OfTrackMateHasThreeMoreTitlesAndRadians) {
   EXPECT_NEAR(frame_of(tracks, 1).time, 0.04, 1e-12) << "times of the table";
 }
 
+TEST(TrackTable, SpotsThatAreInNoTrackAreRodsOfTheirFrame) {
+  const TrackedRods tracks = tracks_in(
+      "TRACK_ID,FRAME,POSITION_X,POSITION_Y,ELLIPSE_THETA\n0,0,1,2,0.5\n,0,5,6,0.5\n,0,7,6,0.5\n0,1,1,2,0.5\n");
+  EXPECT_EQ(frame_of(tracks, 0).n_rods(), 3U);
+  EXPECT_EQ(frame_of(tracks, 1).n_rods(), 1U);
+  EXPECT_TRUE(tracks.lacking.contains(Needs::kIdentities));
+}
+
+TEST(TrackTable, TimesAreTakenAsTheyAreWhereFramesHaveNoNumbers) {
+  const TrackedRods tracks = tracks_in("t,x,y,angle\n1.5,1,2,90\n1.75,1,2,90\n");
+  EXPECT_NEAR(frame_of(tracks, 1).time, 0.25, 1e-12);
+}
+
 TEST(TrackTable, OfImageJCountsDownwardsButItsAnglesAreSeenAsTheyAre) {
   TrackConventions conventions = at_intervals();
   conventions.flips_y = true;
