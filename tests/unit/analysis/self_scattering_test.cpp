@@ -323,18 +323,6 @@ TEST(VelocityCorrelation, PersistenceGoesToOneOverESquaredAndNotToZero) {
   EXPECT_NEAR(summary.correlation_time.value, 0.4, 0.004) << "up to its zero, as ever";
 }
 
-TEST(VelocityCorrelation, ErrorsAreTheScatterOfRepeatedExperiments) {
-  Draw draw(114);
-  double squares = 0, variances = 0;
-  for (int repeat = 0; repeat < 200; ++repeat) {
-    const VelocityCorrelation correlation = correlation_of(walks(draw, 3, 600, 0, 1, 1), 0, 0.1, 0.4);
-    const VelocityCurve curve = correlation.reduce();
-    squares += std::pow(curve.c_v.value.at(2) - 0.5, 2);
-    variances += std::pow(curve.c_v.sem.at(2), 2);
-  }
-  EXPECT_NEAR(std::sqrt(variances / squares), 1.0, 0.25);
-}
-
 TEST(VelocityCorrelation, NothingAndStillRodsDoNotCrash) {
   EXPECT_TRUE(VelocityCorrelation(0.1, 0.4).reduce().lag.empty());
   EXPECT_TRUE(std::isnan(VelocityCorrelation(0.1, 0.4).summarize().mean_square.value));

@@ -67,32 +67,6 @@ TEST(TiltVelocity, FindsThePlantedLawWithinItsErrors) {
   EXPECT_NEAR(across, 1.0, 0.2);
 }
 
-// Noise common to all rods, with correlation from call to call (a = 0.9, g = 19): the error of the mean is
-// sqrt(g / calls). Of 60 runs of 421 independent samples each the mean of z^2 is 1 within 18 % by chance, and the mean
-// of the errors' squares is good to 3 %. Taken as independent the samples would give errors sqrt(19 * 50) times too
-// small.
-TEST(TiltVelocity, ErrorsCountCorrelatedSamplesOnce) {
-  constexpr int kCalls = 8000, kRuns = 60;
-  Draw draw(32);
-  double squares = 0, errors = 0;
-  const std::vector<Vec3> directors{axis(0.1), axis(1.2), axis(2.3)};
-  std::vector<Vec3> velocities(3);
-  for (int run = 0; run < kRuns; ++run) {
-    Blocked<TiltVelocity> tilt{TiltVelocity(1, kMaxTilt)};
-    double time = 0;
-    for (const double common : ar1(draw, 0.9, kCalls)) {
-      for (std::size_t i = 0; i < 3; ++i) velocities[i] = common * directors[i];
-      tilt.accumulate(time++, directors, velocities);
-    }
-    const TiltCurve curve = curve_of(tilt);
-    squares += std::pow(curve.v_along[0] / curve.v_along_sem[0], 2) / kRuns;
-    errors += std::pow(curve.v_along_sem[0], 2) / kRuns;
-    EXPECT_NEAR(curve.v_across[0], 0.0, 1e-12);
-  }
-  EXPECT_NEAR(squares, 1.0, 0.5);
-  EXPECT_NEAR(errors / (19.0 / kCalls), 1.0, 0.2);
-}
-
 TEST(TiltVelocity, EdgesOutsideAndUpright) {
   TiltVelocity tilt(4, kMaxTilt);
   const std::vector<Vec3> directors{
@@ -203,28 +177,6 @@ TEST(TiltSummary, FindsThePlantedPeakAndZero) {
   EXPECT_NEAR(summary.n_z_zero.value, 0.3, 0.002);
   // The bin mean of -v0 sin over 0.3 .. 0.4 is v0 (1 - cos(pi / 3)) / (pi / 3) = 2.4; 50 000 samples of spread 1
   EXPECT_GT(summary.zero_sigma, 200);
-}
-
-// Of 100 runs: the mean of z^2 is 1 within 14 % by chance, which is allowed three times. The zero of the interpolation
-// is off by less than 1e-4 for the curve's bend.
-TEST(TiltSummary, ErrorsOfTheZeroAndOfTheCurveCoverTheTruth) {
-  constexpr int kRuns = 100;
-  Draw draw(124);
-  double zero = 0, curve = 0, n = 0;
-  for (int run = 0; run < kRuns; ++run) {
-    const TiltSummary summary = measured(draw, 2.0, 80);
-    zero += std::pow((summary.n_z_zero.value - 0.3) / summary.n_z_zero.sem, 2) / kRuns;
-    for (std::size_t i = 0; i < summary.folded.n_z.size(); ++i) {
-      const Estimate& v = summary.folded.v_along[i];
-      // The mean of the law over the bin
-      const double k = std::numbers::pi / 0.3, x = summary.folded.n_z[i];
-      const double truth = law(x) * std::sin(k * 0.01) / (k * 0.01);
-      curve += std::pow((v.value - truth) / v.sem, 2);
-      n += 1;
-    }
-  }
-  EXPECT_NEAR(zero, 1.0, 0.42);
-  EXPECT_NEAR(curve / n, 1.0, 0.2);
 }
 
 // v = -v0 for all n_z > 0 has no zero but by noise, which is not significant.
