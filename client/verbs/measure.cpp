@@ -1,6 +1,9 @@
+#include <fmt/format.h>
+
 #include <filesystem>
 
 #include "base/process.h"
+#include "base/text.h"
 #include "client/live/target.h"
 #include "client/verbs/verbs.h"
 
@@ -47,6 +50,8 @@ class Measure : public Verb {
   ExitCode run(const Context& context) override {
     std::error_code ignored;
     if (!std::filesystem::exists(run_, ignored)) {
+      if (run_.find_first_of("./") != std::string::npos)  // no id of a job
+        throw Failure(ExitCode::kBadInput, fmt::format("there is no {}", printable(run_)));
       ApiClient session(context.root());
       run_ = find_job(session, run_).at("directory").get<std::string>();
     }

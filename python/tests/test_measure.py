@@ -76,6 +76,7 @@ def test_what_is_wrong_is_said_with_code_2(folder):
     problems = json.loads(measure(folder, folder / "sim", "-s", "box.gap=1.3", code=2))["problems"]
     assert {problem["path"] for problem in problems} >= {"/box/gap"}
     (folder / "t.csv").write_text("frame,x,y,angle\n0,1,2,3\n")
+    assert "there is no nowhere.csv" in measure(folder, "nowhere.csv", code=2)
     assert "--scene is missing" in measure(folder, folder / "t.csv", code=2)
     measure(folder, folder / "sim")
     text = said(PROGRAMS / "shaken-worker", folder / "out" / "scene.json", "--out", folder / "out", "--no-lcm", code=1)
