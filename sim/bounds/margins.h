@@ -46,7 +46,7 @@ inline constexpr float kReceding = 1e-3F;
 /// A time, of itself: the divisions at its end.
 inline constexpr float kTime = 1e-5F;
 
-// ---- other images (bounds/image_safe_time.h)
+// ---- other images (bounds/safe_time.h)
 
 /// The room to the next image, of the box.
 inline constexpr double kImageRoom = 1e-6;

@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "base/core/fifth_root.h"
-
 namespace shaken {
 
 // Not inlined: loops that are flattened stay as small as they are where restitution is constant.

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/bounds/image_safe_time.h"
 #include "sim/bounds/margins.h"
+#include "sim/bounds/safe_time.h"
 
 namespace shaken {
 namespace {

@@ -14,7 +14,6 @@
 #include "sim/motion/post_contacts.h"
 #include "sim/motion/start_motion.h"
 #include "sim/neighbors/neighbor_list.h"
-#include "sim/start/aligning_field.h"
 #include "sim/start/director_patterns.h"
 #include "sim/start/from_another_run.h"
 #include "sim/start/initial.h"

@@ -22,7 +22,7 @@ using GoOn = std::function<bool()>;
 ///           hundredth thicker meanwhile, so that true rods are apart at the end, which is checked.
 /// Patterns: where rods start along domains or a pair of defects (sim/start/director_patterns.h), they are inserted
 ///           along the director of their place, with the head at either end, and turned towards it between the steps by
-///           a field (sim/start/aligning_field.h). Turns that hits give them last until the next step.
+///           a field (sim/start/director_patterns.h). Turns that hits give them last until the next step.
 /// Posts:    they shrink with the box, with the ways between them, so that posts that touch do so all along.
 /// Source:   as the quick compression of hard particles of HOOMD-blue (Anderson et al. 2020), with impulses in place
 ///           of Monte Carlo moves.

@@ -7,7 +7,6 @@
 #include <set>
 #include <vector>
 
-#include "sim/start/aligning_field.h"
 #include "sim/start/compression.h"
 
 namespace shaken {

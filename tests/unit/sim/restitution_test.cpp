@@ -5,7 +5,6 @@
 
 #include <cmath>
 
-#include "base/core/fifth_root.h"
 #include "sim/tick/rod_impacts.h"
 #include "sim/tick/surface_impacts.h"
 #include "tests/support/random_rods.h"

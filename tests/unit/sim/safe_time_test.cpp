@@ -7,7 +7,6 @@
 
 #include "sim/bounds/bead_safe_time.h"
 #include "sim/bounds/hull_safe_time.h"
-#include "sim/bounds/image_safe_time.h"
 #include "sim/bounds/plate_safe_time.h"
 #include "sim/bounds/velocity_jump.h"
 #include "sim/contact/bead_contacts.h"
