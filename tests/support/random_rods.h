@@ -3,6 +3,7 @@
 #include <random>
 
 #include "base/core/types.h"
+#include "sim/rod/species.h"
 
 namespace shaken::test {
 
@@ -26,5 +27,19 @@ class Draw {
  private:
   std::mt19937_64 engine_;
 };
+
+/// The same fore and aft, wider or narrower at the ends; polar; with free beads; a sphere.
+inline Species random_species(Draw& draw) {
+  switch (draw.integer(0, 3)) {
+    case 0:
+      return make_species({.length = 0.8, .mid_diameter = 0.8, .end_diameter = 0.8, .n_beads = 1});
+    case 1:
+      return make_species({.length = 2.5, .bead_diameters{0.9, 0.8, 0.6, 0.4, 0.5, 0.7, 0.5, 0.3}});
+    case 2:
+      return make_species({.length = draw.uniform(2.5, 4.5), .n_beads = 11, .profile = Profile::kPolar});
+    default:
+      return make_species({.length = draw.uniform(2.5, 4.5), .end_diameter = draw.uniform(0.2, 1.0), .n_beads = 9});
+  }
+}
 
 }  // namespace shaken::test

@@ -82,13 +82,6 @@ TEST(InitialFlights, FillRectangles) {
   }
 }
 
-TEST(InitialFlights, FullSizeOfThePaper) {
-  const System system = scene_at(4.5, 0.85, 83.73);
-  const auto flights = flights_of(system);
-  ASSERT_TRUE(static_cast<bool>(flights)) << flights.error().message;
-  EXPECT_NEAR(flights->size(), 2400, 50);
-}
-
 // 4.5 mm go four times into 22 mm, and four millimetres are left over: rows that close in themselves hold fewer rods.
 TEST(InitialFlights, RowsWindAroundABoxThatNoWholeNumberFills) {
   for (double side = 16; side < 26; side += 0.5) {
@@ -213,17 +206,6 @@ TEST(InitialFlights, TheMostThatIsPromisedCanBePlacedAndNotOneMore) {
   EXPECT_TRUE(static_cast<bool>(flights_of(periodic)));
   periodic.n_rods = most + 1;
   EXPECT_EQ(promised(periodic), most);
-}
-
-TEST(InitialFlights, DependOnTheSeedAlone) {
-  System system = scene_at(4.5, 0.6, 25);
-  const Species species = make_species(system.rod);
-  const auto first = flights_of(system);
-  const auto again = flights_of(system);
-  system.seed = 2;
-  const auto other = flights_of(system);
-  EXPECT_EQ((*first)[5].velocity, (*again)[5].velocity);
-  EXPECT_NE((*first)[5].velocity, (*other)[5].velocity);
 }
 
 }  // namespace

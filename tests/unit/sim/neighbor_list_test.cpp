@@ -211,20 +211,6 @@ TEST(NeighborList, StaysCompleteInSmallBoxes) {
   EXPECT_GT(n_touching, 5000);
 }
 
-TEST(NeighborList, CellsGiveTheSameAsAllPairs) {
-  // the same rods in a box small enough for all pairs and, without periodic partners, in one with many cells
-  test::Draw draw(12);
-  const Species rod = make_species({.length = 2.5, .n_beads = 9});
-  std::vector<Pose> poses(40);
-  for (Pose& pose : poses) pose = {Vec3{draw.uniform(20, 26), draw.uniform(20, 26), 0.6}, draw.flat_direction(0.3)};
-  NeighborList many_cells = list_of(rod, 60, 0.3);
-  NeighborList few_cells = list_of(rod, 8, 0.3);
-  many_cells.build(poses);
-  few_cells.build(poses);
-  for (const auto& [i, j] : many_cells.pairs()) EXPECT_TRUE(holds(few_cells, i, j));
-  EXPECT_GT(many_cells.pairs().size(), 40u);
-}
-
 TEST(NearestImage, RoundsAsTheLibraryDoes) {
   test::Draw draw(14);
   for (int trial = 0; trial < 100000; ++trial) {
@@ -247,10 +233,6 @@ TEST(NeighborList, TiltAloneNeverMakesItDue) {
   EXPECT_FALSE(list.is_due(poses));
   poses[0].position.x() += 0.16;
   EXPECT_TRUE(list.is_due(poses));
-}
-
-TEST(NearestImage, IsTheShortestAcrossTheBorder) {
-  EXPECT_LT((nearest_image(Vec3(0.5, 9.5, 0), Vec3(9.5, 0.5, 1), 10) - Vec3(-1, 1, 1)).norm(), 1e-14);
 }
 
 }  // namespace

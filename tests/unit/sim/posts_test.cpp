@@ -105,19 +105,6 @@ TEST(PostGrid, FindsWhatALookAtAllImagesFinds) {
   EXPECT_GT(n_found, static_cast<std::size_t>(test::draws(10000)));
 }
 
-Species random_species(test::Draw& draw) {
-  switch (draw.integer(0, 3)) {
-    case 0:
-      return make_species({.length = 0.8, .mid_diameter = 0.8, .end_diameter = 0.8, .n_beads = 1});
-    case 1:
-      return make_species({.length = 2.5, .bead_diameters{0.9, 0.8, 0.6, 0.4, 0.5, 0.7, 0.5, 0.3}});
-    case 2:
-      return make_species({.length = draw.uniform(2.5, 4.5), .n_beads = 11, .profile = Profile::kPolar});
-    default:
-      return make_species({.length = draw.uniform(2.5, 4.5), .end_diameter = draw.uniform(0.2, 1.0), .n_beads = 9});
-  }
-}
-
 /// A rod that flies among posts, in a periodic box or one with an end, often about as far from the next as asked.
 struct RodAmongPosts {
   Box box;
@@ -132,7 +119,7 @@ struct RodAmongPosts {
       : box(draw.uniform(20, 50), draw.uniform(20, 50)),
         posts{draw.integer(0, 1) ? draw.uniform(0.2, 8) : 3.0, {}},
         period(box.x(), draw.integer(0, 3) ? box.y() : 0.0),
-        species(random_species(draw)) {
+        species(test::random_species(draw)) {
     for (int n = draw.integer(1, 12); n > 0; --n)
       posts.centres.emplace_back(box.x() * draw.uniform(0, 1), box.y() * draw.uniform(0, 1));
     Pose pose{Vec3(box.x() * draw.uniform(-1, 2), box.y() * draw.uniform(0, 1), 0.6),
@@ -332,46 +319,6 @@ TEST(Posts, FrictionOfAPostIsCoulombs) {
   Simulation same = flying(system, Vec3(16, 11.5, 0.6), Vec3(-20, 0, 0));
   ASSERT_FALSE(same.advance_to(static_cast<Tick>(0.4 / system.dt)).has_value());
   EXPECT_EQ(same.world().rods[0].velocity, velocity);
-}
-
-/// Rods among posts in every kind of place that rods may be in.
-std::vector<std::pair<const char*, System>> systems_with_posts() {
-  std::vector<std::pair<const char*, System>> all;
-  System system;
-  system.rod = {.length = 3.0, .n_beads = 9, .profile = Profile::kPolar};
-  system.n_rods = 40;
-  system.start = Start::kRandom;
-  system.box_side = 24;
-  system.posts = Posts{.diameter = 2, .columns = 4, .rows = 4, .contact = {0.1, 0.7}};
-  all.emplace_back("box", system);
-  system.posts->places = {Vec2(0, 0), Vec2(12, 12), Vec2(14, 12), Vec2(14, 14), Vec2(23, 9)};
-  all.emplace_back("places", system);
-  system.posts->places.clear();
-  for (const auto& [name, arena] : kArenaNames) {
-    system.walls = SideWalls{.arena = arena, .size = 20, .inner = 4, .contact = {0.1, 0.7}, .length = 8};
-    if (arena == Arena::kEllipse || arena == Arena::kWedge) system.walls->length = 28;
-    system.box_side = 30;
-    all.emplace_back(name, system);
-  }
-  return all;
-}
-
-// A bead is found in a post at the end of the tick in which it came there: no deeper than it goes in one.
-TEST(Posts, NoBeadIsEverDeeperThanATickTakesIt) {
-  for (const auto& [name, system] : systems_with_posts()) {
-    auto simulation = Simulation::start(system);
-    ASSERT_TRUE(static_cast<bool>(simulation)) << name << ": " << simulation.error().message;
-    const PostGrid posts(standing_posts(system), system.box(), period_of(system.box(), system.walls));
-    ASSERT_GE(posts.n_posts(), 5) << name;
-    for (int part = 0; part <= 40; ++part) {
-      ASSERT_FALSE(simulation->advance_to(3000 * part).has_value());
-      const Snapshot now = simulation->snapshot();
-      const Species& rod = simulation->world().species[0];
-      for (std::size_t i = 0; i < now.position.size(); ++i)
-        ASSERT_LT(overlap_with_posts(posts, rod, {now.position[i], now.director[i]}), part > 0 ? 4e-3 : 1e-12) << name;
-    }
-    EXPECT_GT(simulation->world().counters.impulses_rod_post, 5) << name;
-  }
 }
 
 TEST(Posts, NoRodStartsInOne) {

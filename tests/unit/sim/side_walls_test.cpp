@@ -17,20 +17,6 @@ namespace side_walls_test {
 
 constexpr double kG = 9810;
 
-/// The same fore and aft, wider or narrower at the ends; polar; with free beads; spheres.
-Species random_species(test::Draw& draw) {
-  switch (draw.integer(0, 4)) {
-    case 0:
-      return make_species({.length = 0.8, .mid_diameter = 0.8, .end_diameter = 0.8, .n_beads = 1});
-    case 1:
-      return make_species({.length = 2.5, .bead_diameters{0.9, 0.8, 0.6, 0.4, 0.5, 0.7, 0.5, 0.3}});
-    case 2:
-      return make_species({.length = draw.uniform(2.5, 4.5), .n_beads = 11, .profile = Profile::kPolar});
-    default:
-      return make_species({.length = draw.uniform(2.5, 4.5), .end_diameter = draw.uniform(0.2, 1.0), .n_beads = 9});
-  }
-}
-
 /// A rod that is about as far from a wall as asked, and flies as in a shaken layer or slower, over longer horizons.
 struct RodByWall {
   SideWalls walls;
@@ -40,7 +26,7 @@ struct RodByWall {
   Gravity gravity{kG};  ///< for a part of the rods on inclined plates
   double horizon;
 
-  RodByWall(test::Draw& draw, double gap) : species(random_species(draw)) {
+  RodByWall(test::Draw& draw, double gap) : species(test::random_species(draw)) {
     walls.arena = static_cast<Arena>(draw.integer(0, kArenaNames.size() - 1));
     const double middle = walls.arena == Arena::kAnnulus ? draw.uniform(0.1, 12) : 0.0;
     walls.inner = middle;
@@ -298,33 +284,6 @@ TEST(MayTouchWalls, OfARodThatADiscHasNoRoomFor) {
     flight.position = pose.position;
     EXPECT_TRUE(may_touch_walls(walls, 3, sphere, pose));
     EXPECT_EQ(wall_safe_time(walls, 3, sphere, pose, flight, 1.0, 0), 0);
-  }
-}
-
-// A bead is found at a wall at the end of the tick in which it came there: no deeper than it goes in one.
-TEST(SideWalls, NoBeadIsEverFurtherOutsideThanATickTakesIt) {
-  for (const auto& [name, arena] : kArenaNames) {
-    System system;
-    system.rod = {.length = 3.0, .n_beads = 9, .profile = Profile::kPolar};
-    system.walls = SideWalls{.arena = arena, .size = 14, .inner = 4, .contact = {0.1, 0.7}, .length = 6};
-    if (arena == Arena::kEllipse || arena == Arena::kWedge) system.walls->length = 20;
-    system.box_side = 22;
-    system.n_rods = 30;
-    system.start = Start::kRandom;
-    auto simulation = Simulation::start(system);
-    ASSERT_TRUE(static_cast<bool>(simulation)) << name << ": " << simulation.error().message;
-    for (int part = 1; part <= 60; ++part) {
-      ASSERT_FALSE(simulation->advance_to(3000 * part).has_value());
-      const Snapshot now = simulation->snapshot();
-      const Species& rod = simulation->world().species[0];
-      for (std::size_t i = 0; i < now.position.size(); ++i) {
-        for (int b = 0; b < rod.n_beads(); ++b) {
-          const Vec3 bead = now.position[i] + rod.bead_offset[b] * now.director[i];
-          ASSERT_GT(distance_to_walls(*system.walls, 22, bead), rod.bead_radius[b] - 4e-3) << name << " " << part;
-        }
-      }
-    }
-    EXPECT_GT(simulation->world().counters.impulses_rod_wall, 30) << name;
   }
 }
 

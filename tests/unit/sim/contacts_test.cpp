@@ -1,5 +1,3 @@
-#include "sim/overlaps.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 
 #include "sim/close_up.h"
 #include "sim/contact/bead_contacts.h"
+#include "sim/overlaps.h"
 #include "tests/support/random_rods.h"
 #include "tests/support/short_rods.h"
 

@@ -1,5 +1,3 @@
-#include "sim/rod/species.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <vector>
 
 #include "sim/rod/sizes.h"
+#include "sim/rod/species.h"
 #include "sim/tick/tick.h"
 #include "sim/world.h"
 #include "tests/support/short_rods.h"

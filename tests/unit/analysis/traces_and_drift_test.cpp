@@ -1,5 +1,3 @@
-#include "analysis/rod_traces.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <vector>
 
 #include "analysis/drift.h"
+#include "analysis/rod_traces.h"
 #include "tests/unit/analysis/analysis_samples.h"
 
 namespace shaken::analysis {

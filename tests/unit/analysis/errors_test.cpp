@@ -1,8 +1,7 @@
-#include "analysis/errors/blocked.h"
-
 #include <gtest/gtest.h>
 
 #include "analysis/angles.h"
+#include "analysis/errors/blocked.h"
 #include "analysis/errors/jackknife.h"
 #include "analysis/errors/parts.h"
 #include "analysis/tilt.h"

@@ -1,10 +1,9 @@
-#include "analysis/self_scattering.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdio>
 
+#include "analysis/self_scattering.h"
 #include "analysis/velocity_correlation.h"
 #include "tests/unit/analysis/walks.h"
 

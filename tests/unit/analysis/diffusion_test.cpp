@@ -1,10 +1,9 @@
-#include "analysis/msd.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numeric>
 
+#include "analysis/msd.h"
 #include "analysis/rotation.h"
 #include "analysis/van_hove.h"
 #include "tests/unit/analysis/walks.h"

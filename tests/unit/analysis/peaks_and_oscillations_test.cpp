@@ -1,5 +1,3 @@
-#include "analysis/two_peaks.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include "analysis/errors/blocked.h"
 #include "analysis/errors/jackknife.h"
 #include "analysis/oscillation.h"
+#include "analysis/two_peaks.h"
 #include "tests/support/effort.h"
 #include "tests/unit/analysis/analysis_samples.h"
 

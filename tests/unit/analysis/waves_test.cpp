@@ -1,10 +1,9 @@
-#include "analysis/structure_factor.h"
-
 #include <gtest/gtest.h>
 
 #include <complex>
 
 #include "analysis/geometry/wave_sums.h"
+#include "analysis/structure_factor.h"
 #include "tests/unit/analysis/analysis_samples.h"
 #include "tests/unit/analysis/lattices.h"
 

@@ -1,14 +1,13 @@
-#include "analysis/defect_tracks.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "analysis/defect_series.h"
+#include "analysis/defect_tracks.h"
 #include "tests/unit/analysis/analysis_samples.h"
 
 namespace shaken::analysis {
-namespace defect_tracks_test {
+namespace defects_in_time_test {
 
 constexpr double kBox = 40, kArea = kBox * kBox, kInterval = 0.1;
 
@@ -307,5 +306,5 @@ TEST(DefectSeries, MemoryIsBoundedWithoutTheList) {
   EXPECT_TRUE(series.list().x.empty());
 }
 
-}  // namespace defect_tracks_test
+}  // namespace defects_in_time_test
 }  // namespace shaken::analysis

@@ -1,4 +1,4 @@
-#include "sim/tick/plate_impacts.h"
+#include "sim/tick/surface_impacts.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <set>
 
 #include "sim/start/initial.h"
-#include "sim/tick/surface_impacts.h"
+#include "sim/tick/plate_impacts.h"
 #include "tests/support/any_width.h"
 #include "tests/support/effort.h"
 
@@ -110,27 +110,6 @@ TEST(PlateImpacts, AreNotInLanesWhereAnEffectIsOnThatTheLanesDoNotKnow) {
   EXPECT_TRUE(lanes_know(system, effects));
   effects.back().is_on = [](const System&) { return true; };
   EXPECT_FALSE(lanes_know(system, effects));
-}
-
-TEST(PlateImpacts, AreInLanesWhateverTheSceneAsksFor) {
-  const auto is_in_lanes = [](const auto& change) {
-    System system;
-    change(system);
-    return lanes_know(system);
-  };
-  EXPECT_TRUE(is_in_lanes([](System&) {}));
-  EXPECT_TRUE(is_in_lanes([](System& system) { system.rotational_noise = 0.01; }));
-  EXPECT_TRUE(is_in_lanes([](System& system) {
-    system.added[0] = AddedRods{};
-    system.added_noise[0] = 0.01;
-  }));
-  EXPECT_TRUE(is_in_lanes([](System& system) { system.rod.spread.length = 0.05; }));
-  EXPECT_TRUE(is_in_lanes([](System& system) { system.horizontal_amplitude = 0.01; }));
-  EXPECT_TRUE(is_in_lanes([](System& system) { system.impacts = ImpactTime::kAtInstant; }));
-  EXPECT_TRUE(is_in_lanes([](System& system) { system.law = ImpulseLaw::kPoisson; }));
-  EXPECT_TRUE(is_in_lanes([](System& system) { system.rod_base.friction = 0; }));
-  EXPECT_TRUE(is_in_lanes([](System& system) { system.rod_lid.friction = 0; }));
-  EXPECT_TRUE(is_in_lanes([](System& system) { system.amplitude = 0; }));  // rods rest
 }
 
 TEST(PlateImpacts, InLanesAreBitForBitThoseOfOneRodAfterTheOther) {
