@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Holds every link of the pages to a file of the tree, and to a heading where it names one. Exits 1 and lists the
-others. Links to elsewhere are not followed."""
+"""Holds every link of the pages to a file of the tree, and to a heading where it names one, and every file of code that
+a page or a comment names to one that is there. Exits 1 and lists the others. Links to elsewhere are not followed."""
 import pathlib
 import re
 import subprocess
@@ -28,10 +28,24 @@ def anchors(page):
     return {name if k == 0 else f"{name}-{k}" for name, last in found.items() for k in range(last + 1)}
 
 
+def lost_names(files):
+    """Names of headers and sources, `stepping/stepper.h`, that end no path of the tree; NAME.cpp stands for any."""
+    tails = {"/".join(pathlib.PurePath(file).parts[k:]) for file in files for k in range(file.count("/") + 1)}
+    for file in files:
+        if not file.endswith((".md", ".h", ".cpp")) or file == "CHANGELOG.md":
+            continue
+        for number, line in enumerate((ROOT / file).read_text().splitlines(), 1):
+            said = line.partition("//")[2] if not file.endswith(".md") else " ".join(re.findall("`[^`]*`", line))
+            for name in re.findall(r"(?<![\w./<-])[a-z][\w/]*\.(?:h|cpp)\b", said):
+                if name not in tails and not re.search("[A-Z]{3}", name):
+                    yield f"{file}:{number}: there is no {name}"
+
+
 def main():
-    pages = [ROOT / name for name in subprocess.run(
-        ["git", "ls-files", "*.md"], cwd=ROOT, check=True, capture_output=True, text=True).stdout.split()]
-    bad, n = [], 0
+    files = subprocess.run(["git", "ls-files"], cwd=ROOT, check=True, capture_output=True, text=True).stdout.split()
+    files = [file for file in files if (ROOT / file).is_file()]
+    pages = [ROOT / file for file in files if file.endswith(".md")]
+    bad, n = list(lost_names(files)), 0
     for page in pages:
         for match in LINK.finditer(prose(page)):
             target = unquote(match.group(1) or match.group(2))

@@ -66,7 +66,7 @@ std::unique_ptr<Measurement> measure_clusters(const MeasureContext& context) {
 MeasurementKind clusters_kind() {
   return {
       .name = "clusters",
-      .sources = "clusters, geometry/segment_distance, geometry/region",
+      .sources = "clusters, geometry/region",
       .make = measure_clusters,
       .arrays =
           {
