@@ -11,14 +11,14 @@ namespace {
 
 /// Gives both rods an impulse if their beads approach, which overlap by `overlap` [mm].
 [[gnu::always_inline]] inline bool collide(const impact::Bead& i, const impact::Bead& j, const Vec3& normal,
-                                           double overlap, const ContactParameters& contact, ImpulseFunction law,
+                                           double overlap, const ContactParameters& contact, const TickRules& rules,
                                            Ledger& ledger) {
   const Vec3 u = j.velocity() - i.velocity();
   if (!(u.dot(normal) < 0)) return false;
   impact::Impulse impulse;
   if (contact.has_friction()) {
     const Mat3 K = i.compliance() + j.compliance();
-    impulse.P = law(K, normal, u, contact);
+    impulse.P = rules.impulse(K, normal, u, contact);
     impulse.lost = impact::work_lost(impulse.P, u, K);
     j.apply(impulse.P);
     i.apply(-impulse.P);
@@ -47,7 +47,7 @@ namespace {
   const auto collide_along = [&](const Vec3& normal, double overlap) {
     return collide({species_i, rod_i, offset_i, offset_i * rod_i.pose.director + radius_i * normal},
                    {species_j, rod_j, offset_j, offset_j * rod_j.pose.director - radius_j * normal}, normal, overlap,
-                   rules.rod_rod(contact.i, contact.j), rules.impulse, counters.ledger);
+                   rules.rod_rod(contact.i, contact.j), rules, counters.ledger);
   };
   if (!rules.system.has_impacts_at_instant()) {
     if (collide_along(beads.normal, beads.overlap)) ++counters.impulses_rod_rod;

@@ -51,14 +51,14 @@ impact::Impulse impulse_without_friction(const Surface& surface, const Vec3& u, 
 }
 
 /// Gives the bead an impulse if it approaches the surface.
-[[gnu::always_inline]] inline bool collide(const impact::Bead& bead, const Surface& surface, ImpulseFunction law,
+[[gnu::always_inline]] inline bool collide(const impact::Bead& bead, const Surface& surface, const TickRules& rules,
                                            Ledger& ledger) {
   Vec3 u = bead.velocity();
   u -= surface.velocity;
   if (!(u.dot(surface.normal) < surface.rest_speed)) return false;
   impact::Impulse impulse;
   if (surface.contact.has_friction()) {
-    impulse = impulse_with_friction(surface, u, bead.compliance(), law);
+    impulse = impulse_with_friction(surface, u, bead.compliance(), rules.impulse);
     bead.apply(impulse.P);
   } else {
     impulse = impulse_without_friction(surface, u, bead.compliance_along(surface.normal));
@@ -96,7 +96,7 @@ Vec3 velocity_of(const Vec3& normal, const PlateState& plates, const TickRules& 
     if (const auto ago = impact::time_since_touch(overlap, speed, rules.dt)) {
       impact::fly(rod, -*ago, species, rules.gravity);
       const Surface surface{normal, velocity_of(normal, rules.plates.before(now, *ago), rules), contact, rest_speed};
-      const bool approached = collide(bead(), surface, rules.impulse, counters.ledger);
+      const bool approached = collide(bead(), surface, rules, counters.ledger);
       impact::fly(rod, *ago, species, rules.gravity);
       if (approached) {
         rod.displaced = true;
@@ -105,8 +105,7 @@ Vec3 velocity_of(const Vec3& normal, const PlateState& plates, const TickRules& 
       }
     }
   }
-  return collide(bead(), {normal, velocity_of(normal, plates, rules), contact, rest_speed}, rules.impulse,
-                 counters.ledger);
+  return collide(bead(), {normal, velocity_of(normal, plates, rules), contact, rest_speed}, rules, counters.ledger);
 }
 
 /// Looks for the deepest of a rod's beads in its surfaces. No bead order and no sign of the director has a say: two of
