@@ -175,11 +175,11 @@ def test_marks_and_bars_keep_off_the_axes() -> None:
     sheet.finish()
     (left, right), (low, high) = sheet[0].axes.get_xlim(), sheet[0].axes.get_ylim()
     assert left < 1 and right > 3 and low < -0.05 and high > 1.03
-    sheet = style.sheet()
+    sheet = style.sheet(columns=2)
     sheet[0].titles("x", "y").dots(["a"], [2.0], error=[0.0])
+    sheet[1].titles("x", "y").curve([2.0], [3.0])
     sheet.finish()
-    left, right = sheet[0].axes.get_xlim()
-    assert left < 2 < right, "axes around one point"
+    assert sheet[1].axes.get_xlim() == pytest.approx((1.8, 2.2)), "axes around one point"
     assert sheet[0].axes.lines[0].get_zorder() > sheet[0].axes.collections[0].get_zorder(), "marks lie on their bars"
 
 
