@@ -17,7 +17,7 @@ struct Error {
 ///
 /// For bad input, and for input or output that fails; a broken promise of our own is SHAKEN_CHECK's business. Asking
 /// for the value or the reason that is not there throws std::bad_variant_access. `E` is Error, except where there can
-/// be several reasons at once (scene/problem.h).
+/// be several reasons at once (base/keys/problem.h).
 template <class T, class E = Error>
 class [[nodiscard]] Result {
  public:

@@ -15,7 +15,7 @@ using SinCos = SinCosOf<double>;
 inline constexpr double kLargestSmallAngle = 0.7853981633974483;
 
 /// Taylor series on |x| <= pi/4; the first term left out is below 3e-18. Of one angle or of several at a time
-/// (core/double_lanes.h).
+/// (sim/lanes/double_lanes.h).
 template <class Real>
 [[gnu::always_inline]] inline SinCosOf<Real> sincos_of_small(const Real& x) {
   const Real y = x * x;

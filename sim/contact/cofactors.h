@@ -3,7 +3,7 @@
 namespace shaken {
 
 /// Solves K x = b by cofactors, for a symmetric positive definite K with the rows (a p q), (p d r), (q r f): one system
-/// or several at a time (core/double_lanes.h).
+/// or several at a time (lanes/double_lanes.h).
 template <class Real>
 struct Cofactors {
   Real c00, c01, c02, c11, c12, c22, inverse_det;

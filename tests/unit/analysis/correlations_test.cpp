@@ -322,6 +322,24 @@ TEST(VelocityCorrelation, PersistenceGoesToOneOverESquaredAndNotToZero) {
   EXPECT_NEAR(summary.correlation_time.value, 0.4, 0.004) << "up to its zero, as ever";
 }
 
+TEST(VelocityCorrelation, ErrorsAreTheScatterOfRepeatedExperiments) {
+  Draw draw(114);
+  constexpr int kRuns = 200;
+  double squares = 0, variances = 0, sum = 0, sum2 = 0, errors = 0;
+  for (int repeat = 0; repeat < kRuns; ++repeat) {
+    const VelocityCorrelation correlation = correlation_of(walks(draw, 3, 600, 0, 1, 1), 0, 0.1, 0.4);
+    const VelocityCurve curve = correlation.reduce();
+    const Estimate persistence = correlation.summarize().persistence_time;
+    squares += std::pow(curve.c_v.value.at(2) - 0.5, 2);
+    variances += std::pow(curve.c_v.sem.at(2), 2);
+    sum += persistence.value / kRuns;
+    sum2 += std::pow(persistence.value, 2) / kRuns;
+    errors += std::pow(persistence.sem, 2) / kRuns;
+  }
+  EXPECT_NEAR(std::sqrt(variances / squares), 1.0, 0.25);
+  EXPECT_NEAR(std::sqrt(errors / (sum2 - sum * sum)), 1.0, 0.25);
+}
+
 TEST(VelocityCorrelation, NothingAndStillRodsDoNotCrash) {
   EXPECT_TRUE(VelocityCorrelation(0.1, 0.4).reduce().lag.empty());
   EXPECT_TRUE(std::isnan(VelocityCorrelation(0.1, 0.4).summarize().mean_square.value));

@@ -166,6 +166,22 @@ TEST(TiltSummary, FoldsByTheSymmetryOfTheLabel) {
   EXPECT_NEAR(folded.density[0] / folded.density[1], 4.0, 1e-12);
 }
 
+// Bins at -0.2, -0.1, 0, 0.1, 0.2: the straight line from -4 at 0.1 to 1 at 0.2 is zero at 0.18. What moves both
+// velocities by w moves it by 0.1 * 5 / 25 * w.
+TEST(TiltSummary, TheZeroIsThatOfTheStraightLineBetweenBins) {
+  const TiltVelocity empty(5, 0.25);
+  std::vector<TiltVelocity> blocks(10, empty);
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const double wave = b % 2 == 0 ? 0.01 : -0.01;
+    add(blocks[b], 0.1, -4 + wave);
+    add(blocks[b], 0.2, 1 + wave);
+  }
+  const TiltSummary summary = summarize_tilt(empty, blocks);
+  EXPECT_NEAR(summary.n_z_zero.value, 0.18, 1e-6);
+  EXPECT_NEAR(summary.n_z_zero.sem, 0.02 * 0.01 / 3, 1e-6);
+  EXPECT_NEAR(summary.zero_sigma, 1 / (0.01 / 3), 1) << "of the mean beyond it";
+}
+
 TEST(TiltSummary, FindsThePlantedPeakAndZero) {
   Draw draw(121);
   const TiltSummary summary = measured(draw, 1.0, 500);
