@@ -34,14 +34,14 @@ namespace {
 namespace fs = std::filesystem;
 using OrderedJson = nlohmann::ordered_json;
 
-constexpr const char* kExamples = R"(Examples:
+constexpr const char* kMeasureExamples = R"(Examples:
   shaken-worker measure runs/first --out wide -s measure.g2.bins=200
   shaken-worker measure first.h5 --scene other-bins.json --out other
 
   shaken-worker measure tracks.csv --scene dish.json --scale 0.05 --interval "20 ms" --flip-y --out seen
 
 Exit codes: 0 done, 1 failed, 2 bad input.)";
-constexpr std::size_t kMostBytes = std::size_t{4} << 30;  ///< of a table
+constexpr std::size_t kMostOfTable = std::size_t{4} << 30;  ///< of a table
 
 struct MeasureOptions {
   std::string file;
@@ -97,7 +97,7 @@ keys::Loaded<Task> task_of(const MeasureOptions& asked, std::optional<TrackedRod
       scene::load_scene(value_or_fail(read_input(asked.scene), ExitCode::kBadInput), asked.scene, asked.settings);
   if (!plan) return plan.error();
   std::vector<keys::Problem> problems;
-  const std::string table = value_or_fail(read_input(asked.file, kMostBytes), ExitCode::kBadInput);
+  const std::string table = value_or_fail(read_input(asked.file, kMostOfTable), ExitCode::kBadInput);
   tracks = read_tracks(table, asked.file, *plan, asked.conventions, problems);
   if (!tracks) return keys::tidied(std::move(problems));
   const auto spacing = frame_spacing(*tracks->frames);
@@ -194,7 +194,7 @@ ExitCode measure(const MeasureOptions& asked) {
 
 int measure_command(int argc, char** argv) {
   Program app("shaken-worker measure", "Measures recorded frames of a run, or tracked rods of an experiment.",
-              kExamples);
+              kMeasureExamples);
   MeasureOptions asked;
   std::string interval;
   std::vector<std::string> columns;

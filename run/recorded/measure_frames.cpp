@@ -36,7 +36,7 @@ void list_differences(const OrderedJson& a, const OrderedJson& b, const std::str
   OrderedJson both = a;
   both.update(b);
   for (const auto& [key, value] : both.items()) {
-    list_differences(a.value(key, OrderedJson()), b.value(key, OrderedJson()), path + "/" + key, differ);
+    list_differences(a.value(key, OrderedJson()), b.value(key, OrderedJson()), fmt::format("{}/{}", path, key), differ);
   }
 }
 
@@ -72,6 +72,7 @@ keys::Loaded<FramesPlan> plan_for_frames(const SceneText& of, const SceneText& a
   };
   list_differences(simulation(simulated), simulation(scene), "", differ);
   std::vector<keys::Problem> problems;
+  problems.reserve(differ.size());
   for (const std::string& path : differ) {
     problems.push_back(
         {asked.name, 0, 0, path, "is not that of the frames: only `measure` and `time.steady` may be another one"});

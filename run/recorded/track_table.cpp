@@ -24,10 +24,10 @@ namespace {
 using keys::Problem;
 
 constexpr double kRadian = kPi / 180;
-constexpr double kMostRadians = 1.6;  ///< angles none of which is larger are likely radians
-constexpr double kEqual = 1e-3;       ///< by which intervals between frames may differ, of themselves
+constexpr double kLikelyRadians = 1.6;  ///< angles none of which is larger are likely radians
+constexpr double kEqual = 1e-3;         ///< by which intervals between frames may differ, of themselves
 constexpr std::size_t kMostProblems = 20;
-constexpr double kMostAngle = 1e6;     ///< of whatever unit
+constexpr double kLargestAngle = 1e6;  ///< of whatever unit
 constexpr double kMostBoxes = 1e6;     ///< that a path goes on through
 constexpr double kMostInterval = 1e5;  ///< between frames [s]
 
@@ -198,8 +198,8 @@ class TrackTable {
       const double unit = in_radians() ? 1 : kRadian;
       const double angle = value("angle", 0), tilt = value("tilt", 0);
       largest_angle_ = std::max(largest_angle_, std::abs(angle));
-      if (std::max(std::abs(angle), std::abs(tilt)) > kMostAngle) {
-        report(fmt::format("an angle is larger than {:g}", kMostAngle), line);
+      if (std::max(std::abs(angle), std::abs(tilt)) > kLargestAngle) {
+        report(fmt::format("an angle is larger than {:g}", kLargestAngle), line);
         return;
       }
       const SinCos in_plane = sincos(unit * angle), out_of_plane = sincos(unit * tilt);
@@ -303,7 +303,7 @@ class TrackTable {
       for (auto& [frame, rods] : frames_) std::ranges::sort(rods, {}, &Sighting::id);
     }
     if (n_missed_ > 0) remarks_.push_back(fmt::format("{} without a position or an angle", counted(n_missed_, "row")));
-    if (has("angle") && !in_radians() && largest_angle_ <= kMostRadians) {
+    if (has("angle") && !in_radians() && largest_angle_ <= kLikelyRadians) {
       remarks_.push_back(
           fmt::format("no angle is larger than {:.3g}: they are taken as degrees; --radians if they are "
                       "not",

@@ -45,8 +45,8 @@ TrackedRods tracks_in(const std::string& text, const TrackConventions& conventio
   return *std::move(tracks);
 }
 
-std::string problems_in(const std::string& text, const TrackConventions& conventions = at_intervals(),
-                        const scene::RunPlan& plan = dish()) {
+std::string refusal_of(const std::string& text, const TrackConventions& conventions = at_intervals(),
+                       const scene::RunPlan& plan = dish()) {
   std::vector<keys::Problem> problems;
   EXPECT_FALSE(read_tracks(text, "tracks.csv", plan, conventions, problems));
   return keys::to_string(problems);
@@ -128,11 +128,11 @@ TEST(TrackTable, OfOtherNamesIsReadByThese) {
   conventions.radians = true;
   const TrackedRods tracks = tracks_in("n;rod;cx;cy;phi\n0;1;2,5;3;1\n", conventions);
   expect_rod(frame_of(tracks, 0), 0, {2.5, 3}, 180 / kPi);
-  EXPECT_THAT(problems_in("n,rod,cx,cy,psi\n", conventions),
+  EXPECT_THAT(refusal_of("n,rod,cx,cy,psi\n", conventions),
               HasSubstr("there is no column 'phi', which --columns names"));
-  EXPECT_THAT(problems_in("a,b\n"),
+  EXPECT_THAT(refusal_of("a,b\n"),
               HasSubstr("no column is x, or y, or angle, or frame: name them by --columns x=NAME,y=NAME"));
-  EXPECT_THAT(problems_in("frame,x,X,y,angle\n"), HasSubstr("x and X are both x"));
+  EXPECT_THAT(refusal_of("frame,x,X,y,angle\n"), HasSubstr("x and X are both x"));
 }
 
 /// Three rods in four frames; rod 2 is not seen in frame 1.
@@ -206,13 +206,13 @@ TEST(TrackTable, RodsThatCrossThePeriodicBorderGoOn) {
   EXPECT_EQ(frame_of(far, 0).image[0], (std::array<std::int32_t, 2>{2, -1}));
 
   EXPECT_THAT(
-      problems_in("frame,id,x,y,angle\n0,1,45,-1,0\n"),
+      refusal_of("frame,id,x,y,angle\n0,1,45,-1,0\n"),
       HasSubstr("tracks.csv:2:1: x = 45 mm is outside of the box, which is 20 mm long: see --scale and --wrap\n"));
   scene::RunPlan walled = dish();
   walled.system.walls.emplace().arena = Arena::kSquare;
   walled.system.walls->size = 20;
   walled.system.box_side = 22;  // in the middle of which the arena lies
-  EXPECT_THAT(problems_in("frame,id,x,y,angle\n0,1,45,1,0\n", wrapping, walled),
+  EXPECT_THAT(refusal_of("frame,id,x,y,angle\n0,1,45,1,0\n", wrapping, walled),
               HasSubstr("is outside of the arena, which is 20 mm long: see --scale\n"))
       << "walls are no periodic border";
   const TrackedRods inside = tracks_in(text, at_intervals(), walled);
@@ -221,18 +221,18 @@ TEST(TrackTable, RodsThatCrossThePeriodicBorderGoOn) {
 }
 
 TEST(TrackTable, SaysWhatIsWrongWithItsLines) {
-  EXPECT_THAT(problems_in(""), HasSubstr("the file is empty"));
-  EXPECT_THAT(problems_in("frame,x,y,angle\n"), HasSubstr("the table has no rods"));
-  EXPECT_THAT(problems_in("frame,x,y,angle\n0,a,2,3\n0,1,2\n"),
+  EXPECT_THAT(refusal_of(""), HasSubstr("the file is empty"));
+  EXPECT_THAT(refusal_of("frame,x,y,angle\n"), HasSubstr("the table has no rods"));
+  EXPECT_THAT(refusal_of("frame,x,y,angle\n0,a,2,3\n0,1,2\n"),
               testing::AllOf(HasSubstr("tracks.csv:2:3: x: 'a' is not a number"),
                              HasSubstr("tracks.csv:3:1: 3 fields for 4 columns")));
-  EXPECT_THAT(problems_in("frame,id,x,y,angle\n0,1,1,2,3\n0,1,1,2,3\n"), HasSubstr("rod 1 is twice in frame 0"));
-  EXPECT_THAT(problems_in("frame,x,y,angle\n0,1,2,3\n", {}), HasSubstr("--interval says the time"));
-  EXPECT_THAT(problems_in("frame,x,y,angle\n0,1,2,3\n1,1,2,3\n3,1,2,3\n"),
+  EXPECT_THAT(refusal_of("frame,id,x,y,angle\n0,1,1,2,3\n0,1,1,2,3\n"), HasSubstr("rod 1 is twice in frame 0"));
+  EXPECT_THAT(refusal_of("frame,x,y,angle\n0,1,2,3\n", {}), HasSubstr("--interval says the time"));
+  EXPECT_THAT(refusal_of("frame,x,y,angle\n0,1,2,3\n1,1,2,3\n3,1,2,3\n"),
               HasSubstr("frames 0 and 1 are 0.02 s apart, where others are 0.03 s"));
   scene::RunPlan mixed = dish();
   mixed.system.added[0].emplace();
-  EXPECT_THAT(problems_in("frame,x,y,angle\n0,1,2,3\n", at_intervals(), mixed), HasSubstr("rods of one species"));
+  EXPECT_THAT(refusal_of("frame,x,y,angle\n0,1,2,3\n", at_intervals(), mixed), HasSubstr("rods of one species"));
 }
 
 TEST(TrackTable, AnglesThatMayBeRadiansGetARemark) {
