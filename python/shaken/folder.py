@@ -12,18 +12,20 @@ from .errors import ShakenError
 _OF_RUNS = ("time.seed", "time.measure")
 
 
-def _flat(scene: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
-    for key, value in scene.items():
+def flattened(members: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
+    """What a scene or a summary says, by paths: ("order.mean", 0.9)."""
+    for key, value in members.items():
         if isinstance(value, Mapping):
-            yield from _flat(value, f"{prefix}{key}.")
-        elif prefix + key in KEYS and not isinstance(value, list):
-            yield prefix + key, value
+            if prefix or key != "why_null":  # words about other fields
+                yield from flattened(value, f"{prefix}{key}.")
+        elif not isinstance(value, list) and (value is not None or prefix or key == "steady"):
+            yield prefix + key, value  # None too, but of a whole block that was not measured
 
 
 def parameters_of(scenes: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
     """Of each scene the keys that tell it from others, but seed and length of the run. A key that says no more than
     those before it, as a number of rods behind the area fraction, is left out."""
-    flat = [dict(_flat(scene)) for scene in scenes]
+    flat = [{name: value for name, value in flattened(scene) if name in KEYS} for scene in scenes]
     found: list[dict[str, Any]] = [{} for _ in scenes]
     for key in dict.fromkeys(key for scene in flat for key in scene):
         if key in _OF_RUNS:
@@ -47,9 +49,18 @@ def run_directories(folder: str | Path) -> list[Path]:
 def jobs_in(folder: str | Path) -> list[dict[str, Any]]:
     """The runs of a folder as the daemon describes jobs with their summaries (ROW of docs/protocol.md). Replicas are
     numbered by their seeds."""
-    directories = run_directories(folder)
-    scenes = [json.loads((directory / "scene.json").read_text()) for directory in directories]
-    summaries = [json.loads((directory / "summary.json").read_text()) for directory in directories]
+    directories, scenes, summaries, problems = run_directories(folder), [], [], []
+    for directory in directories:
+        try:
+            scene, summary = (json.loads((directory / name).read_text()) for name in ("scene.json", "summary.json"))
+            if not (isinstance(scene, dict) and isinstance(summary["exit"]["state"], str) and summary["run_id"]):
+                raise TypeError("the scene or the summary is none")
+            scenes.append(scene)
+            summaries.append(summary)
+        except (OSError, ValueError, TypeError, KeyError) as problem:
+            problems.append(f"{directory}: its scene.json or summary.json is damaged ({problem!r})")
+    if problems:
+        raise ShakenError("\n".join(problems))
     rows: list[dict[str, Any]] = []
     for directory, scene, summary, parameters in zip(directories, scenes, summaries, parameters_of(scenes)):
         rows.append({"id": summary["run_id"], "job": summary["run_id"], "sweep": Path(folder).name,

@@ -6,13 +6,13 @@ import math
 import re
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Iterable, Iterator, Mapping, Protocol, Sequence
+from typing import Any, Iterable, Mapping, Protocol, Sequence
 
 from .catalogue import KEYS
 from .daemon import Daemon, quoted
 from .errors import NoDaemon, NotFound, ShakenError, nearest
 from .estimate import Estimate, replica_mean
-from .folder import jobs_in
+from .folder import flattened, jobs_in
 from .units import leading_number
 
 Fields = dict[str, Any]
@@ -84,22 +84,13 @@ class Row:
         return next((flag for flag in flags if flag is not None), None if flags else True)
 
 
-def _flattened(summary: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
-    for key, value in summary.items():
-        if isinstance(value, Mapping):
-            if prefix or key != "why_null":  # words about other fields
-                yield from _flattened(value, f"{prefix}{key}.")
-        elif not isinstance(value, list) and (value is not None or prefix or key == "steady"):
-            yield prefix + key, value  # None too, but of a whole block that was not measured
-
-
 def row_of(answer: Mapping[str, Any]) -> Row:
     """From one element of "rows" of GET /v1/results."""
     fields = {key: answer.get(key) or "" for key in ("job", "sweep", "state", "label")} | dict(answer["parameters"])
     fields["replica"] = answer.get("replica", 0)
     if "directory" in answer:
         fields["directory"] = answer["directory"]
-    return Row(answer["parameters"], answer["state"], fields | dict(_flattened(answer.get("summary") or {})), answer)
+    return Row(answer["parameters"], answer["state"], fields | dict(flattened(answer.get("summary") or {})), answer)
 
 
 @dataclass
@@ -163,7 +154,7 @@ def add_from_scenes(target: Target, names: Iterable[str]) -> None:
         directory = directories.get(row.fields["job"])
         if not lacking or not directory or not Path(directory, "scene.json").is_file():
             continue
-        known = dict(_flattened(json.loads(Path(directory, "scene.json").read_text())))
+        known = dict(flattened(json.loads(Path(directory, "scene.json").read_text())))
         said = {name: known.get(name, KEYS[name]["default"]) for name in lacking}
         row.scene |= {name: value for name, value in said.items() if isinstance(value, (int, float, str))}
         row.fields |= row.scene

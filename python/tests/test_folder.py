@@ -40,6 +40,14 @@ def test_runs_are_found_at_any_depth_and_replicas_are_numbered(folder):
         jobs_in(folder / "begun")
 
 
+def test_damaged_runs_are_all_named(folder):
+    (folder / "node0" / "run" / "summary.json").write_text('{"run_id": "1"')
+    (folder / "node2" / "run" / "summary.json").write_text("[]")
+    with pytest.raises(shaken.ShakenError) as said:
+        jobs_in(folder)
+    assert [line.split(":")[0][-9:] for line in str(said.value).splitlines()] == ["node0/run", "node2/run"]
+
+
 def test_a_folder_is_a_sweep(folder):
     sweep = shaken.sweep_of(folder)
     assert sweep.name == "fetched"

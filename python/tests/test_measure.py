@@ -46,6 +46,7 @@ def test_frames_give_what_the_run_gives(folder):
         np.testing.assert_allclose(again.arrays[name], array, rtol=1e-3, atol=1e-5, err_msg=name)
     assert again.summary["frames"]["n"] == 41 and again.summary["collisions"] is None
     assert again.summary["why_null"]["collisions"] == "measured on recorded frames, not simulated"
+    assert again.summary["versions"]["physics"] is None and "versions.physics" in again.summary["why_null"]
     assert len(list(again.frames())) == 41, "they can be drawn"
     assert "finer" not in measure(folder, folder / "sim", "-s", "measure.g2.bins=100"), "the folder may be filled anew"
 
@@ -82,4 +83,4 @@ def test_what_is_wrong_is_said_with_code_2(folder):
     text = said(PROGRAMS / "shaken-worker", folder / "out" / "scene.json", "--out", folder / "out", "--no-lcm", code=1)
     assert "holds what was measured on recorded frames; choose another one" in text, "a run does not take its place"
     text = said(PROGRAMS / "shaken", "measure", folder / "sim", "-o", folder, code=2)
-    assert "holds something else than a measurement of frames" in text
+    assert "holds no whole measurement of frames" in text

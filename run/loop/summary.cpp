@@ -52,8 +52,9 @@ OrderedJson drift_json(double value, double sem) {
 }
 
 /// What a measurement of recorded frames leaves open.
-constexpr const char* kOfSimulations[] = {"rod_seconds_per_cpu_second",   "collisions", "max_overlap_mm", "energy_pJ",
-                                          "momentum_unexplained_mg_mm_s", "state_hash"};
+constexpr const char* kOfSimulations[] = {
+    "/rod_seconds_per_cpu_second",   "/collisions", "/max_overlap_mm",  "/energy_pJ",
+    "/momentum_unexplained_mg_mm_s", "/state_hash", "/versions/physics"};
 
 /// Null where rods were placed.
 OrderedJson json_of(const std::optional<scene::StartState>& start) {
@@ -66,7 +67,9 @@ OrderedJson json_of(std::optional<bool> known) { return known ? OrderedJson(*kno
 /// Why the value at `path` ("measured.dip.sem") is null, as far as the path tells.
 std::string why_null(const std::string& path, const Summary& summary) {
   const auto ends = [&](std::string_view end) { return path.ends_with(end); };
-  if (summary.frames && std::ranges::find(kOfSimulations, path) != std::end(kOfSimulations))
+  std::string pointer = "/" + path;
+  std::ranges::replace(pointer, '.', '/');
+  if (summary.frames && std::ranges::find(kOfSimulations, pointer) != std::end(kOfSimulations))
     return "measured on recorded frames, not simulated";
   if (path == "start") return "the rods were placed, not taken over from another run";
   if (!summary.has_axis && (path == "order" || path == "defects")) return "spheres have no axis";
@@ -189,30 +192,29 @@ Result<void> write_summary(const std::filesystem::path& file, const Summary& sum
     if (!scalar.reason.empty()) json["measured"][name]["reason"] = scalar.reason;
   }
   for (const auto& [name, effect] : summary.effects) json["effects"][name] = to_json(effect);
+  json["why_null"] = OrderedJson::object();  // once all is known
   json["state_hash"] = fmt::format("{:016x}", summary.state_hash);
-  if (const auto& frames = summary.frames) {
-    for (const char* name : kOfSimulations) json[name] = nullptr;
-    json["frames"] = {{"file", frames->file},
-                      {"n", frames->n},
-                      {"first_s", frames->first},
-                      {"last_s", frames->last},
-                      {"remarks", frames->remarks}};
-  }
-  OrderedJson reasons = OrderedJson::object();
-  explain_nulls(json, "", summary, reasons);
-  json["why_null"] = std::move(reasons);
   json["files"] = OrderedJson::object();
   for (const auto& [name, hash] : summary.files) {
     json["files"][name] = {{"bytes", hash.size}, {"xxh3", fmt::format("{:016x}", hash.xxh3)}};
   }
   json["exit"] = {{"state", summary.state}, {"reason", summary.reason}, {"tick", summary.tick}, {"rods", summary.rods}};
   if (summary.done_before) json["exit"]["done_before_s"] = *summary.done_before;
-  json["versions"] = {{"shaken", version()},
-                      {"physics", summary.frames ? OrderedJson(nullptr) : OrderedJson(summary.physics)},
-                      {"compiler", compiler()}};
+  json["versions"] = {{"shaken", version()}, {"physics", summary.physics}, {"compiler", compiler()}};
   json["host"] = host_name();
   json["started"] = summary.started;
   json["finished"] = summary.finished;
+  if (const auto& frames = summary.frames) {
+    json["frames"] = {{"file", frames->file},
+                      {"n", frames->n},
+                      {"first_s", frames->first},
+                      {"last_s", frames->last},
+                      {"remarks", frames->remarks}};
+    for (const char* name : kOfSimulations) json[OrderedJson::json_pointer(name)] = nullptr;
+  }
+  OrderedJson reasons = OrderedJson::object();
+  explain_nulls(json, "", summary, reasons);
+  json["why_null"] = std::move(reasons);
   return write_file_atomically(file, json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n");
 }
 

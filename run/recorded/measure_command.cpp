@@ -37,7 +37,6 @@ using OrderedJson = nlohmann::ordered_json;
 constexpr const char* kMeasureExamples = R"(Examples:
   shaken-worker measure runs/first --out wide -s measure.g2.bins=200
   shaken-worker measure first.h5 --scene other-bins.json --out other
-
   shaken-worker measure tracks.csv --scene dish.json --scale 0.05 --interval "20 ms" --flip-y --out seen
 
 Exit codes: 0 done, 1 failed, 2 bad input.)";
@@ -55,10 +54,9 @@ struct MeasureOptions {
 /// What the folder is to hold may take the place of another measurement, and of nothing else.
 void claim(const RunDirectory& directory) {
   std::error_code none;
-  if (!fs::exists(directory.root, none) || fs::is_empty(directory.root, none)) return;
-  if (is_of_frames(directory)) return;
+  if (!fs::exists(directory.root, none) || fs::is_empty(directory.root, none) || is_of_frames(directory)) return;
   throw Failure(ExitCode::kBadInput,
-                fmt::format("{} holds something else than a measurement of frames: choose another folder by --out",
+                fmt::format("{} is not empty, and holds no whole measurement of frames: choose another folder by --out",
                             printable(directory.root.string())));
 }
 
@@ -114,19 +112,21 @@ MeasuredFrames write_run(const Task& task, const RunDirectory& directory, const 
                          const std::string& id) {
   const auto& [plan, remarks] = task.by;
   const RecordedFrames& frames = *task.frames;
-  done_or_fail(make_folder(directory.root));
-  const DirectoryLock lock = value_or_fail(DirectoryLock::acquire(directory.lock()));
   Summary summary;
   summary.started = utc_now();
   const auto begin = std::chrono::steady_clock::now();
   const InterruptGuard guard;
   ProgressLine progress("measuring");
   const auto n = static_cast<double>(frames.n_frames());
-  MeasuredFrames found = value_or_fail(measure_frames(plan, frames, [&](std::size_t frame) {
+  Result<MeasuredFrames> measured = measure_frames(plan, frames, [&](std::size_t frame) {
     progress.show(static_cast<double>(frame) / n);
     return !guard.interrupted();
-  }));
+  });
   progress.clear();
+  if (guard.interrupted()) throw Failure(ExitCode::kInterrupted, "interrupted: nothing is written");
+  MeasuredFrames found = value_or_fail(std::move(measured));
+  done_or_fail(make_folder(directory.root));
+  const DirectoryLock lock = value_or_fail(DirectoryLock::acquire(directory.lock()));
 
   summary.run_id = id;
   summary.n_rods = plan.system.n_all_rods();
@@ -140,9 +140,10 @@ MeasuredFrames write_run(const Task& task, const RunDirectory& directory, const 
   TrajectoryHeader header = frames.header();
   header.scene_json = scene::to_json(plan).dump(2) + "\n";
   header.provenance = {id, plan.system.seed};
-  for (const fs::path& before : {directory.summary(), directory.trajectory()}) fs::remove(before);
   std::vector<fs::path> written{directory.observables()};
-  if (task.may_be_drawn) {
+  if (!task.may_be_drawn) {
+    fs::remove(directory.trajectory());  // of a measurement before
+  } else {
     written.push_back(directory.trajectory());
     done_or_fail(write_trajectory(directory.trajectory(), header, frames));
   }

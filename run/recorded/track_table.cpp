@@ -50,6 +50,11 @@ const std::vector<Column>& columns() {
                                        {"nz", {"nz"}}};
   return all;
 }
+std::string known_columns() {
+  std::vector<std::string_view> names;
+  for (const Column& column : columns()) names.emplace_back(column.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
 constexpr std::string_view kInRadians = "ELLIPSE_THETA";
 constexpr std::string_view kCountedUpwards = "Angle";   ///< ImageJ measures it as one sees it, but y from the top
 constexpr std::string_view kHeadsAreFour = "TRACK_ID";  ///< TrackMate has three more lines of titles below its names
@@ -140,6 +145,10 @@ class TrackTable {
     const std::vector<CsvField> names = fields_of(row, separator_);
     n_columns_ = names.size();
     const std::size_t n_before = problems_.size();
+    for (const auto& [name, given] : conventions_.columns) {
+      if (std::ranges::find(columns(), name, &Column::name) == columns().end())
+        report(fmt::format("--columns {}={}: a table has {}", printable(name), printable(given), known_columns()));
+    }
     for (const Column& column : columns()) {
       std::vector<std::string> wanted(column.known_as.begin(), column.known_as.end());
       const auto given = conventions_.columns.find(column.name);

@@ -130,6 +130,9 @@ TEST(TrackTable, OfOtherNamesIsReadByThese) {
   expect_rod(frame_of(tracks, 0), 0, {2.5, 3}, 180 / kPi);
   EXPECT_THAT(refusal_of("n,rod,cx,cy,psi\n", conventions),
               HasSubstr("there is no column 'phi', which --columns names"));
+  conventions.columns = {{"phi", "angle"}};
+  EXPECT_THAT(refusal_of("frame,x,y,angle\n0,1,2,3\n", conventions),
+              HasSubstr("--columns phi=angle: a table has frame, t, id, x, y, z, angle, tilt, nx, ny, nz"));
   EXPECT_THAT(refusal_of("a,b\n"),
               HasSubstr("no column is x, or y, or angle, or frame: name them by --columns x=NAME,y=NAME"));
   EXPECT_THAT(refusal_of("frame,x,X,y,angle\n"), HasSubstr("x and X are both x"));
