@@ -13,6 +13,7 @@
 #include "base/text.h"
 #include "run/files/checkpoint_file.h"
 #include "run/files/directory.h"
+#include "run/files/frames_in_memory.h"
 #include "run/files/trajectory.h"
 #include "run/files/version.h"
 #include "run/import/place_rods.h"
@@ -101,19 +102,6 @@ keys::Loaded<Import> read_import(const ImportOptions& asked) {
   return Import{without_start(*std::move(plan)), *std::move(placed), std::move(remarks)};
 }
 
-/// A trajectory of one frame.
-class OneFrame final : public RecordedFrames {
- public:
-  OneFrame(TrajectoryHeader header, RecordedFrame frame) : header_(std::move(header)), frame_(std::move(frame)) {}
-  const TrajectoryHeader& header() const override { return header_; }
-  std::size_t n_frames() const override { return 1; }
-  Result<RecordedFrame> frame(std::size_t) const override { return frame_; }
-
- private:
-  TrajectoryHeader header_;
-  RecordedFrame frame_;
-};
-
 /// The scene as text. How the rods of a run start, it does not say: they were not placed.
 std::string text_of_scene(const scene::RunPlan& plan) {
   OrderedJson scene = scene::to_json(plan);
@@ -144,7 +132,7 @@ void write_run(const RunDirectory& directory, const std::string& id, const Impor
   done_or_fail(write_checkpoint(directory, id, {simulation.checkpoint(), {}, 0, 0}));
   done_or_fail(write_trajectory(
       directory.trajectory(),
-      OneFrame(trajectory_header(simulation.world(), scene, provenance), record(simulation.snapshot()))));
+      FramesInMemory(trajectory_header(simulation.world(), scene, provenance), {record(simulation.snapshot())})));
   OrderedJson origin = report;
   origin["file"] = asked.file;
   origin["frame"] = asked.frame ? OrderedJson(*asked.frame) : OrderedJson(nullptr);

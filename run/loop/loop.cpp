@@ -12,7 +12,6 @@
 #include <new>
 #include <system_error>
 
-#include "analysis/collision_rates.h"
 #include "analysis/order.h"
 #include "base/clock.h"
 #include "base/files.h"
@@ -21,42 +20,16 @@
 #include "run/files/content_hash.h"
 #include "run/files/done.h"
 #include "run/live/frame_publisher.h"
-#include "run/loop/effects.h"
 #include "run/loop/open_run.h"
 #include "run/loop/saved_run.h"
-#include "run/loop/summary.h"
+#include "run/loop/slice.h"
+#include "run/loop/summary_of_run.h"
 #include "run/loop/trouble_file.h"
 #include "scene/canonical.h"
 #include "scene/length.h"
-#include "sim/balance.h"
-#include "sim/physics_version.h"
 
 namespace shaken::run {
 namespace {
-
-/// What measurements of impacts take differences of.
-RunTotals totals_of(const scene::RunPlan& plan, const World& world, const Snapshot& now) {
-  const Counters& counters = world.counters;
-  const Ledger& ledger = counters.ledger;
-  RunTotals totals;
-  totals.collisions = {
-      {static_cast<double>(counters.impulses_rod_rod), static_cast<double>(counters.impulses_rod_base),
-       static_cast<double>(counters.impulses_rod_lid),
-       static_cast<double>(counters.impulses_rod_wall + counters.impulses_rod_post),
-       ledger.given.value() + ledger.noise.value(), ledger.lost_rod_rod.value(), ledger.lost_surfaces.value()},
-      static_cast<double>(world.rods.size())};
-  if (plan.stress) {
-    std::vector<double> masses;
-    for (std::size_t i = 0; i < now.velocity.size(); ++i) masses.push_back(world.species_of(i).mass);
-    totals.stress.momentum_flux = analysis::momentum_flux(masses, now.velocity);
-    for (std::size_t k = 0; k < ledger.virial.size(); ++k) totals.stress.virial[k] = ledger.virial[k].value();
-  }
-  return totals;
-}
-
-/// Length of the pieces that the run is stepped in, at most: short enough to answer a signal, long enough not to
-/// matter.
-constexpr WallSeconds kLongSlice{0.1};
 
 std::string scene_text(const scene::RunPlan& plan) { return scene::to_json(plan).dump(2) + "\n"; }
 
@@ -154,15 +127,14 @@ class Loop {
 
   /// To end_. What came of the run if it does not get there.
   std::optional<RunOutcome> go_on() {
-    Tick slice = 1;
+    Slice slice(publisher_ ? std::min(kLongSlice, live_period() / 2) : kLongSlice);  // live frames keep their rate too
     while (tick() < end_) {
-      const Tick target = std::min({end_, run_.next_due(tick() + 1), tick() + slice});
-      const Tick stepped = target - tick();
       const auto before = WallClock::now();
-      if (const auto trouble = run_.simulation.advance_to(target)) return finish_in_trouble(*trouble);
+      const Tick first = tick();
+      if (const auto trouble = run_.simulation.advance_to(std::min({end_, run_.next_due(first + 1), slice.end(first)})))
+        return finish_in_trouble(*trouble);
       const auto now = WallClock::now();
-      if (now - before > long_slice()) slice = std::max<Tick>(1, stepped / 2);
-      if (now - before < long_slice() / 5 && stepped == slice) slice *= 2;
+      slice.note(tick() - first, now - before);
 
       if (auto done = sample(); !done) return finish_without_disk(done.error());
       publish_observables(now);
@@ -177,8 +149,6 @@ class Loop {
   }
 
   WallSeconds live_period() const { return WallSeconds(plan_.stream ? 1.0 / plan_.stream->rate : 1.0); }
-  /// Short enough for live frames to keep to their rate too.
-  WallSeconds long_slice() const { return publisher_ ? std::min(kLongSlice, live_period() / 2) : kLongSlice; }
   double cpu_seconds() const { return run_.cpu_before + shaken::cpu_seconds() - cpu_begin_; }
   double wall_seconds() const { return run_.wall_before + WallSeconds(WallClock::now() - begin_).count(); }
 
@@ -189,7 +159,7 @@ class Loop {
     const bool show = publisher_ && frame_pacer_.take(WallClock::now());
     if (!record && !measure && !show) return {};
     const Snapshot snapshot = run_.simulation.snapshot();
-    if (measure) run_.measurements.sample(snapshot, totals_of(plan_, run_.simulation.world(), snapshot));
+    if (measure) run_.measure(plan_, snapshot);
     if (record) {
       if (auto done = run_.frames->append(shaken::run::record(snapshot)); !done) return done.error();
     }
@@ -219,28 +189,11 @@ class Loop {
   }
 
   Summary summarize(const Reduction& reduction) const {
-    const World& world = run_.simulation.world();
-    Summary summary;
-    summary.run_id = run_id_;
-    summary.physics = physics_version(plan_.system);
-    summary.start = plan_.start;
-    summary.n_rods = static_cast<int>(world.rods.size());
-    summary.sim_seconds = run_.simulation.time();
+    Summary summary =
+        summary_of(plan_, run_, reduction, publisher_ ? std::optional(publisher_->n_frames()) : std::nullopt);
     summary.cpu_seconds = cpu_seconds();
     summary.wall_seconds = wall_seconds();
-    summary.collisions_rod_rod = world.counters.impulses_rod_rod;
-    summary.collisions_rod_base = world.counters.impulses_rod_base;
-    summary.collisions_rod_lid = world.counters.impulses_rod_lid;
-    summary.collisions_rod_wall = world.counters.impulses_rod_wall;
-    summary.collisions_rod_post = world.counters.impulses_rod_post;
-    summary.max_overlap = world.counters.max_overlap();
-    summary.balance = balance(world);
-    fill(summary, plan_, reduction);
-    summary.effects = report_effects(plan_, run_, publisher_ ? std::optional(publisher_->n_frames()) : std::nullopt);
-    summary.state_hash = run_.simulation.state_hash();
     summary.started = started_;
-    summary.finished = utc_now();
-    summary.tick = tick();
     return summary;
   }
 

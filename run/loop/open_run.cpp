@@ -1,6 +1,7 @@
 #include "run/loop/open_run.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "run/loop/start_state.h"
 #include "scene/canonical.h"
@@ -20,23 +21,47 @@ Provenance provenance_of(const scene::RunPlan& plan) { return {scene::run_id(pla
 
 namespace {
 
-OpenRun make_run(const scene::RunPlan& plan, Simulation simulation) {
-  Measurements measurements(plan, simulation.world().cell());
-  return {std::move(simulation), std::move(measurements), recording_of(plan), std::nullopt, 0, 0};
+/// What measurements of impacts take differences of.
+RunTotals totals_of(const scene::RunPlan& plan, const World& world, const Snapshot& now) {
+  const Counters& counters = world.counters;
+  const Ledger& ledger = counters.ledger;
+  RunTotals totals;
+  totals.collisions = {
+      {static_cast<double>(counters.impulses_rod_rod), static_cast<double>(counters.impulses_rod_base),
+       static_cast<double>(counters.impulses_rod_lid),
+       static_cast<double>(counters.impulses_rod_wall + counters.impulses_rod_post),
+       ledger.given.value() + ledger.noise.value(), ledger.lost_rod_rod.value(), ledger.lost_surfaces.value()},
+      static_cast<double>(world.rods.size())};
+  if (plan.stress) {
+    std::vector<double> masses;
+    for (std::size_t i = 0; i < now.velocity.size(); ++i) masses.push_back(world.species_of(i).mass);
+    totals.stress.momentum_flux = analysis::momentum_flux(masses, now.velocity);
+    for (std::size_t k = 0; k < ledger.virial.size(); ++k) totals.stress.virial[k] = ledger.virial[k].value();
+  }
+  return totals;
 }
 
 }  // namespace
+
+OpenRun begin_run(const scene::RunPlan& plan, Simulation simulation) {
+  Measurements measurements(plan, simulation.world().cell());
+  return {std::move(simulation), std::move(measurements), recording_of(plan), std::nullopt, 0, 0};
+}
 
 Tick OpenRun::next_due(Tick from) const {
   const Tick sample = measurements.next_due(from);
   return recording ? std::min(sample, recording->next(from)) : sample;
 }
 
+void OpenRun::measure(const scene::RunPlan& plan, const Snapshot& now) {
+  measurements.sample(now, totals_of(plan, simulation.world(), now));
+}
+
 Result<OpenRun> start_run(const scene::RunPlan& plan, const RunDirectory& directory, const std::string& scene_json,
                           const GoOn& go_on) {
   Result<Simulation> simulation = start_simulation(plan, directory.root, go_on);
   if (!simulation) return simulation.error();
-  OpenRun run = make_run(plan, std::move(simulation).value());
+  OpenRun run = begin_run(plan, std::move(simulation).value());
   if (run.recording) {
     auto frames = FrameLog::create(directory.frames(),
                                    trajectory_header(run.simulation.world(), scene_json, provenance_of(plan)));
@@ -49,7 +74,7 @@ Result<OpenRun> start_run(const scene::RunPlan& plan, const RunDirectory& direct
 Result<OpenRun> resume_run(const scene::RunPlan& plan, const RunDirectory& directory, const Checkpoint& checkpoint) {
   Result<Simulation> simulation = Simulation::resume(plan.system, checkpoint.simulation);
   if (!simulation) return simulation.error();
-  OpenRun run = make_run(plan, std::move(simulation).value());
+  OpenRun run = begin_run(plan, std::move(simulation).value());
   run.cpu_before = checkpoint.cpu_seconds;
   run.wall_before = checkpoint.wall_seconds;
   if (auto done = run.measurements.restore(checkpoint.measurements); !done) {

@@ -24,6 +24,8 @@ struct OpenRun {
 
   /// The first tick >= `from` at which something is sampled or recorded.
   Tick next_due(Tick from) const;
+  /// Takes the samples that are due now; `now` is the snapshot of the simulation.
+  void measure(const scene::RunPlan& plan, const Snapshot& now);
 };
 
 /// When frames are recorded: the finer of what `trajectory` and `movie` ask for; none if neither is there.
@@ -33,6 +35,8 @@ TrajectoryHeader trajectory_header(const World& world, const std::string& scene_
 /// The run that the files of a plan are of.
 Provenance provenance_of(const scene::RunPlan& plan);
 
+/// A run of `simulation` where it stands, of which nothing is sampled yet, without files.
+OpenRun begin_run(const scene::RunPlan& plan, Simulation simulation);
 /// A run at tick 0, with the files that it records into. Nothing is sampled yet. A compressed start asks `go_on`.
 Result<OpenRun> start_run(const scene::RunPlan& plan, const RunDirectory& directory, const std::string& scene_json,
                           const GoOn& go_on = {});

@@ -134,7 +134,7 @@ void fill(Summary& summary, const scene::RunPlan& plan, const Reduction& reducti
   summary.defects_mean_minus = reduction.defects->n_minus;
 }
 
-Result<void> write_summary(const std::filesystem::path& file, const Summary& summary) {
+std::string summary_text(const Summary& summary) {
   OrderedJson json{
       {"run_id", summary.run_id},
       {"start", json_of(summary.start)},
@@ -215,7 +215,11 @@ Result<void> write_summary(const std::filesystem::path& file, const Summary& sum
   OrderedJson reasons = OrderedJson::object();
   explain_nulls(json, "", summary, reasons);
   json["why_null"] = std::move(reasons);
-  return write_file_atomically(file, json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n");
+  return json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
+}
+
+Result<void> write_summary(const std::filesystem::path& file, const Summary& summary) {
+  return write_file_atomically(file, summary_text(summary));
 }
 
 }  // namespace shaken::run

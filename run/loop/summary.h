@@ -80,6 +80,8 @@ std::string why_not_steady(const analysis::SteadySummary& order, double sim_seco
 /// What was measured of a run of `plan`.
 void fill(Summary& summary, const scene::RunPlan& plan, const Reduction& reduction);
 
+/// summary.json: every null with its reason.
+std::string summary_text(const Summary& summary);
 Result<void> write_summary(const std::filesystem::path& file, const Summary& summary);
 
 }  // namespace shaken::run

@@ -110,10 +110,9 @@ keys::Loaded<Task> task_of(const MeasureOptions& asked, std::optional<TrackedRod
 /// Measures, and fills the directory; the summary comes last.
 MeasuredFrames write_run(const Task& task, const RunDirectory& directory, const std::string& file,
                          const std::string& id) {
-  const auto& [plan, remarks] = task.by;
+  const scene::RunPlan& plan = task.by.plan;
   const RecordedFrames& frames = *task.frames;
-  Summary summary;
-  summary.started = utc_now();
+  const std::string started = utc_now();
   const auto begin = std::chrono::steady_clock::now();
   const InterruptGuard guard;
   ProgressLine progress("measuring");
@@ -128,14 +127,11 @@ MeasuredFrames write_run(const Task& task, const RunDirectory& directory, const 
   done_or_fail(make_folder(directory.root));
   const DirectoryLock lock = value_or_fail(DirectoryLock::acquire(directory.lock()));
 
+  Summary summary = summary_of(task.by, found, file);
   summary.run_id = id;
-  summary.n_rods = plan.system.n_all_rods();
-  summary.sim_seconds = found.last;
+  summary.started = started;
   summary.cpu_seconds = cpu_seconds();
   summary.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  fill(summary, plan, found.reduction);
-  summary.frames = FramesOrigin{file, frames.n_frames(), found.first, found.last, remarks};
-  summary.tick = static_cast<Tick>(std::llround(found.last / plan.system.dt));
 
   TrajectoryHeader header = frames.header();
   header.scene_json = scene::to_json(plan).dump(2) + "\n";

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -134,8 +135,19 @@ Result<MeasuredFrames> measure_frames(const scene::RunPlan& plan, const Recorded
     if (i == 0) found.first = frame->time;
     found.last = frame->time;
   }
+  found.n_frames = frames.n_frames();
   found.reduction = measurements.reduce(found.last);
   return found;
+}
+
+Summary summary_of(const FramesPlan& by, const MeasuredFrames& found, const std::string& source) {
+  Summary summary;
+  summary.n_rods = by.plan.system.n_all_rods();
+  summary.sim_seconds = found.last;
+  fill(summary, by.plan, found.reduction);
+  summary.frames = FramesOrigin{source, found.n_frames, found.first, found.last, by.remarks};
+  summary.tick = static_cast<Tick>(std::llround(found.last / by.plan.system.dt));
+  return summary;
 }
 
 }  // namespace shaken::run

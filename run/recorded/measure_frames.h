@@ -9,6 +9,7 @@
 #include "base/core/result.h"
 #include "base/core/types.h"
 #include "run/files/recorded_frames.h"
+#include "run/loop/summary.h"
 #include "run/measure/measurement_kinds.h"
 #include "run/measure/reduction.h"
 #include "scene/keys/keys.h"
@@ -46,11 +47,15 @@ keys::Loaded<FramesPlan> plan_for_frames(const SceneText& of, const SceneText& a
 struct MeasuredFrames {
   Reduction reduction;
   double first = 0, last = 0;  ///< times of the first and the last frame [s]
+  std::size_t n_frames = 0;
 };
 
 /// Measures what `plan` asks for, at each frame at which it is due; `goes_on` is asked at each frame. The files' single
 /// precision is all that tells the results from those of the run. Fails if a frame is damaged.
 Result<MeasuredFrames> measure_frames(const scene::RunPlan& plan, const RecordedFrames& frames,
                                       const std::function<bool(std::size_t frame)>& goes_on = {});
+
+/// What summary.json says of them, but for its times and files. `source`: what the frames are of, as a user calls it.
+Summary summary_of(const FramesPlan& by, const MeasuredFrames& found, const std::string& source);
 
 }  // namespace shaken::run

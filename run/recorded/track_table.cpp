@@ -6,16 +6,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
 
 #include "base/core/sincos.h"
 #include "base/text.h"
+#include "run/files/frames_in_memory.h"
 #include "run/import/csv_fields.h"
 #include "run/loop/open_run.h"
+#include "run/recorded/tracks.h"
 #include "scene/canonical.h"
-#include "scene/load.h"
 #include "sim/world.h"
 
 namespace shaken::run {
@@ -64,20 +64,6 @@ struct Sighting {
   double id = 0;
   Vec3 position = Vec3::Zero();  ///< outside of a periodic box where it was
   Vec3 director = Vec3::UnitX();
-};
-
-/// Frames in memory.
-class TrackFrames final : public RecordedFrames {
- public:
-  TrackFrames(TrajectoryHeader header, std::vector<Snapshot> frames)
-      : header_(std::move(header)), frames_(std::move(frames)) {}
-  const TrajectoryHeader& header() const override { return header_; }
-  std::size_t n_frames() const override { return frames_.size(); }
-  Result<RecordedFrame> frame(std::size_t index) const override { return record(frames_[index]); }
-
- private:
-  TrajectoryHeader header_;
-  std::vector<Snapshot> frames_;
 };
 
 class TrackTable {
@@ -343,23 +329,7 @@ class TrackTable {
     return interval;
   }
 
-  /// The scene of the rods in the table: `dt` is a whole part of the interval.
-  std::optional<scene::RunPlan> plan_of_table(double interval, Tick spacing, std::size_t n_rods) {
-    nlohmann::ordered_json scene = scene::to_json(plan_);
-    scene["rods"].erase("start");
-    scene["rods"].erase("area_fraction");
-    scene["rods"]["count"] = n_rods;
-    scene["time"]["step"] = interval / static_cast<double>(spacing);
-    const double length = interval * static_cast<double>(std::max<std::size_t>(frames_.size(), 2) - 1);
-    scene["time"]["measure"] = std::max(length - plan_.steady.value_or(0), interval);
-    auto plan = scene::load_scene(scene.dump(), file_ + ", as a scene");
-    if (plan) return *std::move(plan);
-    problems_.insert(problems_.end(), plan.error().begin(), plan.error().end());
-    return std::nullopt;
-  }
-
   std::optional<TrackedRods> made(double interval) {
-    const auto spacing = std::max<Tick>(1, static_cast<Tick>(std::ceil(interval / plan_.system.dt)));
     std::size_t n_all = 0, least = std::numeric_limits<std::size_t>::max(), most = 0;
     for (const auto& [frame, rods] : frames_) {
       n_all += rods.size();
@@ -368,8 +338,11 @@ class TrackTable {
     }
     const auto mean =
         static_cast<std::size_t>(std::llround(static_cast<double>(n_all) / static_cast<double>(frames_.size())));
-    auto plan = plan_of_table(interval, spacing, std::max<std::size_t>(mean, 1));
-    if (!plan) return std::nullopt;
+    auto plan = plan_of_tracks(plan_, file_, {std::max<std::size_t>(mean, 1), frames_.size(), interval});
+    if (!plan) {
+      problems_.insert(problems_.end(), plan.error().begin(), plan.error().end());
+      return std::nullopt;
+    }
     TrackedRods found;
     found.has_constant_number = least == most;
     found.lacking = {Needs::kImpacts, Needs::kSpins, Needs::kVelocities};
@@ -377,45 +350,36 @@ class TrackTable {
     if (!has("tilt") && !has("nz")) found.lacking.insert(Needs::kTilts);
     if (least < most) remarks_.push_back(fmt::format("{} to {} rods in a frame, {} on average", least, most, mean));
 
-    std::vector<Snapshot> frames;
+    const Tick spacing = ticks_between(interval, plan_);
+    std::vector<RecordedFrame> frames;
+    std::optional<Snapshot> before;
     for (const auto& [number, rods] : frames_) {
-      frames.push_back(snapshot_of(rods, spacing * static_cast<Tick>(frames.size()), *plan,
-                                   frames.empty() || !is_followed_ ? nullptr : &frames.back()));
+      const bool goes_on = before && is_followed_;
+      Snapshot frame =
+          snapshot_of(rods, spacing * static_cast<Tick>(frames.size()), *plan, goes_on ? &*before : nullptr);
+      frames.push_back(record(frame));
+      before = std::move(frame);
     }
     TrajectoryHeader header = trajectory_header(empty_world(plan->system), scene::to_json(*plan).dump(2) + "\n", {});
     header.n_rods = static_cast<int>(mean);
-    found.frames = std::make_unique<TrackFrames>(std::move(header), std::move(frames));
+    found.frames = std::make_unique<FramesInMemory>(std::move(header), std::move(frames));
     found.plan = *std::move(plan);
     found.remarks = std::move(remarks_);
     return found;
   }
 
-  /// Rods in the box. How often one has left it follows from `before`, the same rods one frame earlier: it has moved by
-  /// less than half a box; without that, and without --wrap, it has never left.
+  /// Rods in the box; with --wrap their paths go on beyond it, otherwise they end at its border and begin at the other.
   Snapshot snapshot_of(const std::vector<Sighting>& rods, Tick tick, const scene::RunPlan& plan,
                        const Snapshot* before) const {
     Snapshot frame;
     frame.tick = tick;
     frame.time = static_cast<double>(tick) * plan.system.dt;
     frame.box = plan.system.box();
-    for (std::size_t i = 0; i < rods.size(); ++i) {
-      Vec3 at = rods[i].position;
-      std::array<std::int32_t, 2> image{};
-      for (std::size_t k = 0; k < 2; ++k) {
-        const auto axis = static_cast<Eigen::Index>(k);
-        const double side = period_[axis];
-        if (side == 0) continue;
-        image[k] = static_cast<std::int32_t>(std::floor(at[axis] / side));
-        at[axis] -= image[k] * side;
-        if (before != nullptr && !conventions_.wraps) {
-          const double moved = at[axis] - before->position[i][axis];
-          image[k] = before->image[i][k] - static_cast<std::int32_t>(std::lround(moved / side));
-        }
-      }
-      frame.position.push_back(at);
-      frame.image.push_back(image);
-      frame.director.push_back(rods[i].director);
+    for (const Sighting& rod : rods) {
+      frame.position.push_back(rod.position);
+      frame.director.push_back(rod.director);
     }
+    fold_into_box(frame, period_, conventions_.wraps ? nullptr : before);
     frame.velocity.assign(rods.size(), Vec3::Zero());
     return frame;
   }

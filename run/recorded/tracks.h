@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "base/core/types.h"
+#include "scene/keys/keys.h"
+#include "scene/keys/run_plan.h"
+#include "sim/snapshot.h"
+
+namespace shaken::run {
+
+/// Rods that were seen again and again.
+struct Tracks {
+  std::size_t n_rods = 0;    ///< in a frame, on average
+  std::size_t n_frames = 0;  ///< at least 1
+  double interval = 0;       ///< from one to the next [s]
+};
+
+/// Ticks from one frame to the next, so that a tick is at most the step of `plan`.
+Tick ticks_between(double interval, const scene::RunPlan& plan);
+
+/// `plan` with the number of rods, the frames' times and their length: a tick is a whole part of the interval. `file`:
+/// in problems.
+keys::Loaded<scene::RunPlan> plan_of_tracks(const scene::RunPlan& plan, const std::string& file, const Tracks& tracks);
+
+/// Puts the rods of a frame into a box that repeats itself after `period` [mm], 0 for never, and counts how often each
+/// has left it: so often as it was moved, or, with `before`, the same rods one frame earlier, so that it has moved by
+/// less than half a box since.
+void fold_into_box(Snapshot& frame, const Vec2& period, const Snapshot* before);
+
+}  // namespace shaken::run
