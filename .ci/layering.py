@@ -80,6 +80,9 @@ ALLOWED = {
     # the page in a browser: what the terminal's live view makes of messages, the daemon's way of HTTP, a run's files
     "web": ["proto", "base", "client/live", "client/starter_scene.h", "base/http", "run/files", "analysis/order.h",
             "sim/system.h"],
+    # the compiled half of the Python package: runs in the process of a notebook
+    "python/native": ["base", "base/keys", "scene", "run", "sim/cell.h", "sim/snapshot.h", "sim/simulation.h",
+                      "sim/world.h", "sim/motion/side_walls.h", "sim/start/from_another_run.h"],
     # benches time whole simulations
     "bench": ["base", "scene", "run/files", "analysis", "sim/rod", "sim/system.h", "sim/snapshot.h", "sim/world.h",
               "sim/balance.h", "sim/simulation.h", "sim/effects/registry.h"],
@@ -95,7 +98,8 @@ for floor, name in enumerate(SIM):
     for part in [name] if "." in name else [name, name + ".h", name + ".cpp"]:
         ALLOWED[part] = [below + end for below in SIM[:floor + 1] for end in ("", ".h", ".cpp")]
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"')
-FOLDERS = ("sim", "proto", "base", "scene", "analysis", "run", "render", "server", "client", "web", "tests", "bench")
+FOLDERS = ("sim", "proto", "base", "scene", "analysis", "run", "render", "server", "client", "web", "tests", "bench",
+           "python")
 
 
 def rule(path):

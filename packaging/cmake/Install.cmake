@@ -20,6 +20,9 @@ if(NOT SHAKEN_ONLY_SIM)
   # the Python package: where the programs look for it, and by a link where Debian's Python does
   install(DIRECTORY python/shaken DESTINATION ${CMAKE_INSTALL_DATADIR}/shaken/python COMPONENT python
     FILES_MATCHING PATTERN *.py PATTERN *.json PATTERN py.typed PATTERN __pycache__ EXCLUDE)
+  if(SHAKEN_PYTHON)  # for one kind of machine and of Python: not below share
+    install(TARGETS shaken_native LIBRARY DESTINATION lib/shaken COMPONENT python OPTIONAL)
+  endif()
   file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/dist-packages)
   file(CREATE_LINK ../../../${CMAKE_INSTALL_DATADIR}/shaken/python/shaken ${CMAKE_BINARY_DIR}/dist-packages/shaken SYMBOLIC)
   install(FILES ${CMAKE_BINARY_DIR}/dist-packages/shaken DESTINATION lib/python3/dist-packages COMPONENT python)
@@ -85,7 +88,7 @@ if(NOT SHAKEN_ONLY_SIM)
     "The simulator and the observables of Shaken as static libraries with headers,\nfound by CMake's find_package(shaken).")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-shaken)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
       "python3, python3-numpy, python3-scipy, python3-matplotlib, python3-h5py, libxxhash0")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-pandas")

@@ -13,9 +13,11 @@ from typing import Any
 
 #: Module -> what it has for users. They are imported when they are asked for: most need numpy, some programs do not.
 _PARTS = {"about": "FieldAbout field_about", "archive": "ArchivedRun Snapshot archived_runs",
-          "bus": "LiveFrame LiveObservables live", "daemon": "Daemon", "errors": "NoDaemon ShakenError UnknownName",
-          "estimate": "Estimate replica_mean", "frames": "Frame Trajectory", "opening": "open_run",
-          "run": "Array DirectoryRun Run", "sweep": "Point Sweep results sweep_of"}
+          "bus": "LiveFrame LiveObservables live", "daemon": "Daemon",
+          "errors": "NoDaemon NumericalTrouble ShakenError UnknownName",
+          "estimate": "Estimate replica_mean", "frames": "Frame Trajectory", "measuring": "measure",
+          "opening": "open_run", "run": "Array DirectoryRun Run", "simulation": "Simulation",
+          "sweep": "Point Sweep results sweep_of"}
 _HOMES = {"open" if name == "open_run" else name: (module, name)
           for module, names in _PARTS.items() for name in names.split()}
 

@@ -165,15 +165,17 @@ def live(job: str = "", relay: str = "127.0.0.1:7700", *, observables: bool = Fa
     """The frames of running jobs as they come (LiveFrame); with `observables` those and LiveObservables, in the order
     in which they arrive.
 
-    job:     an id, or its first digits; those of all jobs if left out
+    job:     an id, or its first digits; those of all jobs if left out. Of an ADDRESS:PORT it is the relay
     relay:   ADDRESS:PORT of `shakend --relay`
     timeout: [s] without a message after which the iteration ends; it goes on for ever if None
 
     No run waits for whoever listens: what is not read in time is dropped by the relay. Raises ShakenError where no
     relay answers. Messages that are not of their type are left out.
     """
+    if ":" in job:
+        job, relay = "", job
     if not re.fullmatch("[0-9a-f]{0,16}", job):
-        raise ShakenError(f"'{job}' is no beginning of a job's id; an address goes into relay=")
+        raise ShakenError(f"'{job}' is no beginning of a job's id, and no ADDRESS:PORT of a relay")
     host, _, port = relay.rpartition(":")
     try:
         connection = socket.create_connection((host, int(port)), timeout=5)

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any, Callable, Mapping
 
 from .errors import DaemonFailed, NoDaemon, NotFound, ShakenError
+from .scenes import Scene, as_settings, is_path, text_of
 from .units import seconds
 
 #: Wall time for which `wait` waits for a daemon that is away, as while it is restarted [s]; `shaken wait` as long.
@@ -109,7 +110,7 @@ class Daemon:
         """The jobs of a sweep with the summaries of those that have ended (ROW of docs/protocol.md)."""
         return self.ask("GET", "/v1/results?sweep=" + quoted(sweep))["rows"]
 
-    def submit(self, scene: Mapping[str, Any] | str | Path, *, replicas: int | None = None, name: str | None = None,
+    def submit(self, scene: Scene, *, replicas: int | None = None, name: str | None = None,
                settings: Mapping[str, Any] | None = None, priority: int = 0, **terms: Any) -> str:
         """Queues a scene or a sweep, a dict as docs/scene.md has it, the text of a file or its path, and returns the id
         of its sweep. Points that are done already are not done again. A text without "{" is a path.
@@ -121,15 +122,11 @@ class Daemon:
         Raises ShakenError with all problems of the scene; nothing is queued then.
         """
         request: dict[str, Any] = {"priority": priority, **terms}
-        if isinstance(scene, Path) or (isinstance(scene, str) and "{" not in scene):
+        if is_path(scene):
             request["file"] = str(scene)
-            try:
-                scene = Path(scene).read_text()
-            except (OSError, ValueError) as error:
-                raise ShakenError(f"{scene} is no text of a scene, and no file of one: {error}") from None
-        request["text"] = scene if isinstance(scene, str) else json.dumps(scene, default=_plain)
+        request["text"] = text_of(scene)
         if settings:
-            request["settings"] = [f"{path}={_setting(value)}" for path, value in settings.items()]
+            request["settings"] = as_settings(settings)
         for key, value in (("replicas", replicas), ("name", name)):
             if value is not None:
                 request[key] = value
@@ -175,22 +172,6 @@ def _problem_text(problem: Mapping[str, Any]) -> str:
     """"scene.json:3:5: /rods/lenght: unknown key; did you mean rods.length?"."""
     place = f":{problem['line']}:{problem['column']}" if problem.get("line") else ""
     return ": ".join(filter(None, (f"{problem.get('file', '')}{place}", problem.get("path"), problem.get("message"))))
-
-
-def _plain(value: Any) -> Any:
-    """For JSON: the numbers of numpy as Python's."""
-    if hasattr(value, "tolist"):
-        return value.tolist()
-    raise ShakenError(f"a scene cannot have {value!r}: only what JSON can say")
-
-
-def _setting(value: Any) -> str:
-    """A setting as after `-s`: one value, or those of a sweep with commas between them."""
-    if hasattr(value, "tolist"):
-        value = value.tolist()
-    if isinstance(value, (list, tuple)) and not any(isinstance(v, (list, tuple)) for v in value):
-        return ",".join(map(_setting, value))
-    return value if isinstance(value, str) else json.dumps(value, default=_plain)
 
 
 def _print_progress(sweep: Mapping[str, Any]) -> None:

@@ -13,6 +13,20 @@ class ShakenError(Exception):
     exit_code = 2
 
 
+class NumericalTrouble(ShakenError):
+    """What a simulation met that it must not go on from.
+
+    tick: at which it was met
+    rods: the numbers of the rods that are concerned
+    """
+
+    exit_code = 1
+
+    def __init__(self, said: str, tick: int, rods: Sequence[int]) -> None:
+        super().__init__(f"tick {tick}, rods {', '.join(map(str, rods)) or 'none'}: {said}")
+        self.tick, self.rods = tick, list(rods)
+
+
 class NoDaemon(ShakenError):
     """No daemon answers at its root: none runs there, or it has just ended."""
 

@@ -1,9 +1,10 @@
 """A measured number with its standard error, and how such numbers are put together."""
 from __future__ import annotations
 
+import html
 import math
 from dataclasses import dataclass, replace
-from typing import Iterable, Sequence
+from typing import Any, Iterable, Sequence
 
 NAN = float("nan")
 #: Before a value: "~" where it still relaxes, "?" where it is not known to be of a steady state.
@@ -51,6 +52,14 @@ class Estimate:
         """With an error in quadrature that all replicas have in common, such as a step on which values lie."""
         own = self.bar
         return replace(self, error=math.hypot(own, error), dof=joint_dof([(own, self.dof), (error, math.inf)]))
+
+    def to_uncertainties(self) -> Any:
+        """The `ufloat` of the package uncertainties (Debian: python3-uncertainties), of value and error."""
+        from uncertainties import ufloat
+        return ufloat(self.value, self.error)
+
+    def _repr_html_(self) -> str:
+        return html.escape(str(self))
 
     def __float__(self) -> float:
         return self.value

@@ -1,14 +1,16 @@
 """Recorded frames, and what other packages take them as."""
 from __future__ import annotations
 
-from dataclasses import dataclass
+import functools
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Iterator
+from typing import Any, Callable, Iterator
 
 import numpy as np
 
 from .errors import ShakenError
 from .hdf5 import open_file
+from .notebook import picture
 from .units import seconds
 
 
@@ -27,6 +29,7 @@ class Frame:
     box:        (3,) sides of the box along x and y [mm], and the gap between the plates
     spheres:    the species that are spheres, which have no axis
     periodic:   whether the box is, along x and y: not where side walls stand
+    draw:       makes a PNG of it; None where it is not known how
     """
 
     time: float
@@ -39,6 +42,7 @@ class Frame:
     box: np.ndarray
     spheres: tuple[int, ...] = ()
     periodic: tuple[bool, bool] = (True, True)
+    draw: Callable[[], bytes | None] | None = field(default=None, compare=False)
 
     @property
     def theta(self) -> np.ndarray:
@@ -63,6 +67,9 @@ class Frame:
 
     def __repr__(self) -> str:
         return f"<frame at {self.time:g} s: {len(self.positions)} rods, S = {self.order:.3g}>"
+
+    def _repr_png_(self) -> bytes | None:
+        return self.draw() if self.draw else None
 
     def to_freud(self) -> tuple[Any, np.ndarray, np.ndarray]:
         """What freud takes: (box, points, orientations).
@@ -150,7 +157,7 @@ class Trajectory:
         return Frame(float(self.times[k]), int(rods["position/step"][k]), rods["position/value"][k].astype(float),
                      directors_of(rods["orientation/value"][k]), rods["velocity/value"][k].astype(float),
                      rods["image/value"][k], self.species, rods["box/edges/value"][k].diagonal().copy(),
-                     self._spheres, self._periodic)
+                     self._spheres, self._periodic, functools.partial(picture, self.path, k))
 
     def frames(self, every: float | str | None = None) -> Iterator[Frame]:
         """The frames one by one. With `every` [s], those nearest to its multiples, each once."""

@@ -15,6 +15,7 @@ from .errors import ShakenError, UnknownName
 from .estimate import NAN, Estimate
 from .frames import Frame, Trajectory
 from .hdf5 import h5py_module, open_file
+from .notebook import numbers_html
 from .units import split_species, split_unit, unit_of
 
 #: What an array is called in the catalogue: that of standard errors as what they are of, that of one rod as of any.
@@ -255,6 +256,9 @@ class Run:
     @property
     def trajectory(self) -> Trajectory:
         raise ShakenError(f"run {self.id} has no frames: it comes from an archive, which keeps the last state only")
+
+    def _repr_html_(self) -> str:
+        return numbers_html(self.numbers, repr(self).strip("<>"))
 
     def __repr__(self) -> str:
         time = self.summary.get("sim_seconds")

@@ -1,15 +1,19 @@
 """Sweeps: a row for each state point, with its replicas put together."""
 from __future__ import annotations
 
+import importlib
 import json
 from pathlib import Path
 from typing import Any, Iterable, Iterator, Mapping, Sequence
+
+import numpy as np
 
 from .archive import archived_runs
 from .catalogue import KEYS, UNITS
 from .daemon import Daemon, quoted
 from .errors import ShakenError, UnknownName
 from .estimate import Estimate, replica_mean
+from .notebook import numbers_html, points_html
 from .folder import parameters_of, run_directories
 from .units import number_of, unit_in
 from .run import DirectoryRun, Run
@@ -56,6 +60,9 @@ class Point:
     @property
     def label(self) -> str:
         return ", ".join(f"{path} = {value}" for path, value in self.parameters.items())
+
+    def _repr_html_(self) -> str:
+        return numbers_html({name: self[name] for name in self.names()}, repr(self).strip("<>"))
 
     def __repr__(self) -> str:
         s = self["S"] if any("S" in run.numbers for run in self.runs) else "-"
@@ -140,9 +147,15 @@ class Sweep:
         return [point.key(path) for point in self.points]
 
     def to_frame(self) -> Any:
-        """A pandas DataFrame: a row for each point; the swept keys, then for each number NAME, NAME:error, NAME:steady.
-        Needs pandas (Debian: python3-pandas)."""
-        return _pandas().DataFrame(self.records())
+        """A pandas DataFrame: a row for each point; the swept keys, then for each number NAME, NAME:error and
+        NAME:steady (True, False, or missing where that cannot be told). Units are in `attrs["units"]`. Needs pandas
+        (Debian: python3-pandas)."""
+        frame = _imported("pandas").DataFrame(self.records())
+        frame = frame.astype({name: "boolean" for name in frame if name.endswith(":steady")})
+        units = {name: point[name].unit for point in self for name in point.names()}
+        frame.attrs["units"] = {**{key: KEYS.get(key, {}).get("unit", "1") for key in self._swept()}, **units,
+                                **{name + ":error": unit for name, unit in units.items()}}
+        return frame
 
     def records(self) -> list[dict[str, Any]]:
         """The same as a list of dicts, for which pandas is not needed."""
@@ -175,8 +188,8 @@ class Sweep:
                 raise ShakenError(f"{rows} = {point.key(down)}, {columns} = {point.key(across)} has several points, "
                                   f"which differ in {self._differing(other, point)}: choose one, as in "
                                   f"sweep.where(...).pivot(...)")
-        frame = _pandas().DataFrame([(point.key(down), point.key(across), value) for point, value in cells.values()],
-                                    columns=["down", "across", name])
+        found = [(point.key(down), point.key(across), value) for point, value in cells.values()]
+        frame = _imported("pandas").DataFrame(found, columns=["down", "across", name])
         return frame.pivot(index="down", columns="across", values=name).rename_axis(index=rows, columns=columns)
 
     def _differing(self, a: Point, b: Point) -> str:
@@ -212,16 +225,44 @@ class Sweep:
                                   f"{self._differing(other, point)}: choose one, as in sweep.where(version=...)")
         return found
 
+    def to_xarray(self) -> Any:
+        """An xarray Dataset (Debian: python3-xarray) whose dimensions are the swept keys that are numbers: NAME and
+        NAME_error of each number, NaN where there is no point; units are in `attrs`. Raises ShakenError where a place
+        would have several points, as `pivot` does."""
+        xarray = _imported("xarray")
+        keys = [key for key in self.parameters
+                if all(isinstance(number_of(point.key(key)), (int, float)) for point in self)]
+        axes = [sorted({number_of(point.key(key)) for point in self}) for key in keys]
+        taken: dict[tuple[int, ...], Point] = {}
+        for point in self:
+            place = tuple(axis.index(number_of(point.key(key))) for axis, key in zip(axes, keys))
+            if taken.setdefault(place, point) is not point:
+                raise ShakenError(f"{point.label} has several points, which differ in "
+                                  f"{self._differing(taken[place], point)}: choose one, as in sweep.where(...)")
+        data = xarray.Dataset(coords={key: (key, axis, {"units": KEYS.get(key, {}).get("unit", "1")})
+                                      for key, axis in zip(keys, axes)})
+        for name in dict.fromkeys(name for point in self for name in point.names()):
+            found = {place: point[name] for place, point in taken.items() if name in point.names()}
+            units = {"units": next(iter(found.values())).unit or ""}
+            for end, part in (("", "value"), ("_error", "error")):
+                values = np.full([len(axis) for axis in axes], np.nan)
+                for place, estimate in found.items():
+                    values[place] = getattr(estimate, part)
+                data[name + end] = (keys, values, units)
+        return data
+
+    def _repr_html_(self) -> str:
+        return points_html(self.points, self.parameters, repr(self).strip("<>"))
+
     def __repr__(self) -> str:
         return f"<sweep {self.name or '-'}: {len(self.points)} points over {', '.join(self.parameters) or 'nothing'}>"
 
 
-def _pandas() -> Any:
+def _imported(name: str) -> Any:
     try:
-        import pandas
+        return importlib.import_module(name)
     except ImportError:
-        raise ShakenError("pandas is not installed: `apt install python3-pandas`; `records()` does without") from None
-    return pandas
+        raise ShakenError(f"{name} is not installed: `apt install python3-{name}`; `records()` does without") from None
 
 
 def _equal(a: Any, b: Any) -> bool:

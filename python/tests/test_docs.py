@@ -28,7 +28,7 @@ def test_every_block_of_python_md_works(programs, tmp_path, monkeypatch):
     monkeypatch.setenv("MPLBACKEND", "Agg")
     monkeypatch.chdir(tmp_path)
     blocks = re.findall(r"^```python\n(.*?)^```$", (DOCS / "python.md").read_text(), flags=re.M | re.S)
-    assert len(blocks) == 9
+    assert len(blocks) == 14
     assert len([line for line in blocks[0].splitlines() if line]) <= 11
     names: dict = {}
     for block in blocks:

@@ -96,10 +96,11 @@ def test_frames_that_never_become_whole_are_not_kept_for_ever():
 
 
 def test_a_relay_that_is_not_there_is_named():
-    with pytest.raises(shaken.ShakenError, match="no beginning of a job's id; an address goes into relay="):
-        next(shaken.live("127.0.0.1:7700"))
-    with pytest.raises(shaken.ShakenError, match="start the daemon with"):
-        next(shaken.live(relay=f"127.0.0.1:{free_port()}"))
+    with pytest.raises(shaken.ShakenError, match="no beginning of a job's id"):
+        next(shaken.live("a job"))
+    for address in ({"relay": f"127.0.0.1:{free_port()}"}, {"job": f"127.0.0.1:{free_port()}"}):
+        with pytest.raises(shaken.ShakenError, match="start the daemon with"):
+            next(shaken.live(**address))
 
 
 def test_what_is_no_relay_is_refused():

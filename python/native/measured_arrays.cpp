@@ -1,0 +1,62 @@
+#include "python/native/measured_arrays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "base/keys/problem.h"
+#include "base/text.h"
+#include "run/files/frames_in_memory.h"
+#include "run/loop/open_run.h"
+#include "run/recorded/measure_frames.h"
+#include "run/recorded/tracks.h"
+#include "scene/canonical.h"
+#include "sim/motion/side_walls.h"
+#include "sim/world.h"
+
+namespace shaken::python {
+
+Result<Measured> measure_arrays(const Scene& scene, std::vector<Snapshot> frames, double interval,
+                                const run::Lacking& lacking) {
+  const std::string started = utc_now();
+  const Result<scene::RunPlan> asked = resolved(scene);
+  if (!asked) return asked.error();
+  std::size_t n_all = 0;
+  for (const Snapshot& frame : frames) n_all += frame.n_rods();
+  const std::size_t mean =
+      frames.empty()
+          ? 0
+          : static_cast<std::size_t>(std::llround(static_cast<double>(n_all) / static_cast<double>(frames.size())));
+  const auto own = run::plan_of_tracks(*asked, "scene", {std::max<std::size_t>(mean, 1), frames.size(), interval});
+  if (!own) return as_error(own.error());
+
+  const Tick spacing = run::ticks_between(interval, *asked);
+  const Vec2 period = period_of(own->system.box(), own->system.walls);
+  const bool is_followed = !lacking.contains(run::Needs::kIdentities);
+  std::vector<run::RecordedFrame> recorded;
+  const Snapshot* before = nullptr;
+  for (Snapshot& frame : frames) {
+    frame.tick = spacing * static_cast<Tick>(recorded.size());
+    frame.time = static_cast<double>(frame.tick) * own->system.dt;
+    frame.box = own->system.box();
+    for (Vec3& at : frame.position) at.z() = std::isnan(at.z()) ? own->system.gap / 2 : at.z();
+    if (frame.image.empty()) run::fold_into_box(frame, period, is_followed ? before : nullptr);
+    before = &frame;
+    recorded.push_back(run::record(frame));
+  }
+  const std::string text = scene::to_json(*own).dump(2) + "\n";
+  run::TrajectoryHeader header = run::trajectory_header(empty_world(own->system), text, {});
+  header.n_rods = static_cast<int>(mean);
+  const run::FramesInMemory memory(std::move(header), std::move(recorded));
+  const auto by = run::plan_for_frames({text, "scene"}, {text, "scene"}, {}, spacing, lacking);
+  if (!by) return as_error(by.error());
+  const Result<run::MeasuredFrames> found = run::measure_frames(by->plan, memory);
+  if (!found) return found.error();
+  run::Summary summary = run::summary_of(*by, *found, "arrays");
+  summary.started = started;
+  summary.finished = utc_now();
+  return Measured{scene::to_json(by->plan).dump(), run::summary_text(summary), found->reduction.arrays};
+}
+
+}  // namespace shaken::python

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/core/result.h"
+#include "python/native/simulated_run.h"
+#include "run/measure/measurement_kinds.h"
+#include "run/measure/reduction.h"
+#include "sim/snapshot.h"
+
+namespace shaken::python {
+
+/// What was measured on frames that come from arrays.
+struct Measured {
+  std::string scene;  ///< as JSON, by which it was measured
+  std::string summary;
+  run::Observables arrays;
+};
+
+/// Measures `frames` of rods of one species, `interval` [s] apart, as `shaken measure` does those of a table: in single
+/// precision. `scene` says what, and has the box and the rods' shape; ticks and times of the frames are set here. A
+/// height that is no number is that of the middle plane; where crossings of the border are not counted, they are here.
+/// Fails with what is wrong with the scene or with a frame.
+Result<Measured> measure_arrays(const Scene& scene, std::vector<Snapshot> frames, double interval,
+                                const run::Lacking& lacking);
+
+}  // namespace shaken::python
