@@ -42,6 +42,8 @@ std::unique_ptr<Verb> make_picture();
 std::unique_ptr<Verb> make_movie();
 std::unique_ptr<Verb> make_export();
 std::unique_ptr<Verb> make_replay();
+std::unique_ptr<Verb> make_pack();
+std::unique_ptr<Verb> make_unpack();
 std::unique_ptr<Verb> make_bench();
 std::unique_ptr<Verb> make_doctor();
 std::unique_ptr<Verb> make_completion();

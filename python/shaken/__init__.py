@@ -15,7 +15,8 @@ from typing import Any
 _PARTS = {"about": "FieldAbout field_about", "archive": "ArchivedRun Snapshot archived_runs",
           "bus": "LiveFrame LiveObservables live", "daemon": "Daemon",
           "errors": "NoDaemon NumericalTrouble ShakenError UnknownName",
-          "estimate": "Estimate replica_mean", "frames": "Frame Trajectory", "measuring": "measure",
+          "estimate": "Estimate replica_mean", "frames": "Frame Trajectory",
+          "gsd_frames": "gsd_frames", "measuring": "measure",
           "opening": "open_run", "run": "Array DirectoryRun Run", "simulation": "Simulation",
           "sweep": "Point Sweep results sweep_of"}
 _HOMES = {"open" if name == "open_run" else name: (module, name)

@@ -29,8 +29,8 @@ def native() -> Any:
     if spec is None or spec.loader is None:
         name = "_native" + importlib.machinery.EXTENSION_SUFFIXES[0]
         raise ShakenError(f"the compiled half of the package is missing: there is no {name} in "
-                          f"{', '.join(map(str, _PLACES))}. `./dev build programs` builds it, and the Debian package and "
-                          "the wheel have it, each for one version of Python")
+                          f"{', '.join(map(str, _PLACES))}. `./dev build programs` builds it, and the Debian package "
+                          "and the wheel have it, each for one version of Python")
     spec.name = "shaken._native"
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)

@@ -244,3 +244,35 @@ def test_known_answers_of_arrays():
 def test_says_what_is_wrong_with_arrays(given, said):
     with pytest.raises(shaken.ShakenError, match=said):
         shaken.measure(**given)
+
+
+def test_frames_in_gsd_are_those_that_were_exported(run, tmp_path):
+    gsd = pytest.importorskip("gsd.hoomd")
+    file = tmp_path / "run.gsd"
+    subprocess.run([PROGRAMS / "shaken", "export", run.directory, "--format", "gsd", "-o", file], check=True,
+                   capture_output=True, timeout=60)
+    dt = run.key("time.step")
+    frames = list(shaken.gsd_frames(file, step=dt))
+    for frame, own in zip(frames, run.frames(), strict=True):
+        assert frame.tick == own.tick and frame.time == pytest.approx(own.time)
+        assert np.allclose(frame.positions, own.positions, atol=1e-5)
+        assert np.allclose(frame.directors, own.directors, atol=1e-6)
+        assert np.allclose(frame.velocities, own.velocities) and np.array_equal(frame.images, own.images)
+    assert shaken.measure(frames, box=16.0, settings={"time.steady": 0},
+                          order={"every": "5 ms"})["S"].value == pytest.approx(
+        np.mean([frame.order for frame in run.frames()]), abs=1e-6)
+
+    other = gsd.Snapshot() if hasattr(gsd, "Snapshot") else gsd.Frame()  # along x, in units of 10 mm, in the plane
+    other.particles.N, other.particles.types, other.particles.typeid = 2, ["A", "rod"], [0, 1]
+    other.particles.position, other.configuration.box = [[0, 0, 0], [-1, 0.5, 0]], [4, 4, 0, 0, 0, 0]
+    other.particles.orientation, other.configuration.dimensions = [[1, 0, 0, 0], [0.8**0.5, 0, 0, 0.2**0.5]], 2
+    with gsd.open(str(tmp_path / "other.gsd"), "wb") as written:
+        written.append(other)
+    frame, = shaken.gsd_frames(tmp_path / "other.gsd", step=1.0, scale=10, axis=(1, 0, 0), kind="rod")
+    assert np.allclose(frame.positions[:, :2], [[10, 25]]) and np.isnan(frame.positions[0, 2])
+    assert np.allclose(frame.directors, [[0.6, 0.8, 0]], atol=1e-6)
+    with pytest.raises(shaken.ShakenError, match="no particles 'B' but A, rod"):
+        next(shaken.gsd_frames(tmp_path / "other.gsd", step=1.0, kind="B"))
+    (tmp_path / "none.gsd").write_text("no GSD")
+    with pytest.raises(shaken.ShakenError, match="none.gsd is damaged, or no file of GSD"):
+        next(shaken.gsd_frames(tmp_path / "none.gsd", step=1.0))

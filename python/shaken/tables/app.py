@@ -1,7 +1,8 @@
-"""What the client hands on to be tabulated or drawn: python3 -m shaken.tables results|plot|fields|inset OPTION...
+"""What the client hands on to be tabulated, drawn or packed:
+python3 -m shaken.tables results|plot|pack|unpack|fields|inset OPTION...
 
-The options of users are described where the client declares them (client/verbs/results.cpp, plot.cpp). Names for the
-shell and the inset of pictures have no help."""
+The options of users are described where the client declares them (client/verbs/results.cpp, plot.cpp, pack.cpp). Names
+for the shell and the inset of pictures have no help."""
 from __future__ import annotations
 
 import argparse
@@ -23,7 +24,7 @@ def _options(words: Sequence[str]) -> argparse.Namespace:
     parser.add_argument("--root")
     for name in ("where", "job"):
         parser.add_argument(f"--{name}", action="append", default=[])
-    for flag in ("aggregate", "csv", "json", "map"):
+    for flag in ("aggregate", "csv", "frames", "json", "map"):
         parser.add_argument(f"--{flag}", action="store_true")
     for name in ("columns", "x", "y", "out", "format", "width"):
         parser.add_argument(f"--{name}", default="")
@@ -38,6 +39,12 @@ def _run(verb: str, options: argparse.Namespace) -> None:
             raise ShakenError(missing)
         from .plot import plot
         plot(options)
+        return
+    if verb in ("pack", "unpack"):
+        if missing := not_installed("numpy", "h5py"):
+            raise ShakenError(missing)
+        from . import pack
+        getattr(pack, verb)(options)
         return
     from . import results
     verbs = {"results": results.results, "fields": results.fields, "inset": results.inset}

@@ -1,0 +1,53 @@
+"""`shaken pack` and `shaken unpack`."""
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from .. import packed
+from ..daemon import Daemon
+from ..errors import ShakenError
+from ..rows import target_of
+from ..text import json_text, printable
+
+
+def _counted(n: int) -> str:
+    return f"{n} run{'' if n == 1 else 's'}"
+
+
+def pack(options: argparse.Namespace) -> None:
+    if not options.ids:
+        raise ShakenError("say what to pack: a sweep, a job, or a folder of runs")
+    directories, waiting = [], 0
+    for word in options.ids:
+        if (Path(word) / "summary.json").exists():
+            directories.append(word)
+            continue
+        jobs = target_of(Daemon(options.root), word).jobs
+        done = [job["directory"] for job in jobs if job["state"] == "done"]
+        waiting += len(jobs) - len(done)
+        directories += done
+    file = options.out or Path(options.ids[0].rstrip("/")).name[:40] + packed.SUFFIX
+    ids = packed.pack(directories, file, options.frames)
+    size = Path(file).stat().st_size
+    if options.json:
+        print(json_text({"file": file, "bytes": size, "runs": ids, "n_not_done": waiting}))
+        return
+    left_out = f"; {waiting} not done, and left out" if waiting else ""
+    print(f"{_counted(len(ids))} in {printable(file)}, {size / 1000:.0f} kB{left_out}")
+
+
+def unpack(options: argparse.Namespace) -> None:
+    if len(options.ids) != 1:
+        raise ShakenError("say which file to unpack, one at a time")
+    file = options.ids[0]
+    folder = options.out or Path(file).name.removesuffix(packed.SUFFIX)
+    if folder == Path(file).name:
+        folder += ".runs"
+    directories = packed.unpack(file, folder)
+    if options.json:
+        print(json_text({"folder": folder, "directories": list(map(str, directories))}))
+        return
+    name = printable(folder.rstrip("/"))
+    print(f"{_counted(len(directories))} in {name}/: `shaken results {name}/`; once more, with the same bits, by "
+          f"`shaken run {printable(str(directories[0]))}/scene.json`")
