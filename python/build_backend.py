@@ -1,60 +1,73 @@
 """Packs the package into a wheel (PEP 517, PEP 427) with Python's own library, so that `pip install ./python` fetches
-nothing: Debian's machines may have no way to an index, and there is nothing to compile."""
+nothing: Debian's machines may have no way to an index. Nothing is compiled here: packaging/wheel packs what was built
+as well."""
 from __future__ import annotations
 
 import base64
 import hashlib
-import re
+import tomllib
 import zipfile
 from pathlib import Path
-from typing import Any
+from typing import Any, Mapping
 
 _HERE = Path(__file__).resolve().parent
-
-
-def _field(name: str) -> str:
-    match = re.search(rf'^{name} = "(.*)"$', (_HERE / "pyproject.toml").read_text(), flags=re.M)
-    assert match, f"pyproject.toml has no {name}"
-    return match[1]
+PROJECT = tomllib.loads((_HERE / "pyproject.toml").read_text())["project"]
 
 
 def _metadata() -> str:
-    needs = re.search(r"^dependencies = \[(.*)\]$", (_HERE / "pyproject.toml").read_text(), flags=re.M)
-    assert needs
-    lines = ["Metadata-Version: 2.1", f"Name: {_field('name')}", f"Version: {_field('version')}",
-             f"Summary: {_field('description')}", f"Requires-Python: {_field('requires-python')}", "License: MIT"]
-    lines += [f"Requires-Dist: {name}" for name in re.findall(r'"([^"]+)"', needs[1])]
+    lines = ["Metadata-Version: 2.1", f"Name: {PROJECT['name']}", f"Version: {PROJECT['version']}",
+             f"Summary: {PROJECT['description']}", f"Requires-Python: {PROJECT['requires-python']}",
+             f"License: {PROJECT['license']['text']}"]
+    lines += [f"Classifier: {name}" for name in PROJECT["classifiers"]]
+    lines += [f"Project-URL: {name}, {url}" for name, url in PROJECT.get("urls", {}).items()]
+    lines += [f"Requires-Dist: {name}" for name in PROJECT["dependencies"]]
+    for extra, needs in PROJECT["optional-dependencies"].items():
+        lines += [f"Provides-Extra: {extra}", *(f'Requires-Dist: {name}; extra == "{extra}"' for name in needs)]
     return "\n".join(lines) + "\n"
 
 
-def _wheel(folder: str, content: dict[str, bytes]) -> str:
-    name = f"{_field('name')}-{_field('version')}"
+def package() -> dict[str, bytes]:
+    """The files of the package, by their paths in a wheel."""
+    sources = sorted(path for path in (_HERE / "shaken").rglob("*") if path.suffix in (".py", ".json", ".typed"))
+    return {str(path.relative_to(_HERE)): path.read_bytes() for path in sources}
+
+
+def write_wheel(folder: str | Path, content: Mapping[str, bytes], tag: str = "py3-none-any",
+                executable: tuple[str, ...] = ()) -> str:
+    """A wheel in that folder, of the same bytes each time; returns its name. `executable`: what is run, of `content`."""
+    name = f"{PROJECT['name']}-{PROJECT['version']}"
     info = f"{name}.dist-info"
+    is_pure = str(not executable).lower()
     files = {**content, f"{info}/METADATA": _metadata().encode(),
-             f"{info}/WHEEL": b"Wheel-Version: 1.0\nGenerator: shaken\nRoot-Is-Purelib: true\nTag: py3-none-any\n"}
+             f"{info}/WHEEL": f"Wheel-Version: 1.0\nGenerator: shaken\nRoot-Is-Purelib: {is_pure}\n"
+                              f"Tag: {tag}\n".encode()}
+    if executable:
+        scripts = "".join(f"{Path(path).name} = shaken.__main__:main\n" for path in executable)
+        files[f"{info}/entry_points.txt"] = f"[console_scripts]\n{scripts}".encode()
 
     def hash_of(data: bytes) -> str:
         return base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b"=").decode()
 
-    record = [f"{path},sha256={hash_of(data)},{len(data)}"
-              for path, data in files.items()]
+    record = [f"{path},sha256={hash_of(data)},{len(data)}" for path, data in files.items()]
     files[f"{info}/RECORD"] = ("\n".join([*record, f"{info}/RECORD,,"]) + "\n").encode()
-    wheel = Path(folder) / f"{name}-py3-none-any.whl"
+    wheel = Path(folder) / f"{name}-{tag}.whl"
     with zipfile.ZipFile(wheel, "w", zipfile.ZIP_DEFLATED) as archive:
         for path, data in files.items():
-            archive.writestr(zipfile.ZipInfo(path, (2024, 1, 1, 0, 0, 0)), data)
+            entry = zipfile.ZipInfo(path, (2024, 1, 1, 0, 0, 0))
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            entry.external_attr = (0o100755 if path in executable else 0o100644) << 16
+            archive.writestr(entry, data)
     return wheel.name
 
 
 def build_wheel(wheel_directory: str, config_settings: Any = None, metadata_directory: Any = None) -> str:
     """Called by pip: makes the wheel in that folder and returns its name."""
-    sources = sorted(path for path in (_HERE / "shaken").rglob("*") if path.is_file() and path.suffix != ".pyc")
-    return _wheel(wheel_directory, {str(path.relative_to(_HERE)): path.read_bytes() for path in sources})
+    return write_wheel(wheel_directory, package())
 
 
 def build_editable(wheel_directory: str, config_settings: Any = None, metadata_directory: Any = None) -> str:
     """Called by `pip install -e`: a wheel that points here."""
-    return _wheel(wheel_directory, {"shaken.pth": f"{_HERE}\n".encode()})
+    return write_wheel(wheel_directory, {"shaken.pth": f"{_HERE}\n".encode()})
 
 
 def get_requires_for_build_wheel(config_settings: Any = None) -> list[str]:
