@@ -112,8 +112,8 @@ class Daemon:
 
     def submit(self, scene: Scene, *, replicas: int | None = None, name: str | None = None,
                settings: Mapping[str, Any] | None = None, priority: int = 0, **terms: Any) -> str:
-        """Queues a scene or a sweep, a dict as docs/scene.md has it, the text of a file or its path, and returns the id
-        of its sweep. Points that are done already are not done again. A text without "{" is a path.
+        """Queues a scene (docs/scene.md) or a sweep (docs/sweeps.md), a dict, the text of a file or its path, and
+        returns the id of its sweep. Points that are done already are not done again. A text without "{" is a path.
 
         settings: keys that are set, or swept by several values: {"rods.length": [2.5, 4.5]}; a value is a text as on
                   the command line, or what JSON can say

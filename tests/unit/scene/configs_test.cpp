@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -36,10 +35,7 @@ TEST(Configs, AreThere) { EXPECT_GE(config_files().size(), 5U); }
 class Config : public testing::TestWithParam<std::filesystem::path> {};
 
 TEST_P(Config, IsValidAndCanStart) {
-  std::ifstream in(GetParam());
-  std::stringstream text;
-  text << in.rdbuf();
-  const Loaded<Sweep> sweep = load_sweep(text.str(), GetParam().string());
+  const Loaded<Sweep> sweep = load_sweep(content_of(GetParam().string()), GetParam().string());
   ASSERT_TRUE(sweep) << to_string(sweep.error());
   for (const SweepPoint& point : sweep->points) {
     const auto started = Simulation::start(point.plan.system);
@@ -68,16 +64,17 @@ TEST(Configs, OneMeasuresEveryObservable) {
   expect_generated(SHAKEN_SOURCE_DIR "/configs/observables.json", "observables", blocks + line + '\n');
 }
 
-// The indented blocks of docs/scene.md that begin with a brace.
+// The indented blocks of two pages that begin with a brace.
 TEST(Configs, TheExamplesOfTheReferenceAreValid) {
-  std::ifstream in(SHAKEN_SOURCE_DIR "/docs/scene.md");
+  std::istringstream in(content_of(SHAKEN_SOURCE_DIR "/docs/scene.md") +
+                        content_of(SHAKEN_SOURCE_DIR "/docs/sweeps.md"));
   int n_examples = 0;
   std::string example;
   for (std::string line; std::getline(in, line);) {
     if (line.starts_with("    ") && (!example.empty() || line.starts_with("    {"))) {
       example += line + "\n";
     } else if (!example.empty()) {
-      const Loaded<Sweep> sweep = load_sweep(example, "docs/scene.md");
+      const Loaded<Sweep> sweep = load_sweep(example, "docs");
       EXPECT_TRUE(sweep) << example << to_string(sweep.error());
       ++n_examples;
       example.clear();
