@@ -5,6 +5,8 @@
     run["S"].value, run["S"].error, run["S"].steady
     lag = run["/msd/total_mm2"].axis
     for frame in run.frames(every="0.1 s"): print(frame.time, frame.order)
+
+docs/python.md is the guide.
 """
 from __future__ import annotations
 

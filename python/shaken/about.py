@@ -20,7 +20,7 @@ class FieldAbout:
     velocity:       (n, n, 2) mean velocity in the laboratory, by its parts along x and y [mm/s]
     velocity_error: (n, n, 2) its standard error, as if what was seen at different times were independent [mm/s]
     angle:          (n, n) axis of the director against x [rad], in (-pi/2, pi/2]
-    order:          (n, n) |<exp 2i angle>|
+    order:          (n, n) `|<exp 2i angle>|`
     speed:          mean velocity of the tagged rods along x [mm/s]
     n_seen:         tagged rods times pairs of frames
     """

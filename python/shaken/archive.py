@@ -56,10 +56,7 @@ class Snapshot:
 
 class ArchivedRun(Run):
     """A run from an archive: as any other, but without frames. Of arrays with very many points means are kept, and of
-    the maps of `pairs` one quadrant, the mean of the four.
-
-    snapshots: of the end; and, where defects were counted, of the recorded instant with the most
-    """
+    the maps of `pairs` one quadrant, the mean of the four."""
 
     def __init__(self, header: dict[str, Any], data: bytes, where: str) -> None:
         places = {entry["name"]: entry for entry in header["arrays"]}
@@ -87,6 +84,8 @@ class ArchivedRun(Run):
 
     @property
     def snapshots(self) -> list[Snapshot]:
+        """The rods at the end; and, where defects were counted, at the recorded instant with the most. Empty where the
+        run recorded no frames."""
         found = []
         for entry in self._header["snapshots"]:
             n, at = entry["n"], entry["at"]

@@ -49,7 +49,17 @@ class LiveFrame:
 
 @dataclass(frozen=True)
 class LiveObservables:
-    """Numbers of a running job at an instant, as proto/observables_t.lcm has them and in its units."""
+    """Numbers of a running job at an instant, as proto/observables_t.lcm has them. Names end in units; without one are
+
+    job_id:     of the run
+    time:       simulated time [s]; `time_total` is that at which the run ends
+    order:      S of the first species; `order_running_mean` is its mean over the later half of the time so far
+    director:   its angle [rad], in [-pi/2, pi/2)
+    rms_n_z:    root mean square of the vertical component of the axes
+    collisions: (`collisions_rod_rod`, ...) impulses since the start, as is `max_overlap_mm`
+    sim_rate:   simulated seconds per wall second
+    eta_s:      wall seconds to the end; negative where unknown
+    """
 
     job_id: str
     time: float

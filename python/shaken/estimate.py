@@ -171,6 +171,7 @@ def replica_mean(estimates: Iterable[Estimate]) -> Estimate:
     """Mean over the replicas of one state point; each run counts the same. Those without a value are left out.
 
     Its standard error is
+
     - where all own errors are known, the larger one of what they give, sqrt(sum error^2) / n, and of the scatter of
       the runs: two runs that happen to agree are no better than their own errors (the scale factor, never below 1, of
       the Particle Data Group, *Review of Particle Physics* (2022), section 5.2.2);

@@ -56,7 +56,7 @@ class Frame:
 
     @property
     def order(self) -> float:
-        """S = |<exp 2i theta>| of the first species, in the plane; NaN of spheres."""
+        """S = `|<exp 2i theta>|` of the first species, in the plane; NaN of spheres."""
         return float(abs(self._mean_axis))
 
     @property

@@ -74,6 +74,7 @@ class Array(np.ndarray):
         return found
 
     def copy(self, order: Any = "C") -> "Array":
+        """A copy with the same name, unit, axis and error; `order` as of numpy."""
         made = super().copy(order)
         made.name, made.unit, made.axis, made.error = self.name, self.unit, self.axis, self.error
         return made
@@ -82,6 +83,7 @@ class Array(np.ndarray):
         return self.copy()
 
     def sort(self, *arguments: Any, **options: Any) -> None:
+        """Sorts in place, as numpy does; axis and error are None then."""
         super().sort(*arguments, **options)
         self.axis = self.error = None
 
@@ -196,7 +198,6 @@ def _estimate(of: Mapping[str, Any], unit: str) -> Estimate:
 class Run:
     """A run, whether in a directory of its own or in an archive.
 
-    id:          what names it, 16 hexadecimal digits
     scene:       the resolved scene, as scene.json has it (docs/scene.md)
     parameters:  the swept keys as they were asked for, {"rods.area_fraction": 0.75}, where that is known
     summary:     summary.json, as it is (docs/files.md)
@@ -218,6 +219,7 @@ class Run:
 
     @property
     def id(self) -> str:
+        """What names it, 16 hexadecimal digits; "" where its summary does not say."""
         return str(self.summary.get("run_id") or "")
 
     @property
@@ -255,6 +257,7 @@ class Run:
 
     @property
     def trajectory(self) -> Trajectory:
+        """The recorded frames. Raises ShakenError where there are none, as of a run from an archive."""
         raise ShakenError(f"run {self.id} has no frames: it comes from an archive, which keeps the last state only")
 
     def _repr_html_(self) -> str:
@@ -316,6 +319,8 @@ class DirectoryRun(Run):
 
     @functools.cached_property
     def trajectory(self) -> Trajectory:
+        """The frames of trajectory.h5. Raises ShakenError where the scene has no `trajectory`, or the run has not
+        ended."""
         path = self.directory / "trajectory.h5"
         if not path.exists():
             raise ShakenError(f"{self.directory} has no trajectory.h5: " + (

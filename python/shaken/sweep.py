@@ -59,6 +59,7 @@ class Point:
 
     @property
     def label(self) -> str:
+        """The parameters in one line, "rods.area_fraction = 0.75, rods.length = 4.5"."""
         return ", ".join(f"{path} = {value}" for path, value in self.parameters.items())
 
     def _repr_html_(self) -> str:
