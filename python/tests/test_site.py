@@ -43,3 +43,11 @@ def test_every_name_of_the_catalogue_is_in_the_index(site):
              for name in catalogue[section]]
     assert set(names) <= set(re.findall(r">([^<>]+) \(", index))
     assert len(re.findall(r'href="docs/(?:scene|pictures|observables|effects)\.html#', index)) == len(names)
+
+
+def test_the_picture_of_the_architecture_is_that_of_its_script_and_names_folders():
+    script = ROOT / "docs/site/data_flow.py"
+    picture = (ROOT / "docs/images/data-flow.svg").read_text()
+    assert picture == subprocess.run(["/usr/bin/python3", "-B", script], capture_output=True, text=True).stdout
+    folders = re.findall(r"(?<![\w/])([a-z/]+)/(?=[ <)])", picture)
+    assert len(folders) >= 11 and all((ROOT / folder).is_dir() for folder in folders), folders
