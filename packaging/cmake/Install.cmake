@@ -1,6 +1,7 @@
 # What `cmake --install` puts where, and the Debian packages that `./dev package` makes of it by CPack. Component
 # "programs": the programs, their man pages, completions and scenes. Component "python": the Python package, which draws
 # their plots. Component "libraries": the simulator and the observables, for programs of one's own (find_package(shaken)).
+# Component "docs": the site of the pages, if `./dev docs` has made it there.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -33,6 +34,8 @@ if(NOT SHAKEN_ONLY_SIM)
   install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs RENAME copyright)
   install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
   install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs PATTERN archive EXCLUDE)
+  install(DIRECTORY ${CMAKE_BINARY_DIR}/site/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/html COMPONENT docs OPTIONAL
+    PATTERN .doctrees EXCLUDE PATTERN .buildinfo EXCLUDE)
 
   # man pages and completions are made by the programs themselves, so only where they can run and help2man is there
   set(SHAKEN_TEXTS ${CMAKE_BINARY_DIR}/texts)
@@ -70,7 +73,7 @@ if(NOT SHAKEN_ONLY_SIM)
   set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_SOURCE_DIR}/packaging/cmake/whole_package.cmake)
   set(CPACK_PACKAGE_CONTACT "The Shaken developers <shaken@localhost>")
   set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
-  set(CPACK_COMPONENTS_ALL programs libraries python)
+  set(CPACK_COMPONENTS_ALL programs libraries python docs)
   set(CPACK_DEB_COMPONENT_INSTALL ON)
   set(CPACK_STRIP_FILES ON)
   set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -79,6 +82,7 @@ if(NOT SHAKEN_ONLY_SIM)
   set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SHLIBDEPS ON)
   set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS "ffmpeg")
   set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS "python3-shaken, fonts-dejavu-core, libjs-chart.js")
+  set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SUGGESTS "shaken-doc")
   set(CPACK_COMPONENT_PROGRAMS_DESCRIPTION
     "Simulates rods between two vibrating plates in three dimensions, every collision\nresolved by an impulse: a daemon that runs sweeps, a command line, films and\npictures, live state over LCM.")
   set(CPACK_DEBIAN_LIBRARIES_PACKAGE_NAME libshaken-dev)
@@ -94,5 +98,10 @@ if(NOT SHAKEN_ONLY_SIM)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-pandas")
   set(CPACK_COMPONENT_PYTHON_DESCRIPTION
     "Results of Shaken in Python: runs with their errors, sweeps, recorded frames, live\nstate of running jobs, plots, and the figures of the paper.")
+  set(CPACK_DEBIAN_DOCS_PACKAGE_NAME shaken-doc)
+  set(CPACK_DEBIAN_DOCS_PACKAGE_SECTION doc)
+  set(CPACK_DEBIAN_DOCS_PACKAGE_ARCHITECTURE all)
+  set(CPACK_COMPONENT_DOCS_DESCRIPTION
+    "The pages of Shaken as a site to search, with every key of a scene, observable and\nfunction of the Python package: /usr/share/doc/shaken/html/index.html.")
   include(CPack)
 endif()
