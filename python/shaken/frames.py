@@ -106,6 +106,8 @@ class Trajectory:
 
     times:   (frames,) [s]
     species: (n,) see Frame
+
+    Raises ShakenError where the file cannot be read.
     """
 
     def __init__(self, path: str | Path) -> None:
@@ -160,7 +162,8 @@ class Trajectory:
                      self._spheres, self._periodic, functools.partial(picture, self.path, k))
 
     def frames(self, every: float | str | None = None) -> Iterator[Frame]:
-        """The frames one by one. With `every` [s], those nearest to its multiples, each once."""
+        """The frames one by one. With `every` ([s], or "0.1 s"), those nearest to its multiples, each once. Raises
+        ShakenError where `every` is not above 0."""
         if every is None:
             yield from (self[k] for k in range(len(self)))
             return

@@ -105,7 +105,8 @@ def error_name(name: str) -> str:
 
 
 class Arrays(Mapping[str, Array]):
-    """The curves and maps of a run by their names, "/g2/g2" or "g2/g2"; each is read when it is first asked for."""
+    """The curves and maps of a run by their names, "/g2/g2" or "g2/g2"; each is read when it is first asked for. Raises
+    UnknownName for others."""
 
     def __init__(self, names: list[str], read: Any) -> None:
         self._names = {name: None for name in names}
@@ -152,7 +153,8 @@ class Arrays(Mapping[str, Array]):
 
 
 class Numbers(Mapping[str, Estimate]):
-    """The numbers of a run by their names, as in summary.json: "S" (the mean order), "diffusion_mm2_s", ..."""
+    """The numbers of a run by their names, as in summary.json: "S" (the mean order), "diffusion_mm2_s", ...
+    Raises UnknownName for others."""
 
     def __init__(self, numbers: dict[str, Estimate]) -> None:
         self._numbers = numbers
@@ -281,7 +283,8 @@ def _present_state(directory: Path) -> str:
 
 
 class DirectoryRun(Run):
-    """A run in its directory. Nothing but scene.json and summary.json is read until it is asked for."""
+    """A run in its directory. Nothing but scene.json and summary.json is read until it is asked for. Raises ShakenError
+    where the directory is none of a run, or the run has not ended."""
 
     def __init__(self, directory: str | Path, parameters: Mapping[str, Any] | None = None) -> None:
         self.directory = Path(directory)

@@ -203,7 +203,8 @@ class Sweep:
 
     def compared(self, other: "Sweep", name: str = "S") -> list[tuple[dict[str, Any], Estimate, Estimate, float]]:
         """The points that both sweeps have: (parameters, this, other, difference in standard errors). Raises
-        ShakenError where one of them has a point of several versions; `where(version=...)` chooses."""
+        ShakenError where one of them has a point of several versions (`where(version=...)` chooses), and UnknownName
+        for a number that no point has."""
         measured = dict.fromkeys(known for point in (*self, *other) for known in point.names())
         if name not in measured:
             raise UnknownName(f"'{name}' was measured at no point", name, measured)
