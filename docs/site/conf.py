@@ -16,6 +16,7 @@ exclude_patterns = ["build", ".*"]
 root_doc = "docs/index"
 templates_path = ["."]
 html_theme = "furo"
+html_static_path = html_css_files = ["wide.css"]
 html_additional_pages = {"index": "front.html"}
 html_copy_source = html_show_copyright = False
 smartquotes = False  # a text in quotes is one that a user writes
@@ -66,9 +67,11 @@ def index_rows(app, document):
 
 
 def mark_up(app, what, name, obj, options, lines):
-    """Rewrites a docstring in the style of this project: "name:  meaning" is a definition, an indented block code."""
+    """Rewrites a docstring in the style of this project: "name:  meaning" is a definition, an indented block code, and a
+    page a link."""
     text = re.sub(r"(?m)^((\w+(?:, \w+)*): +)(?=\S)", lambda found: f"`{found[2]}`\n{' ' * len(found[1])}",
                   "\n".join(lines))
+    text = re.sub(r"\bdocs/(\w+)\.md", r":doc:`docs/\1.md </docs/\1>`", text)
     lines[:] = re.sub(r"\n\n(?=    )", "\n\n::\n\n", text).split("\n")
 
 
