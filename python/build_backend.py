@@ -34,7 +34,7 @@ def package() -> dict[str, bytes]:
 
 def write_wheel(folder: str | Path, content: Mapping[str, bytes], tag: str = "py3-none-any",
                 executable: tuple[str, ...] = ()) -> str:
-    """A wheel in that folder, of the same bytes each time; returns its name. `executable`: what is run, of `content`."""
+    """A wheel in that folder, of the same bytes each time; returns its name. `executable`: what of it is run."""
     name = f"{PROJECT['name']}-{PROJECT['version']}"
     info = f"{name}.dist-info"
     is_pure = str(not executable).lower()

@@ -13,8 +13,8 @@ def main() -> None:
     name = Path(sys.argv[0]).name
     program = programs_folder() / ("shaken" if name == "__main__.py" else name)
     if not program.exists():
-        sys.exit(f"shaken: the programs are not here: there is no {program}. `./dev build programs` builds them, and the "
-                 "Debian package and the wheel have them")
+        sys.exit(f"shaken: the programs are not here: there is no {program}. `./dev build programs` builds them, and "
+                 "the Debian package and the wheel have them")
     os.environ.setdefault("SHAKEN_PYTHON", sys.executable)
     os.execv(program, [str(program), *sys.argv[1:]])
 

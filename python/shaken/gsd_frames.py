@@ -13,8 +13,8 @@ from .units import seconds
 
 def gsd_frames(path: str | Path, *, step: float | str, scale: float = 1.0, axis: Sequence[float] = (0, 0, 1),
                kind: str | None = None) -> Iterator[Frame]:
-    """The frames of a GSD file (Glaser et al., *Comput. Phys. Commun.* **192**, 97 (2015), as HOOMD-blue writes it), for
-    `shaken.measure`: places are counted from the corner of the box, and z from the lower face.
+    """The frames of a GSD file, as HOOMD-blue writes it (Glaser et al., *Comput. Phys. Commun.* **192**, 97 (2015)).
+    Places are counted from the corner of the box, and z from the lower face, as `shaken.measure` has them.
 
     step:  what a time step of the other program lasts [s], or with its unit: times are `configuration.step` times it
     scale: mm in one unit of its lengths; velocities are scaled alike

@@ -1,5 +1,5 @@
-"""Runs in one file, to be handed on: the files of their directories as they are, in a tar that xz compresses. Equal runs
-give equal files."""
+"""Runs in one file, to be handed on: the files of their directories as they are, in a tar that xz compresses. Equal
+runs give equal files."""
 from __future__ import annotations
 
 import io
@@ -44,8 +44,8 @@ def pack(directories: Iterable[str | Path], file: str | Path, frames: bool = Fal
 
 
 def unpack(file: str | Path, folder: str | Path) -> list[Path]:
-    """Puts the runs of a file of `pack` into a folder, a directory for each, and returns these. What is there already is
-    left as it is. Raises ShakenError where the file is no such file or is damaged, and where a directory of the same
+    """Puts the runs of a file of `pack` into a folder, a directory for each, and returns these. What is there already
+    is left as it is. Raises ShakenError where the file is no such file or is damaged, and where a directory of the same
     name holds other results; directories of runs that came before it are whole."""
     found: dict[str, Path] = {}
     try:

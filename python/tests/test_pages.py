@@ -6,8 +6,9 @@ from shaken.archive import archived_runs
 from shaken.run import Numbers
 from shaken.study.evidence import LENGTH, PACKING, Evidence, key_of
 from shaken.study.figures import FIGURES
-from shaken.study.next_runs import DECIDING
+from shaken.study.next_runs import DECIDING, to_do
 from shaken.study.report import PAGES, content, index, page_of, write_report
+from shaken.study.rules import NO_DATA, OPEN
 from shaken.study.statements import STATEMENTS, judged
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
@@ -106,3 +107,10 @@ def test_archived_runs_that_are_named_as_deciding_a_statement_are_read_by_it():
             named = [run for run in runs if sets & {sweep.rpartition("-")[0] for sweep in run.sweeps}
                      and (key_of(run, LENGTH), key_of(run, PACKING)) == (batch.length, batch.packing)]
             assert not named or any(id(run.numbers) in read for run in named), f"{statement}: {batch} is never read"
+
+
+def test_what_would_decide_an_open_statement_is_not_done_already():
+    evidence = Evidence(archived_runs(DOCS / "archive"))
+    done = [verdict.statement.id for verdict in judged(evidence)
+            if verdict.finding.verdict in (OPEN, NO_DATA) and not to_do(evidence, verdict.statement.id)]
+    assert not done, "their runs are in the archive, and have not decided: say what would"
