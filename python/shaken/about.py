@@ -2,9 +2,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Iterable
+from typing import Any, Iterable
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .errors import ShakenError
 from .frames import Frame
@@ -25,13 +26,13 @@ class FieldAbout:
     n_seen:         tagged rods times pairs of frames
     """
 
-    x: np.ndarray
-    y: np.ndarray
-    density: np.ndarray
-    velocity: np.ndarray
-    velocity_error: np.ndarray
-    angle: np.ndarray
-    order: np.ndarray
+    x: NDArray[Any]
+    y: NDArray[Any]
+    density: NDArray[Any]
+    velocity: NDArray[Any]
+    velocity_error: NDArray[Any]
+    angle: NDArray[Any]
+    order: NDArray[Any]
     speed: float
     n_seen: int
 
@@ -89,6 +90,6 @@ def field_about(frames: Iterable[Frame], tagged: int = 1, around: int = 0, reach
                       np.angle(axes) / 2 + 0 * count, abs(axes) / count, float(np.mean(way)), n_seen)
 
 
-def _path(frame: Frame) -> np.ndarray:
+def _path(frame: Frame) -> NDArray[Any]:
     """(n, 2) places without jumps at the border of the box [mm]."""
     return (frame.positions + frame.box * frame.images)[:, :2]

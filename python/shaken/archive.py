@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any, Callable, Iterable, Iterator
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .errors import ShakenError
 from .frames import Frame
@@ -49,9 +50,9 @@ class Snapshot:
     """
 
     time: float
-    positions: np.ndarray
-    theta: np.ndarray
-    box: np.ndarray
+    positions: NDArray[Any]
+    theta: NDArray[Any]
+    box: NDArray[Any]
 
 
 class ArchivedRun(Run):
@@ -71,7 +72,7 @@ class ArchivedRun(Run):
             raise ValueError("sweeps without names")
         float(header["summary"]["sim_seconds"])
 
-        def read(name: str) -> tuple[np.ndarray, str]:
+        def read(name: str) -> tuple[NDArray[Any], str]:
             entry = places[name]
             values = np.frombuffer(data, "<f4", entry["n"], entry["at"])
             if name in ("/pairs/g", "/pairs/g2"):
@@ -104,7 +105,7 @@ def _check_place(entry: dict[str, Any], width: int, data: bytes) -> None:
         raise ValueError(f"{n} numbers at {at}, where there are {len(data)} bytes")
 
 
-def folded(map_: np.ndarray) -> np.ndarray:
+def folded(map_: NDArray[Any]) -> NDArray[Any]:
     """The quadrant across >= 0, along >= 0 of a map of an odd number of bins each way: the mean of all four, which
     differ by chance only, since rods know neither head nor tail nor hand."""
     mean = (map_ + map_[::-1] + map_[:, ::-1] + map_[::-1, ::-1]) / 4
@@ -112,7 +113,7 @@ def folded(map_: np.ndarray) -> np.ndarray:
     return mean[middle:, middle:]
 
 
-def unfolded(values: np.ndarray) -> np.ndarray:
+def unfolded(values: NDArray[Any]) -> NDArray[Any]:
     """The whole map of a quadrant."""
     half = int(round(np.sqrt(len(values))))
     quadrant = values.reshape(half, half).astype(float)
@@ -143,10 +144,10 @@ def archive_file(run: DirectoryRun, sweeps: Iterable[str] = ()) -> bytes:
 
 
 #: Time, places and angles as whole numbers, sides of the box, bytes of an angle.
-_Small = tuple[float, np.ndarray, np.ndarray, np.ndarray, int]
+_Small = tuple[float, NDArray[Any], NDArray[Any], NDArray[Any], int]
 
 
-def _packed(run: Run, sweeps: Iterable[str], arrays: dict[str, tuple[np.ndarray, str | None]],
+def _packed(run: Run, sweeps: Iterable[str], arrays: dict[str, tuple[NDArray[Any], str | None]],
             snapshots: list[_Small]) -> bytes:
     data = bytearray()
     header: dict[str, Any] = {"format": _FORMAT, "sweeps": sorted(set(sweeps)), "parameters": run.parameters,
@@ -163,7 +164,7 @@ def _packed(run: Run, sweeps: Iterable[str], arrays: dict[str, tuple[np.ndarray,
     return lzma.compress(text + b"\n" + bytes(data), preset=9 | lzma.PRESET_EXTREME)
 
 
-def _rounded(values: np.ndarray, bits: int) -> np.ndarray:
+def _rounded(values: NDArray[Any], bits: int) -> NDArray[Any]:
     """float32 with so many bits of the mantissa, rounded to nearest: what is left out is noise that does not compress.
     """
     dropped = 23 - bits
@@ -185,8 +186,8 @@ def _kept_summary(summary: dict[str, Any]) -> dict[str, Any]:
     return short({key: value for key, value in summary.items() if key not in ("why_null", "files")})
 
 
-def _kept_arrays(run: Run) -> dict[str, tuple[np.ndarray, str | None]]:
-    kept: dict[str, tuple[np.ndarray, str | None]] = {}
+def _kept_arrays(run: Run) -> dict[str, tuple[NDArray[Any], str | None]]:
+    kept: dict[str, tuple[NDArray[Any], str | None]] = {}
     for name, array in run.arrays.items():
         values = np.asarray(array)
         if name.startswith("/rods/trace/"):
@@ -210,7 +211,7 @@ def _group(name: str) -> str:
     return name.rpartition("/")[0]
 
 
-def _thinned(values: np.ndarray, most: int) -> np.ndarray:
+def _thinned(values: NDArray[Any], most: int) -> NDArray[Any]:
     """Means of neighbours, at most so many; the first value, that of the start, stays as it is."""
     each = -(-(len(values) - 1) // (most - 1))
     if each <= 1:
@@ -219,7 +220,7 @@ def _thinned(values: np.ndarray, most: int) -> np.ndarray:
     return np.concatenate([values[:1], values[1:n + 1].reshape(-1, each).mean(axis=1)])
 
 
-def _trace(name: str, values: np.ndarray, time: np.ndarray) -> np.ndarray | None:
+def _trace(name: str, values: NDArray[Any], time: NDArray[Any]) -> NDArray[Any] | None:
     """What is kept of the traces of single rods: n_z of the first for two seconds, the ways of all."""
     if name.endswith("/theta_rad"):
         return None

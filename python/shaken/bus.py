@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Any, Callable, Iterator
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .errors import ShakenError
 
@@ -42,9 +43,9 @@ class LiveFrame:
     side_y: float
     order: float
     director: float
-    positions: np.ndarray
-    theta: np.ndarray
-    n_z: np.ndarray
+    positions: NDArray[Any]
+    theta: NDArray[Any]
+    n_z: NDArray[Any]
 
 
 @dataclass(frozen=True)
@@ -101,7 +102,7 @@ class _Payload:
         self._at += length
         return found
 
-    def array(self, n: int, of: str) -> np.ndarray:
+    def array(self, n: int, of: str) -> NDArray[Any]:
         found = np.frombuffer(self._data, of, n, self._at)
         self._at += found.nbytes
         return found
@@ -135,7 +136,7 @@ class _FrameParts:
 
     def __init__(self, job: str = "") -> None:
         self._job = job
-        self._parts: dict[str, tuple[int, dict[int, np.ndarray]]] = {}  # that with the newest message last
+        self._parts: dict[str, tuple[int, dict[int, NDArray[Any]]]] = {}  # that with the newest message last
 
     def add(self, data: bytes) -> LiveFrame | None:
         message = _Payload(data, _FRAME)

@@ -5,6 +5,7 @@ import math
 from typing import Any, Mapping, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .errors import ShakenError
 
@@ -40,7 +41,7 @@ def entries(n: int, intervals: Mapping[str, Sequence[Any]], method: str = "sobol
             for point in shares]
 
 
-def _shares(n: int, dimensions: int, method: str, seed: int) -> np.ndarray:
+def _shares(n: int, dimensions: int, method: str, seed: int) -> NDArray[Any]:
     """Points in the unit cube (n, dimensions)."""
     from scipy.stats import qmc
     if method == "random":

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any, Callable, Iterator
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .errors import ShakenError
 from .hdf5 import open_file
@@ -34,18 +35,18 @@ class Frame:
 
     time: float
     tick: int
-    positions: np.ndarray
-    directors: np.ndarray
-    velocities: np.ndarray
-    images: np.ndarray
-    species: np.ndarray
-    box: np.ndarray
+    positions: NDArray[Any]
+    directors: NDArray[Any]
+    velocities: NDArray[Any]
+    images: NDArray[Any]
+    species: NDArray[Any]
+    box: NDArray[Any]
     spheres: tuple[int, ...] = ()
     periodic: tuple[bool, bool] = (True, True)
     draw: Callable[[], bytes | None] | None = field(default=None, compare=False)
 
     @property
-    def theta(self) -> np.ndarray:
+    def theta(self) -> NDArray[Any]:
         """(n,) angle of each rod in the plane [rad], in (-pi, pi]."""
         return np.arctan2(self.directors[:, 1], self.directors[:, 0])
 
@@ -71,7 +72,7 @@ class Frame:
     def _repr_png_(self) -> bytes | None:
         return self.draw() if self.draw else None
 
-    def to_freud(self) -> tuple[Any, np.ndarray, np.ndarray]:
+    def to_freud(self) -> tuple[Any, NDArray[Any], NDArray[Any]]:
         """What freud takes: (box, points, orientations).
 
         box:          freud.box.Box of the plane, Lx x Ly, periodic where no side walls stand; a tuple (Lx, Ly) where
@@ -95,7 +96,7 @@ class Frame:
         return box, points, orientations
 
 
-def directors_of(quaternions: np.ndarray) -> np.ndarray:
+def directors_of(quaternions: NDArray[Any]) -> NDArray[Any]:
     """(..., 3) axes of rods from their quaternions (..., 4), (w, x, y, z), which turn the z axis into them."""
     w, x, y, z = np.moveaxis(np.asarray(quaternions, dtype=float), -1, 0)
     return np.stack([2 * (x * z + w * y), 2 * (y * z - w * x), w**2 - x**2 - y**2 + z**2], axis=-1)
@@ -130,7 +131,7 @@ class Trajectory:
     def _parameters(self) -> Any:
         return self._file["parameters"]
 
-    def _beads(self) -> list[tuple[np.ndarray, np.ndarray]]:
+    def _beads(self) -> list[tuple[NDArray[Any], NDArray[Any]]]:
         """Offsets and radii of the beads of each species [mm]; of each shape where rods of one differ in size."""
         name, groups = "shape" if "shape" in self._rods else "species", [self._parameters]
         while f"{name}_{len(groups) + 1}" in self._parameters:
@@ -138,7 +139,7 @@ class Trajectory:
         return [(group["bead_offset_mm"][()], group["bead_radius_mm"][()]) for group in groups]
 
     @property
-    def lengths(self) -> np.ndarray:
+    def lengths(self) -> NDArray[Any]:
         """(n,) of the rods, tip to tip [mm]."""
         lengths = np.array([(offset + radius).max() - (offset - radius).min() for offset, radius in self._beads()])
         return lengths[self._rods["shape"][()] if "shape" in self._rods else self.species]

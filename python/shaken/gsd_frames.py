@@ -2,9 +2,10 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Iterator, Sequence
+from typing import Any, Iterator, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .errors import ShakenError
 from .frames import Frame
@@ -48,7 +49,7 @@ def gsd_frames(path: str | Path, *, step: float | str, scale: float = 1.0, axis:
         raise ShakenError(f"{path} is damaged, or no file of GSD: {error}") from None
 
 
-def _turned(quaternions: np.ndarray, axis: np.ndarray) -> np.ndarray:
+def _turned(quaternions: NDArray[Any], axis: NDArray[Any]) -> NDArray[Any]:
     """(n, 3) unit vectors: `axis` turned by quaternions (n, 4), (w, x, y, z)."""
     w, vector = quaternions[:, :1], quaternions[:, 1:]
     twice = 2 * np.cross(vector, axis)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any, Iterable, Mapping, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .errors import ShakenError
 from .frames import Frame
@@ -60,10 +61,10 @@ def measure(frames: Iterable[Any], *, interval: float | str | None = None, scene
 class _Rods:
     """The arrays of a frame, of three columns each; velocities, images and time are None where it has none."""
 
-    positions: np.ndarray
-    directors: np.ndarray
-    velocities: np.ndarray | None
-    images: np.ndarray | None
+    positions: NDArray[Any]
+    directors: NDArray[Any]
+    velocities: NDArray[Any] | None
+    images: NDArray[Any] | None
     time: float | None
     has_tilts: bool
 
@@ -92,7 +93,7 @@ class _Rods:
         return self.positions, self.directors, velocities, self.images if is_followed else None
 
 
-def _columns(array: np.ndarray, third: float) -> np.ndarray:
+def _columns(array: NDArray[Any], third: float) -> NDArray[Any]:
     """(n, 3) of (n, 2) or (n, 3)."""
     if array.ndim != 2 or array.shape[1] not in (2, 3):
         raise ShakenError(f"an array of rods has the shape (n, 2) or (n, 3), not {array.shape}")

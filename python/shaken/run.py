@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, Iterator, Mapping
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .catalogue import ARRAYS
 from .errors import ShakenError, UnknownName
@@ -32,7 +33,7 @@ def axes_of(array: str) -> list[str]:
     return ARRAYS.get(array, {}).get("axes", [])
 
 
-class Array(np.ndarray):
+class Array(np.ndarray[Any, Any]):
     """Numbers of an observable: a numpy array that knows what it is, and so do its slices, copies and pickles. What is
     computed from it is an Array whose unit is not known, or a number.
 
@@ -91,7 +92,7 @@ class Array(np.ndarray):
         return _array_of, (np.asarray(self), self.name, self.unit, self.axis, self.error)
 
 
-def _array_of(values: np.ndarray, name: str, unit: str | None, axis: Any, error: Any) -> Array:
+def _array_of(values: NDArray[Any], name: str, unit: str | None, axis: Any, error: Any) -> Array:
     array = Array(values, name, unit)
     array.axis, array.error = axis, error
     return array
@@ -314,7 +315,7 @@ class DirectoryRun(Run):
             file.visititems(lambda name, item: names.append("/" + name) if isinstance(item, h5py.Dataset) else None)
         return names
 
-    def _read(self, name: str) -> tuple[np.ndarray, str]:
+    def _read(self, name: str) -> tuple[NDArray[Any], str]:
         with self._file() as file:
             data = file[name]
             unit = data.attrs.get("unit", "1")

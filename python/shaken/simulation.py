@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, Mapping, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .errors import ShakenError
 from .frames import Frame
@@ -140,22 +141,22 @@ class Simulation:
             return picture(Path(folder, "trajectory.h5"), 0)
 
     @property
-    def positions(self) -> np.ndarray:
+    def positions(self) -> NDArray[Any]:
         """(n, 3) centres of mass [mm] (Frame.positions)."""
         return self.snapshot.positions
 
     @property
-    def directors(self) -> np.ndarray:
+    def directors(self) -> NDArray[Any]:
         """(n, 3) unit vectors along the rods, from tail to head."""
         return self.snapshot.directors
 
     @property
-    def velocities(self) -> np.ndarray:
+    def velocities(self) -> NDArray[Any]:
         """(n, 3) of the centres [mm/s]."""
         return self.snapshot.velocities
 
     @property
-    def angular_velocities(self) -> np.ndarray:
+    def angular_velocities(self) -> NDArray[Any]:
         """(n, 3) [rad/s]."""
         self.snapshot
         return self._spins
@@ -204,7 +205,7 @@ class Simulation:
         return f"<simulation at {self.time:g} s: {len(self.positions)} rods, S = {self.order:.3g}>"
 
 
-def measured_run(scene: dict[str, Any], summary: str, arrays: Mapping[str, np.ndarray], where: str) -> Run:
+def measured_run(scene: dict[str, Any], summary: str, arrays: Mapping[str, NDArray[Any]], where: str) -> Run:
     """A run whose numbers and curves are in memory."""
     read = Arrays(list(arrays), lambda name: (arrays[name], unit_of(name)))
     return Run(scene, json.loads(summary), read, None, where)

@@ -9,7 +9,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from typing import Any
+
 import numpy as np
+from numpy.typing import NDArray
 
 from ..estimate import Estimate, student_factor
 
@@ -36,21 +39,21 @@ class Diffusion:
     memory: float
 
 
-def _line(lag: np.ndarray, msad: np.ndarray) -> np.ndarray:
+def _line(lag: NDArray[Any], msad: NDArray[Any]) -> NDArray[Any]:
     """(intercept, slope) of each row of `msad` (runs, lags). The error of a MSAD is nearly a fixed part of the lag."""
     design = np.stack([np.ones_like(lag), lag])
     weighted = design / lag**2
     return np.linalg.solve(weighted @ design.T, weighted @ msad.T).T
 
 
-def _windows(lag: np.ndarray, longest: float) -> list[np.ndarray]:
+def _windows(lag: NDArray[Any], longest: float) -> list[NDArray[Any]]:
     """The numbers of the lags in each window that ends by `longest`."""
     found = [np.flatnonzero((lag >= first * (1 - 1e-9)) & (lag <= OCTAVES * first * (1 + 1e-9))) for first in lag
              if OCTAVES * first <= longest * (1 + 1e-9)]
     return [window for window in found if window.size >= 3]
 
 
-def diffusion(lag: np.ndarray, msad: np.ndarray, longest: float) -> Diffusion | None:
+def diffusion(lag: NDArray[Any], msad: NDArray[Any], longest: float) -> Diffusion | None:
     """D_r of independent runs, at least two: `lag` (lags) [s], `msad` (runs, lags) [rad^2]. None where no window of
     lags up to `longest` [s] is diffusive. The window is the one at the shortest lags whose line meets zero at a quarter
     of its shortest lag or before (MEMORIES), and with whose slope all windows at longer lags agree, up to lags at least
@@ -59,10 +62,10 @@ def diffusion(lag: np.ndarray, msad: np.ndarray, longest: float) -> Diffusion | 
     slopes = [_line(lag[window], msad[:, window])[:, 1] for window in windows]
     n = len(msad)
 
-    def error(values: np.ndarray) -> float:
+    def error(values: NDArray[Any]) -> float:
         return student_factor(n) * float(np.std(values, ddof=1)) / math.sqrt(n)
 
-    def agrees(slope: np.ndarray, later: np.ndarray) -> bool:
+    def agrees(slope: NDArray[Any], later: NDArray[Any]) -> bool:
         apart = later - slope
         return abs(apart.mean()) <= max(AGREE * slope.mean(), ERRORS * error(apart))
 
@@ -79,7 +82,7 @@ def diffusion(lag: np.ndarray, msad: np.ndarray, longest: float) -> Diffusion | 
     return None
 
 
-def exponent(lag: np.ndarray, msad: np.ndarray, longest: float) -> float:
+def exponent(lag: NDArray[Any], msad: NDArray[Any], longest: float) -> float:
     """d ln MSAD / d ln t over the last two octaves up to `longest` [s]: 2 of rods that keep turning, 1 of diffusion."""
     mean = msad.mean(axis=0)
     shown = (lag <= longest * (1 + 1e-9)) & (lag * OCTAVES >= longest) & (mean > 0)

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any, Callable, Mapping
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..system import output_of, scratch_folder
 from ..errors import ShakenError
@@ -170,7 +171,7 @@ class Measuring:
                 return level
             length = _longer(level, precision, longest)
 
-    def _curves(self, noise: float, length: float) -> tuple[np.ndarray, np.ndarray, int]:
+    def _curves(self, noise: float, length: float) -> tuple[NDArray[Any], NDArray[Any], int]:
         """Lags (lags) [s] and MSAD (runs, lags) [rad^2] of all runs, and the impulses between rods."""
         while True:
             lag, msad, meetings, large_turns = self._run_all(noise, length)
@@ -181,7 +182,7 @@ class Measuring:
                             f"in {self.every:.2g} s, which is too fast to follow: ask for less D_r")
             self.every /= 2
 
-    def _run_all(self, noise: float, length: float) -> tuple[np.ndarray, np.ndarray, int, float]:
+    def _run_all(self, noise: float, length: float) -> tuple[NDArray[Any], NDArray[Any], int, float]:
         seconds = 1.25 * length * RUNS * self.rods
         takes = f", about {seconds / self._speed:.0f} s" if math.isfinite(self._speed) else ""
         self.say(f"{self.species.name}: noise {noise:.4g} rad/mm, {RUNS} runs of {1.25 * length:.3g} s{takes} ...")
@@ -194,7 +195,8 @@ class Measuring:
         return (runs[0][0][:n], np.array([msad[:n] for _, msad, *_ in runs]), sum(run[2] for run in runs),
                 sum(run[3] for run in runs))
 
-    def _run(self, folder: Path, noise: float, length: float, run: int) -> tuple[np.ndarray, np.ndarray, int, float]:
+    def _run(self, folder: Path, noise: float, length: float,
+             run: int) -> tuple[NDArray[Any], NDArray[Any], int, float]:
         scene = scene_of(self.species, noise, self.area_fraction, self.rods, run, length, self.every)
         file, out = folder / f"{run}.json", folder / str(run)
         file.write_text(json.dumps(scene))

@@ -6,6 +6,7 @@ import math
 from typing import Any, Mapping, NamedTuple, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..text import Column, table
 
@@ -26,7 +27,7 @@ def number(row: Any, path: str) -> float:
     return float(row) if isinstance(row, (int, float)) and not isinstance(row, bool) else math.nan
 
 
-def column(rows: Sequence[Row], path: str, factor: float = 1.0) -> np.ndarray:
+def column(rows: Sequence[Row], path: str, factor: float = 1.0) -> NDArray[Any]:
     return factor * np.array([number(row, path) for row in rows])
 
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 import json
 import sys
 from pathlib import Path
-from typing import Callable, Iterator, Sequence
+from typing import Any, Callable, Iterator, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..errors import ShakenError
 from . import accuracy, names, style
@@ -40,7 +41,7 @@ def _dots(width: str | None, title: str, n: int, n_series: int = 1) -> Sheet:
     return sheet
 
 
-def _shares_of(rows: Sequence[Row]) -> dict[str, np.ndarray]:
+def _shares_of(rows: Sequence[Row]) -> dict[str, NDArray[Any]]:
     """Shares of the phases in percent: the six that take most by name, the others together."""
     phases = [name for name in rows[0].get("phase_shares", {}) if name != "other"]
     shares = {name: np.nan_to_num(column(rows, f"phase_shares/{name}", 100)) for name in phases}

@@ -4,9 +4,10 @@ from __future__ import annotations
 import csv
 from dataclasses import replace
 from pathlib import Path
-from typing import Iterator, Sequence
+from typing import Any, Iterator, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..errors import ShakenError
 from ..run import error_name
@@ -39,7 +40,7 @@ def _read_table(path: Path) -> PlottedRun:
         columns = {name.strip(): [float(row[k] or "nan") for row in rows[1:]] for k, name in enumerate(rows[0])}
     except (OSError, ValueError, IndexError) as problem:
         raise ShakenError(f"neither a run directory nor a table of numbers ({problem})") from None
-    arrays: dict[str, np.ndarray] = {}
+    arrays: dict[str, NDArray[Any]] = {}
     for of in OBSERVABLES:
         base = [array.rpartition("/")[2] for array in (of.x, of.y, error_name(of.y))]
         if base[0] in columns and base[1] in columns:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any, Iterator, Mapping, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import names, style
 from .panel import Panel
@@ -21,7 +22,7 @@ DENSITY = ("/density/time_s", "/density/x_mm", "/density/y_mm", "/density/area_f
 _MOST_MARKS = 16  # arrows or rods each way
 
 
-def _mean(runs: Sequence[Mapping[str, np.ndarray]], name: str, shape: tuple[int, int]) -> np.ndarray:
+def _mean(runs: Sequence[Mapping[str, NDArray[Any]]], name: str, shape: tuple[int, int]) -> NDArray[Any]:
     """The mean map of replicas, of those that know it at a place."""
     found = np.array([run[name].reshape(shape) for run in runs])
     there = np.isfinite(found)
@@ -29,7 +30,7 @@ def _mean(runs: Sequence[Mapping[str, np.ndarray]], name: str, shape: tuple[int,
         return np.where(there, found, 0).sum(axis=0) / there.sum(axis=0)
 
 
-def _director(panel: Panel, x: np.ndarray, y: np.ndarray, cosine: np.ndarray, sine: np.ndarray) -> None:
+def _director(panel: Panel, x: NDArray[Any], y: NDArray[Any], cosine: NDArray[Any], sine: NDArray[Any]) -> None:
     """Short lines along the director, as long as the order is high."""
     angle, order = np.arctan2(sine, cosine) / 2, np.hypot(cosine, sine)
     _arrows(panel, x, y, order * np.cos(angle), order * np.sin(angle), 1.0, {"headwidth": 0, "headlength": 0,
@@ -39,7 +40,7 @@ def _director(panel: Panel, x: np.ndarray, y: np.ndarray, cosine: np.ndarray, si
     panel.record("nematic order", grid_x.ravel(), grid_y.ravel(), z=order.ravel())
 
 
-def _arrows(panel: Panel, x: np.ndarray, y: np.ndarray, u: np.ndarray, v: np.ndarray, longest: float,
+def _arrows(panel: Panel, x: NDArray[Any], y: NDArray[Any], u: NDArray[Any], v: NDArray[Any], longest: float,
             look: Mapping[str, Any]) -> None:
     """Arrows on some of the places; one of the length `longest` reaches to the next."""
     each = -(-len(x) // _MOST_MARKS)
@@ -49,7 +50,7 @@ def _arrows(panel: Panel, x: np.ndarray, y: np.ndarray, u: np.ndarray, v: np.nda
                       scale=longest / between, width=0.006, color="black", **look)
 
 
-def _panels(sheet: Sheet, k: int, runs: Sequence[Mapping[str, np.ndarray]], prefix: str, charge: str,
+def _panels(sheet: Sheet, k: int, runs: Sequence[Mapping[str, NDArray[Any]]], prefix: str, charge: str,
             limits: Mapping[str, tuple[float, float]]) -> tuple[Any, Any]:
     x, y = (np.asarray(runs[0][prefix + axis]) for axis in AXES)
     maps = {value: _mean(runs, f"{prefix}{GROUP}/{charge}/{value}", (len(y), len(x))) for value in VALUES}
@@ -68,9 +69,9 @@ def _panels(sheet: Sheet, k: int, runs: Sequence[Mapping[str, np.ndarray]], pref
     return density, flow
 
 
-def _limits(runs: Sequence[Mapping[str, np.ndarray]], prefix: str) -> dict[str, tuple[float, float]]:
+def _limits(runs: Sequence[Mapping[str, NDArray[Any]]], prefix: str) -> dict[str, tuple[float, float]]:
     """What the colours reach, the same for both charges, without the few bins that say least."""
-    def seen(*values: str) -> np.ndarray:
+    def seen(*values: str) -> NDArray[Any]:
         found = np.concatenate([run[f"{prefix}{GROUP}/{charge}/{value}"] for run in runs for charge in CHARGES
                                 for value in values])
         return found[np.isfinite(found)]
@@ -81,7 +82,7 @@ def _limits(runs: Sequence[Mapping[str, np.ndarray]], prefix: str) -> dict[str, 
     return {"density": (float(low), float(max(high, low + 1e-9))), "v": (-(most or 1.0), most or 1.0)}
 
 
-def defect_figure(runs: Sequence[Mapping[str, np.ndarray]], width: str | None = None, title: str = "",
+def defect_figure(runs: Sequence[Mapping[str, NDArray[Any]]], width: str | None = None, title: str = "",
                   prefix: str = "") -> Sheet | None:
     """The figure of replicas, each its arrays by their names, which begin with `prefix` ("/rods_2" of another species).
     Above: the density of rods with the director, about either defect; below: the flow. None where no run has the maps,
@@ -100,7 +101,7 @@ def defect_figure(runs: Sequence[Mapping[str, np.ndarray]], width: str | None = 
     return sheet
 
 
-def density_figure(runs: Sequence[Mapping[str, np.ndarray]], width: str | None = None, title: str = "",
+def density_figure(runs: Sequence[Mapping[str, NDArray[Any]]], width: str | None = None, title: str = "",
                    prefix: str = "") -> Sheet | None:
     """The figure of the first of the replicas that has maps of the density: its first, middle and last one, and the
     mean over the steady state, in the same colours. None where none has."""
@@ -126,7 +127,7 @@ def density_figure(runs: Sequence[Mapping[str, np.ndarray]], width: str | None =
     return sheet
 
 
-def map_figures(points: Sequence[tuple[str, Sequence[Mapping[str, np.ndarray]]]],
+def map_figures(points: Sequence[tuple[str, Sequence[Mapping[str, NDArray[Any]]]]],
                 width: str | None = None) -> Iterator[tuple[str, Sheet]]:
     """(name, figure) of each of the points, (label, replicas), that has maps: "defect_maps" and "density_maps", with a
     number behind where there are several."""

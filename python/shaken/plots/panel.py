@@ -5,6 +5,7 @@ import math
 from typing import TYPE_CHECKING, Any, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..errors import ShakenError
 from .names import short_number
@@ -42,9 +43,9 @@ class Panel:
         self.is_used = self.has_picture = False
         self.absent = "no data"                       # what a panel without any says
         self._lines: list[Any] = []                   # of curves
-        self._outlines: list[tuple[np.ndarray, np.ndarray, bool]] = []   # what a key should not cover: x, y, joined
-        self._reach: list[tuple[np.ndarray, np.ndarray, np.ndarray, bool]] = []  # x, low, high, has marks
-        self.labels: list[tuple[str, np.ndarray, np.ndarray]] = []       # of references: text, x, y
+        self._outlines: list[tuple[NDArray[Any], NDArray[Any], bool]] = []   # what a key should not cover: x, y, joined
+        self._reach: list[tuple[NDArray[Any], NDArray[Any], NDArray[Any], bool]] = []  # x, low, high, has marks
+        self.labels: list[tuple[str, NDArray[Any], NDArray[Any]]] = []       # of references: text, x, y
         self._wanted: dict[str, tuple[float | None, float | None]] = {"x": (None, None), "y": (None, None)}
         self._exact = {"x": False, "y": False}
         self._n_named = 0
@@ -129,7 +130,7 @@ class Panel:
             return PALETTE[k], MARKERS[k]
         return colour, "o"
 
-    def _points(self, x: np.ndarray, y: np.ndarray, errors: np.ndarray | None, sure: np.ndarray, colour: Any,
+    def _points(self, x: NDArray[Any], y: NDArray[Any], errors: NDArray[Any] | None, sure: NDArray[Any], colour: Any,
                 mark: str, joined: bool) -> None:
         axes = self.axes
         low = high = y
@@ -157,14 +158,14 @@ class Panel:
         self._reach.append((x, low, high, True))
         self._outlines.append((x, y, joined))
 
-    def _cross_out(self, x: np.ndarray, y: np.ndarray, which: np.ndarray, colour: Any) -> None:
+    def _cross_out(self, x: NDArray[Any], y: NDArray[Any], which: NDArray[Any], colour: Any) -> None:
         """Crosses over points whose error is not known."""
         if which.size:
             self.axes.plot(x[which], y[which], linestyle="none", marker="x", markersize=5.5, markeredgewidth=0.7,
                            color=colour, zorder=2.7)
             self.explained.add(NO_ERROR)
 
-    def _line(self, x: np.ndarray, y: np.ndarray, errors: np.ndarray | None, sure: np.ndarray, colour: Any,
+    def _line(self, x: NDArray[Any], y: NDArray[Any], errors: NDArray[Any] | None, sure: NDArray[Any], colour: Any,
               mark: str, joined: bool) -> None:
         low = high = y
         if errors is not None and np.any(np.isfinite(errors) & np.isfinite(y)):
@@ -331,7 +332,8 @@ class Panel:
             most = float(np.max(np.abs(seen))) or 1.0
             limits = (-most, most) if diverging else (float(seen.min()), float(seen.max()))
         low, high = limits or (0.0, 1.0)
-        drawn = self.axes.pcolormesh(_borders(x), _borders(y), np.ma.masked_invalid(z), vmin=low, vmax=high,
+        known = np.ma.masked_invalid(z)  # type: ignore[no-untyped-call]
+        drawn = self.axes.pcolormesh(_borders(x), _borders(y), known, vmin=low, vmax=high,
                                      cmap="RdBu_r" if diverging else "viridis", rasterized=True, linewidth=0)
         self.axes.set_facecolor("#e8e8e8")
         if square:
@@ -446,7 +448,7 @@ class Panel:
         """Whether the y axis may reach higher to make room for the key."""
         return self._wanted["y"][1] is None and not self._exact["y"] and not self.has_picture
 
-    def obstacles(self) -> np.ndarray:
+    def obstacles(self) -> NDArray[Any]:
         """(n, 2) places in pixels that what is drawn goes through, every two pixels or so."""
         places = []
         for x, y, joined in self._outlines:
@@ -467,14 +469,14 @@ class Panel:
         return np.concatenate(places) if places else np.empty((0, 2))
 
 
-def _are_true(steady: Any) -> np.ndarray:
+def _are_true(steady: Any) -> NDArray[Any]:
     if isinstance(steady, (list, tuple, np.ndarray)):
         return np.array([value is True or value is np.True_ or value == 1 and value is not None for value in steady],
                         dtype=bool)
     return np.array(steady is True or (isinstance(steady, np.bool_) and bool(steady)))
 
 
-def _borders(places: np.ndarray) -> np.ndarray:
+def _borders(places: NDArray[Any]) -> NDArray[Any]:
     """Where the cell of each place ends: half way to its neighbours, and as far out at the ends."""
     if places.size < 2:
         return np.concatenate([places - 0.5, places + 0.5])

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any, Iterator, Mapping, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..catalogue import ARRAYS
 from ..errors import ShakenError
@@ -128,7 +129,7 @@ class PlottedRun:
     """
 
     parameters: Mapping[str, Any]
-    arrays: Mapping[str, np.ndarray]
+    arrays: Mapping[str, NDArray[Any]]
     steady: bool | None = None
     version: str = ""
     id: str = ""
@@ -173,13 +174,13 @@ def read_run(directory: str | Path, parameters: Mapping[str, Any], state: str = 
 class Curve:
     """What is drawn of an observable of a run."""
 
-    x: np.ndarray
-    y: np.ndarray
-    error: np.ndarray | None
+    x: NDArray[Any]
+    y: NDArray[Any]
+    error: NDArray[Any] | None
     steady: bool | None
 
 
-def _row(run: PlottedRun, of: Observable, name: str) -> np.ndarray | None:
+def _row(run: PlottedRun, of: Observable, name: str) -> NDArray[Any] | None:
     """An array, or that of its rows that is drawn."""
     values = run.arrays.get(name)
     n_rows = len(run.arrays.get(of.array(of.rows), ()))

@@ -5,6 +5,7 @@ import json
 from typing import Any, Mapping, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..estimate import Estimate, replica_mean
 from ..units import leading_number
@@ -120,8 +121,8 @@ def _text(value: Any) -> str:
     return json.dumps(value, sort_keys=True)
 
 
-def mean_curve(values: Sequence[np.ndarray],
-               errors: Sequence[np.ndarray | None]) -> tuple[np.ndarray, np.ndarray | None]:
+def mean_curve(values: Sequence[NDArray[Any]],
+               errors: Sequence[NDArray[Any] | None]) -> tuple[NDArray[Any], NDArray[Any] | None]:
     """The mean of the curves of replicas over the same x, and its errors, point by point as estimate.replica_mean does;
     of one curve its own. The errors are None where none are known."""
     if len(values) == 1:

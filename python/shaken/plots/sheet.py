@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any, Iterator, Mapping, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import panel as panels_of
 from . import save as saving
@@ -327,11 +328,11 @@ def _explanations(said: set[Any]) -> list[tuple[Any, str]]:
         (shapes[kind], words) for kind, words in sorted(one for one in said if isinstance(one, tuple))]
 
 
-def _covers(extent: Any, places: np.ndarray, pad: float) -> bool:
+def _covers(extent: Any, places: NDArray[Any], pad: float) -> bool:
     return _covered(extent, places, pad) > 0
 
 
-def _covered(extent: Any, places: np.ndarray, pad: float) -> int:
+def _covered(extent: Any, places: NDArray[Any], pad: float) -> int:
     """How many of the places are under an extent, or nearly so."""
     if not len(places):
         return 0
@@ -349,7 +350,7 @@ def _reach_higher(axes: Any, share: float) -> None:
         axes.set_ylim(low, low + (high - low) / (1 - share))
 
 
-def _places_beside(axes: Any, xs: np.ndarray, ys: np.ndarray, box: Any, size: Any,
+def _places_beside(axes: Any, xs: NDArray[Any], ys: NDArray[Any], box: Any, size: Any,
                    gap: float) -> Iterator[tuple[float, float]]:
     """Lower left corners of a text of this size above and below a line, or beside a place of x, in pixels."""
     gaps = (gap, 3 * gap, 6 * gap, 12 * gap)

@@ -7,9 +7,10 @@ import math
 from collections import Counter
 from contextvars import ContextVar
 from dataclasses import dataclass, replace
-from typing import Callable, Iterable, Iterator, Sequence
+from typing import Any, Callable, Iterable, Iterator, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy import stats
 
 from ..errors import UnknownName
@@ -181,7 +182,7 @@ class Runs(list[Run]):
         """(value of a key, number) at each value of the key that has one."""
         return points_of(self, path, lambda here: here.number(name) if isinstance(name, str) else here.of(name))
 
-    def curve(self, name: str) -> "tuple[np.ndarray, np.ndarray, np.ndarray] | None":
+    def curve(self, name: str) -> "tuple[NDArray[Any], NDArray[Any], NDArray[Any]] | None":
         """(x, mean, error) of an array over these runs, at the places of the longest; None where none has it."""
         found = [run.arrays[name] for run in self if name in run.arrays and run.arrays[name].axis is not None]
         if not found:
@@ -267,7 +268,7 @@ class Evidence:
         return Runs(seen.values())
 
 
-def place_on(axis: np.ndarray, x: float) -> int | None:
+def place_on(axis: NDArray[Any], x: float) -> int | None:
     """Index of the point of a rising axis that is nearest to x. None where x lies beyond an end of the axis by more
     than half of the step there, or is not known: a curve says nothing of places that it does not reach."""
     if not len(axis) or not math.isfinite(x):
@@ -287,7 +288,7 @@ def crossing(points: list[tuple[float, Estimate]], level: float) -> Estimate:
     return Estimate(reason="not passed")
 
 
-def mean_of_places(values: np.ndarray, errors: np.ndarray, run: Run) -> Estimate:
+def mean_of_places(values: NDArray[Any], errors: NDArray[Any], run: Run) -> Estimate:
     """The mean of a curve over several places. Its error is the mean of theirs, as if they went up and down together,
     which is the most it can be. It is as steady as its run."""
     good = np.isfinite(values)

@@ -1,9 +1,10 @@
 """Structure: correlations in space, layers and what they depend on, the gap, elasticity."""
 from __future__ import annotations
 
-from typing import Callable, Sequence
+from typing import Any, Callable, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..plots import names
 from ..plots.panel import Panel
@@ -27,7 +28,7 @@ def g2(material: Material) -> Sheet:
     return sheet
 
 
-def _mean_map(runs: Runs, name: str) -> np.ndarray | None:
+def _mean_map(runs: Runs, name: str) -> NDArray[Any] | None:
     found = [np.asarray(run[name]) for run in runs if name in run]
     return np.mean(found, axis=0) if found else None
 

@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Callable
+from typing import Any, Callable
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..estimate import Estimate
 from ..run import Run
@@ -36,9 +37,9 @@ def longest_lag(run: Run, name: str) -> float:
 class Octave:
     """A stretch of a curve from one lag to twice that one, both ends included."""
 
-    lags: np.ndarray
-    values: np.ndarray
-    errors: np.ndarray
+    lags: NDArray[Any]
+    values: NDArray[Any]
+    errors: NDArray[Any]
 
     @property
     def slope(self) -> float:

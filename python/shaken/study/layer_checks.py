@@ -3,9 +3,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import Callable
+from typing import Any, Callable
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
 from ..estimate import Estimate, mean_of_samples, student_factor
@@ -84,7 +85,7 @@ def theta_m(run: Run) -> Estimate:
     theta, p = np.asarray(density.axis), (np.asarray(density) + np.asarray(density)[::-1]) / 2
     spread = math.sqrt(float(np.sum(p * theta**2) / np.sum(p)))
 
-    def away(parameters: np.ndarray) -> np.ndarray:
+    def away(parameters: NDArray[Any]) -> NDArray[Any]:
         peak, width, height, background = parameters
         sides = (np.arctan2(np.sin(2 * (theta - side * peak)), np.cos(2 * (theta - side * peak))) / 2
                  for side in (-1, 1))

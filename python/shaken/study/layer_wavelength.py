@@ -3,9 +3,10 @@ from __future__ import annotations
 
 import functools
 import math
-from typing import Callable, Sequence
+from typing import Any, Callable, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.optimize import minimize
 
 from ..estimate import Estimate
@@ -27,7 +28,8 @@ OF_THE_WIDTH = 1.0
 WAVES, OF_LAYERS = (5.0, 63.0), (8.0, 32.0)
 
 
-def expected_power(q: np.ndarray, floor: float, bending: float, layers: float, peak: float, width: float) -> np.ndarray:
+def expected_power(q: NDArray[Any], floor: float, bending: float, layers: float, peak: float,
+                   width: float) -> NDArray[Any]:
     """The spectrum of a layered nematic: `floor` of single rods, `bending` / q^2 of the director's own waves, and a
     peak of height `layers` and standard deviation `width` (in ln q) at the wave number `peak`."""
     return floor + bending / q**2 + layers * np.exp(-(np.log(q / peak) / width) ** 2 / 2)
@@ -39,7 +41,7 @@ def _width(logit: float) -> float:
     return low + (high - low) / (1 + math.exp(-min(max(logit, -30), 30)))
 
 
-def peak_of(q: np.ndarray, power: np.ndarray) -> float:
+def peak_of(q: NDArray[Any], power: NDArray[Any]) -> float:
     """The wavelength of the peak in a spectrum [in 2 pi / q]; NaN where there is none.
 
     The powers scatter about what is expected as those of a Gaussian field do, each by as much as it is itself, and the
@@ -50,12 +52,12 @@ def peak_of(q: np.ndarray, power: np.ndarray) -> float:
     chosen = (wave > WAVES[0]) & (wave < WAVES[1]) & (power > 0)
     q, wave, power = q[chosen], wave[chosen], power[chosen] / np.median(power[chosen])
 
-    def expected(fitted: np.ndarray) -> np.ndarray:
+    def expected(fitted: NDArray[Any]) -> NDArray[Any]:
         floor, bending, layers, peak = np.exp(np.minimum(np.maximum(fitted[:4], -30), 30))
         return expected_power(q, floor, bending, layers, peak, _width(fitted[4]))
 
-    def best(start: Sequence[float], model: Callable[[np.ndarray], np.ndarray]) -> tuple[float, np.ndarray]:
-        def unlikeliness(fitted: np.ndarray) -> float:
+    def best(start: Sequence[float], model: Callable[[NDArray[Any]], NDArray[Any]]) -> tuple[float, NDArray[Any]]:
+        def unlikeliness(fitted: NDArray[Any]) -> float:
             expected = model(fitted)
             return float(np.sum(np.log(expected) + power / expected))
 

@@ -6,6 +6,7 @@ import math
 from typing import Any, Callable, Iterable, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..archive import Snapshot
 from ..estimate import Estimate
@@ -57,9 +58,9 @@ def packing_scale(*sets: Runs) -> style.ColourScale | None:
 
 
 def draw_curves(panel: Panel, runs: Runs, array: str, scale: style.ColourScale | None, path: str = PACKING, *,
-                x: Callable[[np.ndarray], np.ndarray] = lambda x: x,
-                y: Callable[[np.ndarray, np.ndarray], np.ndarray] = lambda x, y: y,
-                keep: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None, labels: bool = False,
+                x: Callable[[NDArray[Any]], NDArray[Any]] = lambda x: x,
+                y: Callable[[NDArray[Any], NDArray[Any]], NDArray[Any]] = lambda x, y: y,
+                keep: Callable[[NDArray[Any], NDArray[Any]], NDArray[Any]] | None = None, labels: bool = False,
                 errors: bool = True, look: str = "line", title: str | None = None) -> Panel:
     """An array against its axis, the mean over replicas, a curve for each value of a key. What `keep` leaves out within
     it is a gap. With a title the axes have theirs, too."""
@@ -84,7 +85,7 @@ def draw_curves(panel: Panel, runs: Runs, array: str, scale: style.ColourScale |
 
 
 def draw_curve(panel: Panel, runs: Runs, array: str, label: str = "", colour: Any = None, look: str = "line",
-               seen: Callable[[np.ndarray], np.ndarray] | None = None, **more: Any) -> None:
+               seen: Callable[[NDArray[Any]], NDArray[Any]] | None = None, **more: Any) -> None:
     """An array against its axis, the mean over these runs, if one has it; `seen`: where its errors let it be seen."""
     found = runs.curve(array)
     if found is not None:
@@ -178,7 +179,7 @@ def _rim(width: float) -> list[Any]:
     return [patheffects.withStroke(linewidth=width, foreground="white")]
 
 
-def defects_of(snapshot: Snapshot, smoothing: float, cells: int | None = None) -> np.ndarray:
+def defects_of(snapshot: Snapshot, smoothing: float, cells: int | None = None) -> NDArray[Any]:
     """(n, 3) x, y [mm] and charge (+-1/2) of the defects of the director field: exp(2i theta) of the rods, smoothed by
     a Gaussian of width `smoothing` [mm] on a periodic grid of `cells` along x, turns by +-pi around them."""
     from scipy.ndimage import gaussian_filter

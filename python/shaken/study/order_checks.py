@@ -4,7 +4,10 @@ from __future__ import annotations
 import math
 from collections import Counter
 
+from typing import Any
+
 import numpy as np
+from numpy.typing import NDArray
 
 from ..estimate import Estimate
 from ..run import Run
@@ -170,7 +173,7 @@ def long_range(evidence: Evidence) -> Finding:
     return conclude(answers, "S ~ Lˣ with " + "; ".join(found))
 
 
-def pooled_density(runs: Runs) -> tuple[np.ndarray, np.ndarray, float]:
+def pooled_density(runs: Runs) -> tuple[NDArray[Any], NDArray[Any], float]:
     """P[S] of several runs together, weighted by their independent samples: (S, density, samples)."""
     total, samples, places = np.zeros(0), 0.0, np.zeros(0)
     for run in runs:
@@ -186,7 +189,7 @@ def pooled_density(runs: Runs) -> tuple[np.ndarray, np.ndarray, float]:
     return places, total / samples if samples else total, samples
 
 
-def n_peaks(density: np.ndarray) -> int:
+def n_peaks(density: NDArray[Any]) -> int:
     """Maxima of a density, smoothed over five places, that stand at least a third of the largest one above the valleys
     beside them."""
     if not len(density):

@@ -8,7 +8,10 @@ from __future__ import annotations
 
 import math
 
+from typing import Any
+
 import numpy as np
+from numpy.typing import NDArray
 
 from ..estimate import Estimate, mean_of_samples
 from ..run import Run
@@ -39,7 +42,7 @@ def damping_time(run: Run) -> Estimate:
     return (number_of(run, "drift_x_mm_s") * c + number_of(run, "drift_y_mm_s") * s) / pull(run)
 
 
-def _way(run: Run, degrees: float) -> tuple[np.ndarray, np.ndarray]:
+def _way(run: Run, degrees: float) -> tuple[NDArray[Any], NDArray[Any]]:
     """Times [s] from the steady state on, and the way of the centre of mass in a direction [mm]."""
     time = np.asarray(run["/drift/x_mm"].axis)
     c, s = _components(degrees)
@@ -65,7 +68,7 @@ def wandering(run: Run) -> Estimate:
     velocity, step = (way[-1] - way[0]) / total, total / (len(way) - 1)
     short, long_ = (round(lag / step) for lag in LAGS)
 
-    def square(steps: int) -> np.ndarray:
+    def square(steps: int) -> NDArray[Any]:
         return (way[steps:] - way[:-steps] - velocity * steps * step) ** 2
 
     # the mean velocity is that of the same way, which takes lag / total of each square
