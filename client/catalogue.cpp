@@ -5,7 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/job_state.h"
 #include "base/keys/units.h"
+#include "base/text.h"
 #include "client/live/json.h"
 #include "render/style_keys.h"
 #include "run/files/unit_of_name.h"
@@ -104,6 +106,17 @@ Rows numbers() {
   return rows;
 }
 
+Rows job_states() {
+  Rows rows;
+  for (const JobStateRow& row : kJobStates)
+    rows.emplace_back(row.word, Json{{"has_worker", row.has_worker},
+                                     {"has_ended", row.has_ended},
+                                     {"has_failed", row.has_failed},
+                                     {"requests", split(row.requests, ' ')},
+                                     {"doc", row.meaning}});
+  return rows;
+}
+
 Rows effects() {
   Rows rows;
   for (const Effect& effect : all_effects())
@@ -121,7 +134,8 @@ std::string catalogue() {
                                                            {"observables", observables()},
                                                            {"arrays", arrays()},
                                                            {"numbers", numbers()},
-                                                           {"effects", effects()}};
+                                                           {"effects", effects()},
+                                                           {"job_states", job_states()}};
   std::string text = "{";
   for (const auto& [name, rows] : sections) {
     text += fmt::format("{}\n \"{}\": {{", text.size() > 1 ? "," : "", name);

@@ -5,8 +5,8 @@
 namespace shaken::client {
 
 /// All that has a name, as JSON with a line for each thing: units, keys of scenes and of styles, observables with their
-/// arrays and numbers, effects. Other programs read it (python/shaken/catalogue.json), so that they have no list of
-/// their own.
+/// arrays and numbers, effects, states of jobs. Other programs read it (python/shaken/catalogue.json), so that they
+/// have no list of their own.
 std::string catalogue();
 
 }  // namespace shaken::client

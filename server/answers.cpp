@@ -20,14 +20,12 @@ Json read_object(const std::filesystem::path& file) {
   return json.is_object() ? json : Json(nullptr);
 }
 
-bool is_active(const Job& job) { return job.state == JobState::kRunning || job.state == JobState::kStopping; }
-
 /// Whether the worker of the present attempt has written its progress: the daemon writes scene.json before it.
 bool is_of_this_attempt(const Job& job, const run::RunDirectory& directory) {
   std::error_code no_scene, no_progress;
   const auto scene = std::filesystem::last_write_time(directory.scene(), no_scene);
   const auto progress = std::filesystem::last_write_time(directory.progress(), no_progress);
-  return is_active(job) && !no_scene && !no_progress && progress >= scene;
+  return has_worker(job.state) && !no_scene && !no_progress && progress >= scene;
 }
 
 /// Whether progress.json with the word `state` is of a job that is not done. If the run is, its end is about to be
@@ -141,7 +139,7 @@ Json sweep_report(const Sweep& sweep, std::span<const Job> begun, const SweepWor
     const double done = reports ? job.work * std::clamp(progress->fraction(), 0.0, 1.0) : 0;
     finished += done;
     if (job.state == JobState::kQueued) waiting -= done;
-    if (!is_active(job) || job.state == JobState::kStopping) continue;
+    if (job.state != JobState::kRunning) continue;
     if (reports && progress->eta >= 0) {
       ++n_reporting;
       longest = std::max(longest, progress->eta);
@@ -169,7 +167,7 @@ Json sweep_report(const Sweep& sweep, std::span<const Job> begun, const SweepWor
           {"name", sweep.name},
           {"created_utime", sweep.created},
           {"n_jobs", sweep.counts.total()},
-          {"n_ended", sweep.counts.ended()},
+          {"n_ended", sweep.counts.of(has_ended)},
           {"counts", counts_report(sweep.counts)},
           {"at_most", sweep.at_most > 0 ? Json(sweep.at_most) : Json(nullptr)},
           {"after", sweep.after},
@@ -194,7 +192,7 @@ Json result_row(const Job& job, const std::filesystem::path& runs) {
 
 Json counts_report(const JobCounts& counts) {
   Json json = Json::object();
-  for (const JobState state : kJobStates) json[std::string(to_word(state))] = counts[state];
+  for (const JobStateRow& row : kJobStates) json[std::string(row.word)] = counts[row.state];
   return json;
 }
 

@@ -428,7 +428,7 @@ std::vector<Job> Api::find_jobs(const Call& call) const {
     state = job_state(*word);
     if (!state) {
       std::string known;
-      for (const JobState each : kJobStates) known += (known.empty() ? "" : ", ") + std::string(to_word(each));
+      for (const JobStateRow& row : kJobStates) known += (known.empty() ? "" : ", ") + std::string(row.word);
       throw Refusal(400, "state: '" + *word + "' is none of " + known);
     }
   }

@@ -14,12 +14,12 @@ namespace shaken::server {
 
 /// Which run directories are to go. Without `only`, all that fit.
 struct CleanRequest {
-  std::vector<JobState> states{JobState::kFailed, JobState::kTimedOut, JobState::kCancelled};  ///< of ended jobs
-  std::optional<std::int64_t> sweep;                                                           ///< its jobs only
-  std::chrono::seconds older{0};              ///< ended, or of unknown runs written last, so long ago
-  bool unknown = false;                       ///< remove runs that no job is known of, too
-  bool dry_run = false;                       ///< only list
-  std::optional<std::set<std::string>> only;  ///< of those that fit, these ids
+  std::vector<JobState> states = states_that(came_to_nothing);  ///< of ended jobs
+  std::optional<std::int64_t> sweep;                            ///< its jobs only
+  std::chrono::seconds older{0};                                ///< ended, or of unknown runs written last, so long ago
+  bool unknown = false;                                         ///< remove runs that no job is known of, too
+  bool dry_run = false;                                         ///< only list
+  std::optional<std::set<std::string>> only;                    ///< of those that fit, these ids
 };
 
 /// A run directory that fits a request.

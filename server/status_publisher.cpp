@@ -69,7 +69,7 @@ void StatusPublisher::run(const std::stop_token& stop) {
 
 void StatusPublisher::publish_status() {
   const JobCounts counts = queue_.counts();
-  const auto n = [&](JobState state) { return static_cast<std::int32_t>(counts[state]); };
+  const auto n = [](std::int64_t count) { return static_cast<std::int32_t>(count); };
   shaken::status_t status;
   status.utime = utime_now();
   status.sequence = status_sequence_++;
@@ -79,17 +79,16 @@ void StatusPublisher::publish_status() {
   status.root = info_.root.string();
   status.uptime_s = info_.uptime();
   status.n_slots = info_.slots;
-  status.n_queued = n(JobState::kQueued);
-  status.n_running = n(JobState::kRunning) + n(JobState::kStopping);
-  status.n_done = n(JobState::kDone);
-  status.n_failed = n(JobState::kFailed) + n(JobState::kTimedOut);
-  status.n_cancelled = n(JobState::kCancelled);
+  status.n_queued = n(counts[JobState::kQueued]);
+  status.n_running = n(counts.of(has_worker));
+  status.n_done = n(counts[JobState::kDone]);
+  status.n_failed = n(counts.of(has_failed));
+  status.n_cancelled = n(counts[JobState::kCancelled]);
   bus_->publish(proto::kStatusChannel, status);
 }
 
 bool StatusPublisher::publish_running() {
-  std::vector<Job> jobs = queue_.jobs(std::nullopt, JobState::kRunning);
-  for (Job& job : queue_.jobs(std::nullopt, JobState::kStopping)) jobs.push_back(std::move(job));
+  const std::vector<Job> jobs = queue_.active();
   // Something has changed since the changes were sent, and may have changed these: first that, then what runs.
   if (queue_.last_change() != last_change_) return false;
   for (const Job& job : jobs) {

@@ -1,6 +1,7 @@
 #include "server/submission.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -29,14 +30,6 @@ constexpr int kHighestPriority = 1'000'000;
 /// A time, which the daemon keeps in milliseconds: at least one, and up to 30 years.
 auto seconds(const std::string& key, auto access, const std::string& doc) {
   return derived(keys::quantity(key, access, keys::Dimension::kTime, 0.001, 1e9, doc), "none");
-}
-
-std::vector<std::string> words_of_ends() {
-  std::vector<std::string> words;
-  for (const JobState state : kJobStates) {
-    if (has_ended(state)) words.emplace_back(to_word(state));
-  }
-  return words;
 }
 
 auto required(auto row) {
@@ -81,8 +74,8 @@ std::vector<keys::Key<CleanBody>> rows_of_cleaning() {
   return {
       {{.path = "states",
         .form = Form::kTexts,
-        .names = words_of_ends(),
-        .fallback_note = "failed, timed out, cancelled",
+        .names = words_of(has_ended),
+        .fallback_note = fmt::format("{}", fmt::join(words_of(came_to_nothing), ", ")),
         .doc = "States of the jobs."},
        {},
        [](Body& body, const Value& words) {

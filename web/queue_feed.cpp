@@ -3,6 +3,9 @@
 #include <exception>
 #include <nlohmann/json.hpp>
 #include <utility>
+#include <vector>
+
+#include "base/job_state.h"
 
 namespace shaken::web {
 namespace {
@@ -24,27 +27,25 @@ QueueFeed::QueueFeed(const DaemonLink& daemon, std::function<void(const std::set
 QueueFeed::~QueueFeed() = default;
 
 std::string QueueFeed::asked() {
-  Json all = Json::object();
-  for (const auto& [key, path] : {std::pair{"status", "/v1/status"},
-                                  {"sweeps", "/v1/sweeps"},
-                                  {"jobs", "/v1/jobs?state=running"},
-                                  {"stopping", "/v1/jobs?state=stopping"}}) {
+  Json all = Json::object(), jobs = Json::array();
+  std::vector<std::string> paths{"/v1/status", "/v1/sweeps"};
+  for (const std::string& state : words_of(has_worker)) paths.push_back("/v1/jobs?state=" + state);
+  for (const std::string& path : paths) {
     const Result<std::string> answer = daemon_.get(path);
     if (!answer) return Json{{"error", answer.error().message}}.dump(-1, ' ', false, Json::error_handler_t::replace);
     const Json body = Json::parse(*answer, nullptr, false);
-    if (std::string(key) == "status") {
-      all[key] = body;
-      all[key].erase("uptime_s");  // or each would differ from the one before
-    } else if (body.is_object() && !body.empty()) {
-      all[key] = *body.begin();
+    if (path == "/v1/status") {
+      all["status"] = body;
+      all["status"].erase("uptime_s");  // or each would differ from the one before
+    } else if (path == "/v1/sweeps") {
+      all["sweeps"] = body.at("sweeps");
+    } else {
+      jobs.insert(jobs.end(), body.at("jobs").begin(), body.at("jobs").end());
     }
   }
   std::set<std::string> running;
-  Json jobs = all.value("jobs", Json::array());
-  for (const Json& job : all.value("stopping", Json::array())) jobs.push_back(job);
   for (const Json& job : jobs) running.insert(job.value("id", ""));
   all["jobs"] = std::move(jobs);
-  all.erase("stopping");
   running_(running);
   return all.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

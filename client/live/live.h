@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/job_state.h"
 #include "client/live/json.h"
 #include "client/live/mean_order.h"
 
@@ -91,7 +92,7 @@ struct LiveJob {
   double film_eta = -1;     ///< until the film is drawn [s]; negative while unknown
 
   double fraction() const;
-  bool is_running() const { return state == "running" || state == "stopping"; }
+  bool is_running() const { return has_worker(state); }
   std::int64_t lost() const { return observables_counter.lost() + defects_counter.lost(); }
 };
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <initializer_list>
 #include <limits>
 
 #include "base/failure.h"
@@ -135,11 +136,21 @@ std::string limits_text(const Json& job) {
   return text;
 }
 
+int count_of(const Json& counts, bool (*are_so)(JobState)) {
+  int n = 0;
+  for (const std::string& state : words_of(are_so)) n += counts.value(state, 0);
+  return n;
+}
+
 std::string counts_text(const Json& counts) {
   std::string text;
-  for (const char* state : {"done", "running", "stopping", "queued", "held", "failed", "timed out", "cancelled"}) {
-    const int n = counts.value(state, 0);
-    if (n > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", n, state);
+  using Are = bool (*)(JobState);
+  constexpr Are is_done = [](JobState state) { return state == JobState::kDone; };
+  for (const Are are_so : std::initializer_list<Are>{is_done, has_worker, is_waiting, came_to_nothing}) {
+    for (const std::string& state : words_of(are_so)) {
+      const int n = counts.value(state, 0);
+      if (n > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", n, state);
+    }
   }
   return text.empty() ? "no jobs" : text;
 }

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/job_state.h"
 #include "client/live/api_client.h"
 #include "client/live/json.h"
 
@@ -60,7 +61,9 @@ int number_of(const Json& object, const char* key);
 /// if it has none.
 std::string limits_text(const Json& job);
 
-/// {state: n} as words, in the order of a job's life: "3 done, 2 running, 5 queued".
+/// Jobs in the states that are so, of {state: n}.
+int count_of(const Json& counts, bool (*are_so)(JobState));
+/// {state: n} as words, what is done and what runs first: "3 done, 2 running, 5 queued".
 std::string counts_text(const Json& counts);
 
 }  // namespace shaken::client

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/table.h"
 #include "base/text.h"
@@ -40,10 +41,9 @@ class Clean : public Verb {
   }
 
   void declare(Arguments& arguments) override {
-    arguments.option(
-        "--state", states_, "STATES",
-        "Of jobs in these states: done, failed, timed out, cancelled, separated by commas; all but done if "
-        "left out");
+    arguments.option("--state", states_, "STATES",
+                     fmt::format("Of jobs in these states: {}, separated by commas; all but done if left out",
+                                 fmt::join(words_of(shaken::has_ended), ", ")));
     arguments.option("--sweep", sweep_, "ID", "Only of this sweep", Names::kSweep);
     arguments.option("--older", older_, "TIME", "Only what ended at least so long ago: 30d, 12h");
     arguments.flag("--unknown", unknown_, "Remove also runs that the daemon's queue does not know");

@@ -18,7 +18,7 @@ struct Action {
 };
 
 constexpr Action kCancel{
-    "cancel", "Cancel queued, held and running jobs; what they have measured stays",
+    "cancel", "Cancel jobs that have not ended; what they have measured stays",
     "  shaken cancel 1f0c            one job, by the beginning of its id\n"
     "  shaken cancel s3 s4           all jobs of two sweeps\n"
     "  shaken submit FILE            queues cancelled points again; they go on from their checkpoint",
@@ -31,8 +31,7 @@ constexpr Action kResume{"resume", "Let held jobs run again, from their checkpoi
                          "  shaken resume 1f0c            one job, by the beginning of its id\n"
                          "  shaken resume s3              all held jobs of a sweep; lifts the stop rule that held them",
                          "resumed"};
-constexpr Action kRetry{"retry",
-                        "Queue failed, cancelled, timed out and held jobs again; they go on from their checkpoints",
+constexpr Action kRetry{"retry", "Queue jobs again that came to nothing or are held; they go on from their checkpoints",
                         "  shaken status s3 --failed     what failed, and why\n"
                         "  shaken retry s3               tries all that failed or was cancelled again",
                         "retried"};

@@ -77,7 +77,7 @@ class Movie : public Verb {
 
   void check_live(const Context& context, const Drawn& drawn) {
     if (drawn.id.empty()) throw Failure(ExitCode::kBadInput, "--live takes the ID of a running job, not a directory");
-    if (drawn.state != "running" && drawn.state != "stopping") {
+    if (!has_worker(drawn.state)) {
       throw Failure(ExitCode::kFailed,
                     fmt::format("job {} is {}: nothing of it is live. `shaken movie {} --frame last` draws its last "
                                 "recorded frame",

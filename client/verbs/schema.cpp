@@ -17,7 +17,7 @@ class PrintSchema : public Verb {
             "  shaken schema > scene.schema.json\n"
             "  shaken schema sweep > sweep.schema.json   of sweeps and scenes\n"
             "  shaken schema style > style.schema.json   of styles of pictures\n"
-            "  shaken schema catalogue                   every key, observable, array, number, unit and effect\n"
+            "  shaken schema catalogue                   every key, observable, array, number, unit, ...\n"
             "\nA file that names its schema, as the one that `shaken init` writes does, is completed and checked by an "
             "editor. `shaken validate` checks more than a schema can say."};
   }

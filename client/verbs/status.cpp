@@ -21,12 +21,12 @@ using Align = Table::Align;
 /// Columns of a sweep's name in the list of sweeps: one long name would move all others apart.
 constexpr std::size_t kLongestName = 40;
 
-Colour colour_of(std::string_view state) {
-  if (state == "done") return Colour::kGreen;
-  if (state == "failed" || state == "timed out") return Colour::kRed;
-  if (state == "running") return Colour::kBlue;
-  if (state == "cancelled" || state == "stopping" || state == "held") return Colour::kYellow;
-  return Colour::kDim;
+Colour colour_of(std::string_view word) {
+  const JobState state = job_state(word).value_or(JobState::kQueued);
+  if (has_failed(state)) return Colour::kRed;
+  if (state == JobState::kQueued) return Colour::kDim;
+  if (state == JobState::kRunning) return Colour::kBlue;
+  return state == JobState::kDone ? Colour::kGreen : Colour::kYellow;
 }
 
 /// Time to the end and when that is; empty if it is not known.
@@ -127,13 +127,13 @@ class Status : public Verb {
     Table table({{"SWEEP"}, {"NAME"}, {"JOBS", Align::kRight}, {"PROGRESS"}, {"STATES"}, {"ETA"}});
     for (const Json& sweep : answer.at("sweeps")) {
       const double progress = sweep.value("progress", 0.0);
-      const int failed = sweep.at("counts").value("failed", 0) + sweep.at("counts").value("timed out", 0);
+      const Json& counts = sweep.at("counts");
+      const Colour colour = count_of(counts, has_failed) > 0 ? Colour::kRed : Colour::kPlain;
       table.add_row(
           {sweep.at("id").get<std::string>(), fitted(text_of(sweep, "name"), kLongestName),
            std::to_string(sweep.value("n_jobs", 0)),
            fmt::format("{} {:3.0f} %", console.painted(Colour::kBlue, bar_text(progress, 12)), 100 * progress),
-           console.painted(failed > 0 ? Colour::kRed : Colour::kPlain, counts_text(sweep.at("counts"))),
-           sweep_eta_text(sweep)});
+           console.painted(colour, counts_text(counts)), sweep_eta_text(sweep)});
     }
     console.out << table.text(console.width);
     return ExitCode::kOk;
@@ -201,7 +201,7 @@ class Status : public Verb {
 
   ExitCode show_failed(ApiClient& session, Console& console) const {
     std::vector<Json> failed;
-    for (const char* state : {"failed", "timed out"}) {
+    for (const std::string& state : words_of(has_failed)) {
       const Json answer = id_.empty() ? session.get("/v1/jobs?state=" + url_encoded(state)) : Json();
       const std::vector<Json> jobs = id_.empty() ? std::vector<Json>(answer.at("jobs").begin(), answer.at("jobs").end())
                                                  : jobs_of(find_target(session, id_));

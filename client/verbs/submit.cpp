@@ -162,15 +162,13 @@ class Submit : public Verb {
     if (const int n = counts.value("found", 0); n > 0) words += fmt::format(", {} found done", n);
     if (const int n = counts.value("requeued", 0); n > 0) words += fmt::format(", {} queued again", n);
     if (const int n = counts.value("extended", 0); n > 0) words += fmt::format(", {} extended", n);
-    for (const char* state : {"done", "running", "queued"}) {
-      // these count those just named too
-      const int named = std::string_view(state) == "queued"
-                            ? n_new + counts.value("requeued", 0) + counts.value("extended", 0)
-                        : std::string_view(state) == "done" ? counts.value("found", 0)
-                                                            : 0;
-      const int n = counts.value(state, 0) - named;
-      if (n > 0) words += fmt::format(", {} {}{}", n, std::string_view(state) == "done" ? "" : "already ", state);
-    }
+    const auto add_others = [&](JobState state, const char* already, int named) {  // the counts have those named too
+      const int n = counts.value(std::string(to_word(state)), 0) - named;
+      if (n > 0) words += fmt::format(", {} {}{}", n, already, to_word(state));
+    };
+    add_others(JobState::kDone, "", counts.value("found", 0));
+    add_others(JobState::kRunning, "already ", 0);
+    add_others(JobState::kQueued, "already ", n_new + counts.value("requeued", 0) + counts.value("extended", 0));
     console.out << fmt::format("sweep {} ({}): {}: {}\n", console.painted(Colour::kBold, text_of(sweep, "id")),
                                text_of(sweep, "name"), counted(jobs.size(), "point"), words)
                 << table.text(console.width);

@@ -27,8 +27,8 @@ class Wait : public Verb {
     ApiClient session(context.root());
     std::vector<Target> targets = find_targets(session, ids_);
     if (ids_.empty()) {
-      for (const char* state : {"queued", "running", "stopping"}) {
-        const Json answer = session.get(std::string("/v1/jobs?state=") + state);
+      for (const std::string& state : words_of(is_on_its_way)) {
+        const Json answer = session.get("/v1/jobs?state=" + state);
         for (const Json& job : answer.at("jobs")) {
           targets.push_back({"/v1/jobs/" + job.at("id").get<std::string>(), Json{{"job", job}}, false});
         }

@@ -90,8 +90,7 @@ class Watch : public Verb {
     const Json answer = session.get("/v1/sweeps");
     for (const Json& sweep : answer.at("sweeps")) {
       const std::string id = sweep.at("id").get<std::string>();
-      const Json& counts = sweep.at("counts");
-      if (counts.value("queued", 0) + counts.value("running", 0) + counts.value("stopping", 0) == 0) continue;
+      if (count_of(sweep.at("counts"), is_on_its_way) == 0) continue;
       const bool is_known =
           std::any_of(targets.begin(), targets.end(), [&](const Target& t) { return t.sweep_id() == id; });
       if (!is_known) targets.push_back(find_target(session, id));

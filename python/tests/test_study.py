@@ -17,6 +17,7 @@ import pytest
 
 from conftest import PROGRAMS, made_up_run, night
 from shaken.archive import Snapshot, add_run, archived_runs
+from shaken.catalogue import JOB_STATES
 from shaken.daemon import Daemon
 from shaken.errors import ShakenError
 from shaken.estimate import Estimate
@@ -185,8 +186,8 @@ class DaemonOfAFailure:
     def jobs(self, sweep):
         states = ["failed", "held", "cancelled", "held", "held", "failed"]
         before = [None, self.points[0].id, None, self.points[2].id, self.points[3].id, None]
-        return [{"id": point.id, "state": state, "ended": state != "held", "label": "", "starts_from": start,
-                 "wall_s": 0, "reason": "lost"}
+        return [{"id": point.id, "state": state, "ended": JOB_STATES[state]["has_ended"], "label": "",
+                 "starts_from": start, "wall_s": 0, "reason": "lost"}
                 for point, state, start in zip(self.points, states, before)]
 
 
@@ -205,7 +206,7 @@ def test_a_finished_run_is_archived_once_however_long_the_others_take(monkeypatc
 
     def jobs(sweep):
         states = polls.pop(0)
-        return [{"id": id_, "state": state, "ended": state == "done", "finished_utime": end, "label": "",
+        return [{"id": id_, "state": state, "ended": JOB_STATES[state]["has_ended"], "finished_utime": end, "label": "",
                  "starts_from": None, "wall_s": 0, "reason": ""} for id_, (state, end) in zip("ab", states)]
 
     read = []

@@ -4,33 +4,13 @@
 #include <numeric>
 
 namespace shaken::server {
-namespace {
-
-constexpr std::array<std::string_view, kJobStates.size()> kWords{"queued", "held",   "running",   "stopping",
-                                                                 "done",   "failed", "timed out", "cancelled"};
-
-}  // namespace
-
-std::string_view to_word(JobState state) { return kWords[static_cast<std::size_t>(state)]; }
-
-std::optional<JobState> job_state(std::string_view word) {
-  for (const JobState state : kJobStates) {
-    if (to_word(state) == word) return state;
-  }
-  return std::nullopt;
-}
-
-bool has_ended(JobState state) {
-  using enum JobState;
-  return state == kDone || state == kFailed || state == kTimedOut || state == kCancelled;
-}
 
 std::int64_t JobCounts::total() const { return std::accumulate(n.begin(), n.end(), std::int64_t{0}); }
 
-std::int64_t JobCounts::ended() const {
-  return std::accumulate(
-      kJobStates.begin(), kJobStates.end(), std::int64_t{0},
-      [this](std::int64_t sum, JobState state) { return sum + (has_ended(state) ? (*this)[state] : 0); });
+std::int64_t JobCounts::of(bool (*are_so)(JobState)) const {
+  std::int64_t sum = 0;
+  for (const JobState state : states_that(are_so)) sum += (*this)[state];
+  return sum;
 }
 
 std::string sweep_word(std::int64_t id) { return std::string("s").append(std::to_string(id)); }

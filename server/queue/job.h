@@ -9,15 +9,11 @@
 #include <variant>
 #include <vector>
 
+#include "base/job_state.h"
+
 namespace shaken::server {
 
-/// Where a job is in its life. server/queue/rules.cpp says how it gets from one state to the next.
-enum class JobState { kQueued, kHeld, kRunning, kStopping, kDone, kFailed, kTimedOut, kCancelled };
-
-inline constexpr std::array kJobStates{JobState::kQueued, JobState::kHeld,   JobState::kRunning,  JobState::kStopping,
-                                       JobState::kDone,   JobState::kFailed, JobState::kTimedOut, JobState::kCancelled};
-
-/// The same for the rules: what holds a held job, and what a stopping one becomes, make a difference.
+/// A state as the rules have it: what holds a held job, and what a stopping one becomes, make a difference.
 enum class JobPhase {
   kQueued,
   kHeldOnRequest,
@@ -36,20 +32,14 @@ enum class JobPhase {
   kCancelled,
 };
 
-/// Whether nothing more happens to a job in this state by itself.
-bool has_ended(JobState state);
-
-/// The word for a state in the queue, in the API and on the bus; and back.
-std::string_view to_word(JobState state);
-std::optional<JobState> job_state(std::string_view word);
-
 /// Number of jobs in each state.
 struct JobCounts {
   std::array<std::int64_t, kJobStates.size()> n{};
   std::int64_t& operator[](JobState state) { return n[static_cast<std::size_t>(state)]; }
   std::int64_t operator[](JobState state) const { return n[static_cast<std::size_t>(state)]; }
   std::int64_t total() const;
-  std::int64_t ended() const;
+  /// In the states that are so.
+  std::int64_t of(bool (*are_so)(JobState)) const;
 };
 
 /// One run of one scene. Times are microseconds since 1970-01-01 UTC, 0 where the event has not happened.

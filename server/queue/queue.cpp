@@ -199,7 +199,7 @@ bool Queue::make_longer(const Job& job, const std::string& scene, const std::str
   if (longer == present) return false;
   refuse_other_end(job.id, longer);
   store_.set_scene(job.id, longer);
-  if (job.state == JobState::kRunning || job.state == JobState::kStopping) store_.set(job.id, "longer", 1);
+  if (has_worker(job.state)) store_.set(job.id, "longer", 1);
   store_.add_to_journal(job.id, to_word(job.state), to_word(job.state), job.attempt, "asked to go on longer, " + how);
   return true;
 }
@@ -358,7 +358,7 @@ std::vector<Job> Queue::begun(Sweep& sweep, SweepWork& work) const {
   const Sums& sums = sums_of(sweep.id);
   sweep.counts = sums.counts;
   work = sums.work;
-  return sweep.counts.ended() == sweep.counts.total() ? std::vector<Job>{} : explained(store_.begun(sweep.id));
+  return sweep.counts.of(has_ended) == sweep.counts.total() ? std::vector<Job>{} : explained(store_.begun(sweep.id));
 }
 
 std::map<std::int64_t, double> Queue::work_ahead() const {
@@ -559,8 +559,7 @@ void Queue::set_notes(std::span<const std::pair<std::string, std::string>> notes
   write([&] {
     for (const auto& [id, note] : notes) {
       const auto job = store_.job(id);
-      const bool has_worker = job && (job->state == JobState::kRunning || job->state == JobState::kStopping);
-      if (has_worker && job->reason != note) store_.set(id, "reason", note);
+      if (job && has_worker(job->state) && job->reason != note) store_.set(id, "reason", note);
     }
   });
 }

@@ -29,7 +29,7 @@ struct Submitted {
   bool created = false;  ///< false: this very sweep was there already
   int n_new = 0;         ///< jobs never seen before, which are queued now
   int n_found = 0;       ///< jobs never seen before that are done, for their results were there
-  int n_requeued = 0;    ///< failed, cancelled, timed out, held or about to be so, queued again
+  int n_requeued = 0;    ///< that came to nothing, were held or about to be so, queued again
   int n_extended = 0;    ///< asked to go on longer than before; none of the above
   JobCounts counts{};    ///< of the sweep's jobs, afterwards
 };

@@ -25,11 +25,11 @@ constexpr std::array<PhaseRow, 15> kPhases{{
     {"Ho", {JobState::kHeld, "others", ""}},
     {"Hs", {JobState::kHeld, "rule", ""}},
     {"R",  {JobState::kRunning, "", ""}},
-    {"Sq", {JobState::kStopping, "", "queued"}},
+    {"Sq", {JobState::kStopping, "", to_word(JobState::kQueued)}},
     {"Sl", {JobState::kStopping, "", "last"}},
-    {"Sc", {JobState::kStopping, "", "cancelled"}},
-    {"Sh", {JobState::kStopping, "", "held"}},
-    {"St", {JobState::kStopping, "", "timed out"}},
+    {"Sc", {JobState::kStopping, "", to_word(JobState::kCancelled)}},
+    {"Sh", {JobState::kStopping, "", to_word(JobState::kHeld)}},
+    {"St", {JobState::kStopping, "", to_word(JobState::kTimedOut)}},
     {"D",  {JobState::kDone, "", ""}},
     {"F",  {JobState::kFailed, "", ""}},
     {"T",  {JobState::kTimedOut, "", ""}},
@@ -117,13 +117,10 @@ std::optional<JobPhase> phase_of(JobState state, std::string_view hold, std::str
   return row == kPhases.end() ? std::nullopt : phase_named(row->code);
 }
 
-bool is_withdrawn(JobPhase phase) {
-  using enum JobPhase;
-  return phase == kFailed || phase == kTimedOut || phase == kCancelled || phase == kStopToCancel;
-}
+bool is_withdrawn(JobPhase phase) { return phase == JobPhase::kStopToCancel || came_to_nothing(stored(phase).state); }
 
 std::optional<JobState> state_without_result(const JobCounts& counts) {
-  for (const JobState state : {JobState::kFailed, JobState::kTimedOut, JobState::kCancelled}) {
+  for (const JobState state : states_that(came_to_nothing)) {
     if (counts[state] > 0) return state;
   }
   return std::nullopt;

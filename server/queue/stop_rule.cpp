@@ -11,9 +11,7 @@ namespace {
 
 constexpr std::int64_t kLeastEnded = 5;
 
-std::int64_t n_ended(const JobCounts& counts) {
-  return counts[JobState::kDone] + counts[JobState::kFailed] + counts[JobState::kTimedOut];
-}
+std::int64_t n_ended(const JobCounts& counts) { return counts[JobState::kDone] + counts.of(has_failed); }
 
 }  // namespace
 

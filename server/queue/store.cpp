@@ -1,6 +1,7 @@
 #include "server/queue/store.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -25,17 +26,23 @@ const std::string kWaitsForStart =
     "(j.starts_from <> '' AND j.attempt = 0 AND EXISTS "
     "(SELECT 1 FROM jobs p WHERE p.id = j.starts_from AND p.state <> 'done')) ";
 const std::string kWaitsForTurn = "state = 'queued' AND waits = 0 AND NOT " + kWaitsForStart + "AND " + kNotPausing;
+
+/// "state IN ('running', 'stopping') ": of a job in one of the states that are so; by the index.
+std::string in_states(bool (*are_so)(JobState)) {
+  return fmt::format("state IN ('{}') ", fmt::join(words_of(are_so), "', '"));
+}
+const std::string kWaiting = in_states(is_waiting), kAtWork = in_states(has_worker),
+                  kUnfinished = in_states([](JobState state) { return !has_ended(state); });
 /// Not of a sweep of which as many jobs run as may.
 const std::string kHasPlace =
     "sweep NOT IN (SELECT s.id FROM sweeps s WHERE s.at_most > 0 AND s.at_most <= "
-    "(SELECT COUNT(*) FROM jobs r WHERE r.state IN ('running', 'stopping') AND r.sweep = s.id)) ";
+    "(SELECT COUNT(*) FROM jobs r WHERE r." +
+    kAtWork + "AND r.sweep = s.id)) ";
 /// Of an executor: its name is ?2, and ?3 is not 0 where it is the default; ?1 is the time here, too.
 const std::string kOfExecutor = "sweep IN (SELECT id FROM sweeps WHERE executor = ?2 OR (executor = '' AND ?3)) ";
 const std::string kNotRefused =
     "sweep NOT IN (SELECT s.id FROM refusals f JOIN sweeps s ON s.settings = f.settings WHERE f.executor = ?2 AND " +
     kCounts + ") ";
-
-const std::string kUnfinished = "state IN ('queued', 'held', 'running', 'stopping') ";  // by the index
 
 /// The jobs of a target, which is ?1.
 std::string members_of(const Target& target) {
@@ -176,8 +183,7 @@ std::vector<Job> QueueStore::jobs(std::optional<std::int64_t> sweep, std::option
 }
 
 std::vector<Job> QueueStore::begun(std::int64_t sweep) const {
-  return read_jobs(database_.query(
-      kSelectMembers + "AND j.state IN ('queued', 'held', 'running', 'stopping') AND j.attempt > 0", sweep));
+  return read_jobs(database_.query(kSelectMembers + "AND j." + kUnfinished + "AND j.attempt > 0", sweep));
 }
 
 std::optional<Job> QueueStore::job(const std::string& id) const {
@@ -187,7 +193,7 @@ std::optional<Job> QueueStore::job(const std::string& id) const {
 }
 
 std::vector<Job> QueueStore::active() const {
-  return read_jobs(database_.query(kSelectJobs + "WHERE state IN ('running', 'stopping') ORDER BY number"));
+  return read_jobs(database_.query(kSelectJobs + "WHERE " + kAtWork + "ORDER BY number"));
 }
 
 std::vector<std::string> QueueStore::ids_where(const std::string& condition, const Target& target) const {
@@ -341,7 +347,8 @@ bool QueueStore::is_full(std::int64_t sweep) const {
   return database_
       .query(
           "SELECT 1 FROM sweeps WHERE id = ?1 AND at_most > 0 AND at_most <= "
-          "(SELECT COUNT(*) FROM jobs WHERE state IN ('running', 'stopping') AND sweep = ?1)",
+          "(SELECT COUNT(*) FROM jobs WHERE " +
+              kAtWork + "AND sweep = ?1)",
           sweep)
       .next();
 }
@@ -379,10 +386,8 @@ void QueueStore::end_waiting(std::int64_t sweep) {
 }
 
 std::vector<std::string> QueueStore::ids_starting_from(const std::string& id) const {
-  return read_texts(
-      database_.query("SELECT id FROM jobs WHERE starts_from = ?1 AND starts_from <> '' AND state IN ('queued', "
-                      "'held') ORDER BY number",
-                      id));
+  return read_texts(database_.query(
+      "SELECT id FROM jobs WHERE starts_from = ?1 AND starts_from <> '' AND " + kWaiting + "ORDER BY number", id));
 }
 
 std::vector<std::int64_t> QueueStore::ruled_sweeps_of(const std::string& id) const {
@@ -441,10 +446,10 @@ void QueueStore::set_terms(std::int64_t sweep, const Terms& terms) {
     database_.run("INSERT INTO prerequisites(sweep, position, target) VALUES(?1, ?2, ?3)", sweep,
                   static_cast<std::int64_t>(i), to_word(terms.after[i]));
   }
-  database_.run(
-      "UPDATE jobs SET waits = ?2 AND state IN ('queued', 'held') WHERE sweep = ?1 AND (?2 OR waits) "
-      "AND number IN (SELECT job FROM members WHERE sweep = ?1)",
-      sweep, terms.after.empty() ? 0 : 1);
+  database_.run("UPDATE jobs SET waits = ?2 AND " + kWaiting +
+                    "WHERE sweep = ?1 AND (?2 OR waits) "
+                    "AND number IN (SELECT job FROM members WHERE sweep = ?1)",
+                sweep, terms.after.empty() ? 0 : 1);
 }
 
 bool QueueStore::add_job(const NewJob& job, int priority, std::int64_t sweep, const Terms& terms,
@@ -493,12 +498,12 @@ void QueueStore::set_phase(const Job& job, JobPhase to, const std::string& reaso
       "UPDATE jobs SET state = ?2, hold = ?3, after_stop = ?4, reason = ?5, finished_utime = ?6, attempt = ?7, "
       "started_utime = CASE WHEN ?2 = 'running' THEN ?8 ELSE started_utime END, needed_bytes = 0, not_before_utime = 0,"
       "longer = CASE WHEN ?2 = 'running' THEN 0 ELSE longer END, "
-      "crashes = CASE WHEN ?2 IN ('running', 'stopping') THEN crashes ELSE 0 END, "
+      "crashes = CASE WHEN ?10 THEN crashes ELSE 0 END, "
       "pid = CASE WHEN ?2 = 'stopping' THEN pid ELSE 0 END, "
       "worker = CASE WHEN ?2 = 'stopping' THEN worker ELSE '' END, wall_ms = CASE WHEN ?9 THEN 0 ELSE wall_ms END "
       "WHERE id = ?1",
       job.id, to_word(state), hold, after_stop, reason, has_ended(state) ? utime_now() : 0, attempt, utime_now(),
-      has_ended(job.state) && !has_ended(state) ? 1 : 0);
+      has_ended(job.state) && !has_ended(state) ? 1 : 0, has_worker(state) ? 1 : 0);
   add_to_journal(job.id, to_word(job.state), to_word(state), attempt, cause);
   if (job.phase == JobPhase::kStopToLast && to == JobPhase::kQueued) {
     database_.run("UPDATE jobs SET turn = (SELECT MAX(sequence) FROM journal) WHERE id = ?1", job.id);

@@ -1,9 +1,12 @@
 // The list of sweeps, and what can be asked of them and of their jobs.
 import {ask, byId, complain, duration, make} from "./dom.js";
+import {kJobStates} from "./job_states.js";
 
 /** "3 done, 2 running" of {state: n}. */
 export const countsText = (counts) =>
   Object.entries(counts).filter(([, n]) => n > 0).map(([state, n]) => `${n} ${state}`).join(", ");
+
+export const hasWorker = (job) => Boolean(kJobStates[job?.state]?.has_worker);
 
 export class QueuePanel {
   /** `choose(id)` is called when a sweep is clicked. */
@@ -42,11 +45,9 @@ export class QueuePanel {
 
 /** Buttons of what can be asked of a sweep or a job; `path` is /v1/sweeps/ID or /v1/jobs/ID, `thing` "all" or "run". */
 export function actionButtons(path, states, thing = "") {
-  const has = (...words) => words.some((word) => states.has(word));
-  const offered = [["hold", "Hold", has("queued", "running")], ["resume", "Resume", has("held")],
-                   ["retry", thing ? `Try ${thing} again` : "Try again", has("failed", "cancelled", "timed out")],
-                   ["cancel", "Cancel", has("queued", "running", "held")]];
-  return offered.filter(([, , fits]) => fits).map(([action, word]) => make("button", {
+  const offered = new Set([...states].flatMap((state) => kJobStates[state]?.requests ?? []));
+  const words = {hold: "Hold", resume: "Resume", retry: thing ? `Try ${thing} again` : "Try again", cancel: "Cancel"};
+  return Object.entries(words).filter(([action]) => offered.has(action)).map(([action, word]) => make("button", {
     type: "button", "data-action": action, onclick: async (event) => {
       event.stopPropagation();
       if (action === "cancel" && !confirm(`Cancel ${path.split("/").at(-1)}? What it has measured stays.`)) return;

@@ -1,6 +1,6 @@
 // The chosen run: its rods, live or recorded, S(t), P(theta) and its files.
 import {ask, byId, bytes, complain, duration, fetched, make, number, replaceIfOther, save} from "./dom.js";
-import {actionButtons} from "./queue.js";
+import {actionButtons, hasWorker} from "./queue.js";
 import {Curve, strip} from "./charts.js";
 import {Newest} from "./loader.js";
 import {RodPath} from "./path.js";
@@ -86,7 +86,7 @@ export class RunPanel {
     if (id && id === this.id) await this.load();
   }
 
-  isRunning() { return this.job?.state === "running" || this.job?.state === "stopping"; }
+  isRunning() { return hasWorker(this.job); }
 
   /** Asks for everything about the run; again when its state may have changed. */
   async load() {
@@ -97,7 +97,7 @@ export class RunPanel {
       if (id !== this.id) return;
       const wasRunning = this.isRunning();
       const curveNames = ["/order/time_s", "/order/order", "/angles/theta_rad", "/angles/density_per_rad"];
-      const of = curveNames.map((name) => `of=${name}`).join("&"), isAtWork = ["running", "stopping"].includes(job.state);
+      const of = curveNames.map((name) => `of=${name}`).join("&"), isAtWork = hasWorker(job);
       const wanted = ["frames", "files", ...(isAtWork ? [] : [`curves?${of}`])];  // which there are at the end
       const [frames, files, curves] = await Promise.all(
         wanted.map((what) => ask(`/runs/${id}/${what}`).catch((problem) => ({problem}))));

@@ -472,6 +472,21 @@ TEST(Catalogue, SaysOfEveryQuantityWhatItIs) {
   EXPECT_GE(n_titles, 130U);
 }
 
+TEST(Catalogue, ListsTheStatesOfJobsForThePageAndItsReaders) {
+  std::string module = "export const kJobStates = {\n",
+              table = "| state | meaning | worker | ended |\n|---|---|---|---|\n";
+  const auto yes = [](const Json& is_so) { return is_so.get<bool>() ? "yes" : ""; };
+  const Json states = Json::parse(catalogue())["job_states"];
+  for (const auto& [word, row] : states.items()) {
+    const Json of_page{{"has_worker", row["has_worker"]}, {"requests", row["requests"]}};
+    module += "  " + Json(word).dump() + ": " + of_page.dump() + ",\n";
+    table += "| `" + word + "` | " + row["doc"].get<std::string>() + " | " + yes(row["has_worker"]) + " | " +
+             yes(row["has_ended"]) + " |\n";
+  }
+  expect_generated(SHAKEN_SOURCE_DIR "/web/page/job_states.js", "states", module + "};\n");
+  expect_generated(SHAKEN_SOURCE_DIR "/docs/protocol.md", "states", table);
+}
+
 TEST(Catalogue, NamesAxesThatAreArraysWithoutAxes) {
   const Json arrays = Json::parse(catalogue())["arrays"];
   for (const auto& [name, row] : arrays.items()) {

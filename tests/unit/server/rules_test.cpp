@@ -4,9 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
+#include <map>
 #include <string>
+
+#include "base/text.h"
 
 namespace shaken::server {
 namespace {
@@ -14,17 +15,19 @@ namespace {
 constexpr int kPhases = static_cast<int>(JobPhase::kCancelled) + 1;
 constexpr int kEvents = static_cast<int>(JobEvent::kStopRuleMet) + 1;
 
-bool has_worker(JobPhase phase) {
-  const JobState state = stored(phase).state;
-  return state == JobState::kRunning || state == JobState::kStopping;
-}
+bool has_worker(JobPhase phase) { return shaken::has_worker(stored(phase).state); }
 
-TEST(JobWords, OfAllStatesStandInTheMessageOfAJob) {
-  std::string words;
-  for (const JobState state : kJobStates) words += (words.empty() ? "// " : " | ") + std::string(to_word(state));
-  std::ifstream file(SHAKEN_SOURCE_DIR "/proto/job_t.lcm");
-  const std::string text(std::istreambuf_iterator<char>(file), {});
-  EXPECT_NE(text.find(words + "\n"), std::string::npos) << words;
+TEST(JobStates, AreInOrderAndOfferWhatChangesTheJob) {
+  const std::map<std::string, JobEvent> events{{"cancel", JobEvent::kCancel},
+                                               {"hold", JobEvent::kHold},
+                                               {"resume", JobEvent::kResume},
+                                               {"retry", JobEvent::kRetry}};
+  for (int p = 0; p < kPhases; ++p) {
+    const JobStateRow& row = row_of(stored(static_cast<JobPhase>(p)).state);
+    EXPECT_EQ(job_state(row.word), stored(static_cast<JobPhase>(p)).state);
+    for (const std::string& request : split(row.requests, ' '))
+      EXPECT_TRUE(next_phase(static_cast<JobPhase>(p), events.at(request))) << request << " in phase " << p;
+  }
 }
 
 TEST(JobWords, ASweepHasOneId) {
