@@ -75,7 +75,8 @@ ALLOWED = {
     "client/verbs/schema.cpp": ["client", "scene", "render/style_file.h"],
     # all that has a name
     "client/catalogue.cpp": ["client/catalogue.h", "client/live/json.h", "base", "scene", "render/style_keys.h",
-                             "run/files/unit_of_name.h", "run/measure/measurement_kinds.h", "sim/effects/registry.h"],
+                             "run/files/unit_of_name.h", "run/loop/summary.h", "run/measure/measurement_kinds.h",
+                             "sim/effects/registry.h"],
     "client": ["proto", "base", "scene", "run/files", "run/export", "sim/rod", "sim/cell.h", "sim/system.h"],
     # the page in a browser: what the terminal's live view makes of messages, the daemon's way of HTTP, a run's files
     "web": ["proto", "base", "client/live", "client/starter_scene.h", "base/http", "run/files", "analysis/order.h",

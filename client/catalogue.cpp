@@ -11,6 +11,7 @@
 #include "client/live/json.h"
 #include "render/style_keys.h"
 #include "run/files/unit_of_name.h"
+#include "run/loop/summary.h"
 #include "run/measure/measurement_kinds.h"
 #include "scene/canonical.h"
 #include "scene/keys/fields.h"
@@ -106,6 +107,16 @@ Rows numbers() {
   return rows;
 }
 
+Rows summary() {
+  Rows rows;
+  for (const run::SummaryKey& key : run::summary_keys()) {
+    Json row{{"doc", key.meaning}, {"if_null", key.if_null}};
+    if (!key.unit.empty()) row.update({{"unit", key.unit}, {"title", key.title}, {"symbol", ""}});
+    rows.emplace_back(key.name, row);
+  }
+  return rows;
+}
+
 Rows job_states() {
   Rows rows;
   for (const JobStateRow& row : kJobStates)
@@ -134,6 +145,7 @@ std::string catalogue() {
                                                            {"observables", observables()},
                                                            {"arrays", arrays()},
                                                            {"numbers", numbers()},
+                                                           {"summary", summary()},
                                                            {"effects", effects()},
                                                            {"job_states", job_states()}};
   std::string text = "{";

@@ -6,6 +6,7 @@ KEYS:    key of a scene -> {"of", "unit", "range", "default", "title", "symbol",
 ARRAYS:  array of observables.h5 -> {"unit", "title", "symbol", "doc", "error": whether there is one of its standard
          errors, "axes": the arrays that it is measured at, the slowest first}
 NUMBERS: number of summary.json -> {"unit", "title", "symbol", "doc", "observable"}
+SUMMARY: key of summary.json -> {"doc", "if_null": why, and of a number "unit", "title", "symbol"}
 JOB_STATES: state of a job, in the order of its life -> {"has_worker": whether one is at work on it, "has_ended":
          whether nothing more happens to it unless somebody asks, "has_failed": whether it ended by itself and is not
          done, "requests": what may be asked of it, "doc"}
@@ -18,5 +19,5 @@ from typing import Any
 
 _ALL: dict[str, dict[str, dict[str, Any]]] = json.loads(
     Path(__file__).with_suffix(".json").read_text(encoding="utf-8"))
-UNITS, SYMBOLS, KEYS, ARRAYS, NUMBERS, JOB_STATES = (
-    _ALL[section] for section in ("units", "symbols_in_names", "keys", "arrays", "numbers", "job_states"))
+UNITS, SYMBOLS, KEYS, ARRAYS, NUMBERS, SUMMARY, JOB_STATES = (
+    _ALL[section] for section in ("units", "symbols_in_names", "keys", "arrays", "numbers", "summary", "job_states"))

@@ -7,10 +7,11 @@ import re
 from decimal import Decimal
 from typing import Any
 
-from .catalogue import SYMBOLS, UNITS
+from .catalogue import SUMMARY, SYMBOLS, UNITS
 from .errors import ShakenError, nearest
 
 _UNIT = re.compile(f"({'|'.join(SYMBOLS)})([0-9]?)$")
+_OF_VALUE = re.compile(r"\.(value|sem)$")
 _SPECIES = re.compile(r"^/?(rods_[0-9]+)(?=[./])")
 
 
@@ -39,9 +40,11 @@ def split_unit(name: str) -> tuple[str, str]:
 
 def unit_of(name: str) -> str:
     """The unit that a name ends in, as the attribute `unit` of a data set has it: "mm2 s-1"; "1" for a plain number.
-    `name` may be a path, "/msd/total_sem_mm2".
+    `name` may be a path, "/msd/total_sem_mm2", or one of a summary, "cpu_seconds", "measured.theta_m_deg.value".
     """
-    words = split_unit(name.rsplit("/", 1)[-1])[1].split("_")
+    if "unit" in SUMMARY.get(name, {}):
+        return str(SUMMARY[name]["unit"])
+    words = split_unit(_OF_VALUE.sub("", name.rsplit("/", 1)[-1]))[1].split("_")
     per = words[0] == "per"
     units = [(match[1], int(match[2] or 1)) for word in words if (match := _UNIT.match(word))]
     return " ".join(_power(unit, -power if per or k > 0 else power) for k, (unit, power) in enumerate(units)) or "1"

@@ -4,8 +4,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "analysis/errors/parts.h"
@@ -51,11 +51,6 @@ OrderedJson drift_json(double value, double sem) {
   return {{"value", number_or_null(value)}, {"sem", number_or_null(sem)}};
 }
 
-/// What a measurement of recorded frames leaves open.
-constexpr const char* kOfSimulations[] = {
-    "/rod_seconds_per_cpu_second",   "/collisions", "/max_overlap_mm",  "/energy_pJ",
-    "/momentum_unexplained_mg_mm_s", "/state_hash", "/versions/physics"};
-
 /// Null where rods were placed.
 OrderedJson json_of(const std::optional<scene::StartState>& start) {
   return start ? OrderedJson{{"run", start->run}, {"time_s", start->time}} : OrderedJson(nullptr);
@@ -64,19 +59,75 @@ OrderedJson json_of(const std::optional<scene::StartState>& start) {
 /// Null where it is not known.
 OrderedJson json_of(std::optional<bool> known) { return known ? OrderedJson(*known) : OrderedJson(nullptr); }
 
+OrderedJson order_json(const Summary& summary) {
+  if (!summary.order) return nullptr;
+  const analysis::SteadySummary& order = *summary.order;
+  OrderedJson json{{"mean", order.mean},
+                   {"std", order.std},
+                   {"sem", number_or_null(shown_error(order))},
+                   {"tau_s", order.tau},
+                   {"t_steady_s", order.t_steady},
+                   {"n_effective", order.n_effective},
+                   {"steady", json_of(order.steady)},
+                   {"drift", drift_json(order.drift.value, order.drift.sem)}};
+  if (order.steady != true) json["sem_if_steady"] = number_or_null(order.sem);
+  if (const std::string why = why_not_steady(order, summary.sim_seconds); !why.empty()) json["why_not_steady"] = why;
+  return json;
+}
+
+OrderedJson defects_json(const Summary& summary) {
+  if (!summary.defects_mean_plus || !summary.defects_mean_minus) return nullptr;
+  return {{"mean_plus", *summary.defects_mean_plus}, {"mean_minus", *summary.defects_mean_minus}};
+}
+
+template <auto Member>
+OrderedJson at(const Summary& summary) {
+  return summary.*Member;
+}
+
+constexpr std::string_view kNotSimulated = "measured on recorded frames, not simulated";
+using Of = const Summary&;
+
+// clang-format off
+constexpr auto kKeys = std::to_array<SummaryKey>({
+    {"start", "", "", "`run` and `time_s`: the state that the run began with "
+     "([scene.md](scene.md#from-the-end-of-another-run))", [](Of s) { return json_of(s.start); },
+     "the rods were placed, not taken over from another run"},
+    {"n_rods", "1", "", "number of rods, of all species", at<&Summary::n_rods>},
+    {"sim_seconds", "s", "simulated time", "simulated time", at<&Summary::sim_seconds>},
+    {"cpu_seconds", "s", "CPU time", "CPU time of this worker and those before it", at<&Summary::cpu_seconds>},
+    {"wall_seconds", "s", "wall time", "wall time of these", at<&Summary::wall_seconds>},
+    {"rod_seconds_per_cpu_second", "1", "", "rods times simulated seconds, per second of CPU time",
+     [](Of s) -> OrderedJson { return s.cpu_seconds > 0 ? s.n_rods * s.sim_seconds / s.cpu_seconds : 0.0; },
+     kNotSimulated},
+    {"collisions", "1", "", "impulses given: `rod_rod`, `rod_base`, `rod_lid`, `rod_wall`, `rod_post`",
+     [](Of s) -> OrderedJson { return {{"rod_rod", s.collisions_rod_rod}, {"rod_base", s.collisions_rod_base},
+                                       {"rod_lid", s.collisions_rod_lid}, {"rod_wall", s.collisions_rod_wall},
+                                       {"rod_post", s.collisions_rod_post}}; }, kNotSimulated},
+    {"max_overlap_mm", "mm", "deepest overlap", "deepest overlap found at a contact", at<&Summary::max_overlap>,
+     kNotSimulated},
+    {"energy_pJ", "pJ", "", "the energy balance, see below", [](Of s) { return to_json(s.balance); }, kNotSimulated},
+    {"momentum_unexplained_mg_mm_s", "mg mm s-1", "", "the unexplained part of the momentum balance: x, y, z",
+     [](Of s) -> OrderedJson { const Vec3& p = s.balance.momentum_unexplained; return {p.x(), p.y(), p.z()}; },
+     kNotSimulated},
+    {"t_steady_s", "s", "", "where the averages begin", at<&Summary::t_steady>},
+    {"steady", "", "", "whether the averages are of a steady state, see below",
+     [](Of s) { return s.order ? json_of(s.order->steady) : OrderedJson(nullptr); },
+     "S, which would tell, is not measured (measure.order)", "S would tell, and spheres have none"},
+    {"order", "", "", "the average of S(t), see below", order_json,
+     "the scene does not measure S (measure.order)", "spheres have no axis"},
+    {"defects", "1", "", "`mean_plus` and `mean_minus`: mean numbers of ±1/2 defects", defects_json,
+     "the scene does not measure them (measure.defects)", "spheres have no axis"},
+});
+// clang-format on
+
 /// Why the value at `path` ("measured.dip.sem") is null, as far as the path tells.
-std::string why_null(const std::string& path, const Summary& summary) {
+std::string_view why_null(const std::string& path, const Summary& summary) {
   const auto ends = [&](std::string_view end) { return path.ends_with(end); };
-  std::string pointer = "/" + path;
-  std::ranges::replace(pointer, '.', '/');
-  if (summary.frames && std::ranges::find(kOfSimulations, pointer) != std::end(kOfSimulations))
-    return "measured on recorded frames, not simulated";
-  if (path == "start") return "the rods were placed, not taken over from another run";
-  if (!summary.has_axis && (path == "order" || path == "defects")) return "spheres have no axis";
-  if (!summary.has_axis && path == "steady") return "S would tell, and spheres have none";
-  if (path == "order") return "the scene does not measure S (measure.order)";
-  if (path == "defects") return "the scene does not measure them (measure.defects)";
-  if (path == "steady" && !summary.order) return "S, which would tell, is not measured (measure.order)";
+  if (path == "state_hash" || path == "versions.physics") return kNotSimulated;
+  const auto key = std::ranges::find(kKeys, path, &SummaryKey::name);
+  if (key != kKeys.end() && !key->if_null.empty() && !(path == "steady" && summary.order))
+    return summary.has_axis || key->of_spheres.empty() ? key->if_null : key->of_spheres;
   if (path.starts_with("measured.") && ends(".value")) {
     constexpr std::size_t kBefore = std::string_view("measured.").size();
     const std::string name = path.substr(kBefore, path.size() - kBefore - std::string_view(".value").size());
@@ -134,47 +185,13 @@ void fill(Summary& summary, const scene::RunPlan& plan, const Reduction& reducti
   summary.defects_mean_minus = reduction.defects->n_minus;
 }
 
+std::span<const SummaryKey> summary_keys() { return kKeys; }
+
 std::string summary_text(const Summary& summary) {
-  OrderedJson json{
-      {"run_id", summary.run_id},
-      {"start", json_of(summary.start)},
-      {"n_rods", summary.n_rods},
-      {"sim_seconds", summary.sim_seconds},
-      {"cpu_seconds", summary.cpu_seconds},
-      {"wall_seconds", summary.wall_seconds},
-      {"rod_seconds_per_cpu_second",
-       summary.cpu_seconds > 0 ? summary.n_rods * summary.sim_seconds / summary.cpu_seconds : 0.0},
-      {"collisions",
-       {{"rod_rod", summary.collisions_rod_rod},
-        {"rod_base", summary.collisions_rod_base},
-        {"rod_lid", summary.collisions_rod_lid},
-        {"rod_wall", summary.collisions_rod_wall},
-        {"rod_post", summary.collisions_rod_post}}},
-      {"max_overlap_mm", summary.max_overlap},
-      {"energy_pJ", to_json(summary.balance)},
-      {"momentum_unexplained_mg_mm_s",
-       {summary.balance.momentum_unexplained.x(), summary.balance.momentum_unexplained.y(),
-        summary.balance.momentum_unexplained.z()}},
-      {"t_steady_s", summary.t_steady},
-      {"steady", summary.order ? json_of(summary.order->steady) : OrderedJson(nullptr)},
-      {"order", nullptr},
-      {"defects", nullptr},
-  };
-  if (summary.order) {
-    json["order"] = {{"mean", summary.order->mean},
-                     {"std", summary.order->std},
-                     {"sem", number_or_null(shown_error(*summary.order))},
-                     {"tau_s", summary.order->tau},
-                     {"t_steady_s", summary.order->t_steady},
-                     {"n_effective", summary.order->n_effective},
-                     {"steady", json_of(summary.order->steady)},
-                     {"drift", drift_json(summary.order->drift.value, summary.order->drift.sem)}};
-    if (summary.order->steady != true) json["order"]["sem_if_steady"] = number_or_null(summary.order->sem);
-    if (const std::string why = why_not_steady(*summary.order, summary.sim_seconds); !why.empty())
-      json["order"]["why_not_steady"] = why;
-  }
-  if (summary.defects_mean_plus && summary.defects_mean_minus) {
-    json["defects"] = {{"mean_plus", *summary.defects_mean_plus}, {"mean_minus", *summary.defects_mean_minus}};
+  OrderedJson json{{"run_id", summary.run_id}};
+  for (const SummaryKey& key : kKeys) {
+    const bool is_open = summary.frames && key.if_null == kNotSimulated;
+    json[std::string(key.name)] = is_open ? OrderedJson(nullptr) : key.value(summary);
   }
   json["measured"] = OrderedJson::object();
   for (const auto& [name, scalar] : summary.scalars) {
@@ -210,7 +227,7 @@ std::string summary_text(const Summary& summary) {
                       {"first_s", frames->first},
                       {"last_s", frames->last},
                       {"remarks", frames->remarks}};
-    for (const char* name : kOfSimulations) json[OrderedJson::json_pointer(name)] = nullptr;
+    json["state_hash"] = json["versions"]["physics"] = nullptr;
   }
   OrderedJson reasons = OrderedJson::object();
   explain_nulls(json, "", summary, reasons);

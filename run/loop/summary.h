@@ -3,8 +3,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "analysis/time_series.h"
@@ -79,6 +82,19 @@ std::string why_not_steady(const analysis::SteadySummary& order, double sim_seco
 
 /// What was measured of a run of `plan`.
 void fill(Summary& summary, const scene::RunPlan& plan, const Reduction& reduction);
+
+/// What summary.json says of the whole run besides `measured`: numbers, and blocks of them.
+struct SummaryKey {
+  std::string_view name;
+  std::string_view unit;     ///< "1" of plain numbers, empty of what is none
+  std::string_view title;    ///< in figures, in few words; may be empty
+  std::string_view meaning;  ///< for docs/files.md
+  nlohmann::ordered_json (*value)(const Summary&);
+  std::string_view if_null = {};     ///< why there is no value
+  std::string_view of_spheres = {};  ///< the same where the measured rods have no axis
+};
+/// All of them, in the order of the file.
+std::span<const SummaryKey> summary_keys();
 
 /// summary.json: every null with its reason.
 std::string summary_text(const Summary& summary);

@@ -12,7 +12,6 @@ from ..units import split_species, split_unit, unit_of
 _OWN = {
     "S": ("nematic order", r"$\langle S\rangle$", ""),
     "S_std": ("fluctuation of the nematic order", r"$σ_S$", ""),
-    "cpu_seconds": ("CPU time", "", "s"),
     "/defects/n": ("number of ±1/2 defects", "", ""),
 }
 #: The same under the names that rows of results have.
@@ -38,11 +37,12 @@ def unit_text(unit: str) -> str:
 
 def _described(rows: Mapping[str, Mapping[str, Any]]) -> dict[str, tuple[str, str, str]]:
     return {path: (row["title"], f"${row['symbol']}$" if row["symbol"] else "", unit_text(row["unit"]))
-            for path, row in rows.items() if row["title"] and not split_species(path)[0]}
+            for path, row in rows.items() if row.get("title") and not split_species(path)[0]}
 
 
 #: What scenes, rows of results and arrays call a quantity: (its name, its symbol, its unit in print).
-TABLE = {**_described(catalogue.KEYS), **_described(catalogue.NUMBERS), **_described(catalogue.ARRAYS), **_OWN}
+TABLE = {**_described(catalogue.KEYS), **_described(catalogue.NUMBERS), **_described(catalogue.SUMMARY),
+         **_described(catalogue.ARRAYS), **_OWN}
 
 
 def _entry(path: str) -> tuple[str, str, str] | None:

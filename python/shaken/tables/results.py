@@ -12,15 +12,16 @@ from ..errors import ShakenError
 from ..estimate import MARKS
 from ..rows import Row, aggregated, axes_of, field_names, has_several_versions, resolved, short_name, swept, target_of
 from ..text import Column, in_yellow, json_text, number_text, printable, table, terminal_width, value_text
+from ..units import unit_of
 from .conditions import read, selected
 
-#: Title, field and rank of what the table on a terminal shows of a summary, or of replicas.
-_COLUMNS = (("REPLICAS", "n_replicas", 4), ("DONE", "n_done", 3), ("N", "n_rods", 3), ("S", "order.mean", 0),
-            ("SEM", "order.sem", 1), ("STD", "order.std", 5), ("N_EFF", "order.n_effective", 4),
-            ("THETA_M deg", "measured.theta_m_deg.value", 2), ("SEM deg", "measured.theta_m_deg.sem", 2),
-            ("TAU s", "order.tau_s", 8), ("STEADY s", "order.t_steady_s", 6), ("SIM s", "sim_seconds", 6),
-            ("CPU s", "cpu_seconds", 7), ("ROD-S/CPU-S", "rod_seconds_per_cpu_second", 9),
-            ("OVERLAP mm", "max_overlap_mm", 10))
+#: Title with its unit, field and rank of what the table on a terminal shows of a summary, or of replicas.
+_COLUMNS = tuple((f"{title} {unit_of(name)}".removesuffix(" 1"), name, rank) for title, name, rank in (
+    ("REPLICAS", "n_replicas", 4), ("DONE", "n_done", 3), ("N", "n_rods", 3), ("S", "order.mean", 0),
+    ("SEM", "order.sem", 1), ("STD", "order.std", 5), ("N_EFF", "order.n_effective", 4),
+    ("THETA_M", "measured.theta_m_deg.value", 2), ("SEM", "measured.theta_m_deg.sem", 2), ("TAU", "order.tau_s", 8),
+    ("STEADY", "order.t_steady_s", 6), ("SIM", "sim_seconds", 6), ("CPU", "cpu_seconds", 7),
+    ("ROD-S/CPU-S", "rod_seconds_per_cpu_second", 9), ("OVERLAP", "max_overlap_mm", 10)))
 #: Of those, what is shown of single runs only.
 _OF_RUNS = ("order.t_steady_s", "rod_seconds_per_cpu_second", "max_overlap_mm")
 #: What the marks of averages say (base/steadiness.h).

@@ -458,7 +458,7 @@ TEST(Catalogue, IsTheOneThatPythonReads) {
 TEST(Catalogue, SaysOfEveryQuantityWhatItIs) {
   const Json all = Json::parse(catalogue());
   std::size_t n_titles = 0;
-  for (const char* section : {"keys", "style_keys", "observables", "arrays", "numbers", "effects"}) {
+  for (const char* section : {"keys", "style_keys", "observables", "arrays", "numbers", "summary", "effects"}) {
     for (const auto& [name, row] : all[section].items()) {
       EXPECT_FALSE(row["doc"].get<std::string>().empty()) << name;
       if (!row.contains("unit")) continue;

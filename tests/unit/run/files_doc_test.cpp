@@ -17,6 +17,7 @@
 #include "run/files/directory.h"
 #include "run/files/unit_of_name.h"
 #include "run/loop/loop.h"
+#include "run/loop/summary.h"
 #include "run/loop/trouble_file.h"
 #include "run/measure/measurement_kinds.h"
 #include "scene/keys/observables.h"
@@ -257,6 +258,14 @@ TEST(EffectsPage, ListsEveryEffect) {
           << std::regex_replace(std::string(effect.unit), std::regex("_"), " × ") << " |\n";
   }
   expect_generated(kPages + "effects.md", "effects", table.str());
+}
+
+TEST(FilesPage, ListsEveryKeyOfTheSummary) {
+  std::ostringstream table;
+  table << "| key | unit | meaning | null |\n|---|---|---|---|\n";
+  for (const SummaryKey& key : summary_keys())
+    table << "| `" << key.name << "` | " << key.unit << " | " << key.meaning << " | " << key.if_null << " |\n";
+  expect_generated(kPages + "files.md", "summary", table.str());
 }
 
 TEST(ObservablesPage, ListsEveryBlock) {
