@@ -73,6 +73,9 @@ ALLOWED = {
     # walls are drawn where they are
     "client/watch/rod_samples.cpp": ["client", "sim/motion/side_walls.h"],
     "client/verbs/schema.cpp": ["client", "scene", "render/style_file.h"],
+    # what is handed on to the worker is declared there
+    "client/verbs/import.cpp": ["client", "base", "run/import/import_run.h"],
+    "client/verbs/measure.cpp": ["client", "base", "run/recorded/measure_command.h"],
     # all that has a name
     "client/catalogue.cpp": ["client/catalogue.h", "client/live/json.h", "base", "scene", "render/style_keys.h",
                              "run/files/unit_of_name.h", "run/loop/summary.h", "run/measure/measurement_kinds.h",

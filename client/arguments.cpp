@@ -168,6 +168,13 @@ void Arguments::flag(const std::string& flags, const std::string& help) {
   without_variable_.push_back(app_.add_flag(flags, help));
 }
 
+void Arguments::options_of(const std::function<void(CLI::App&)>& declare) {
+  const std::size_t n_before = app_.get_options().size();
+  declare(app_);
+  const std::vector<CLI::Option*> all = app_.get_options();
+  without_variable_.insert(without_variable_.end(), all.begin() + static_cast<std::ptrdiff_t>(n_before), all.end());
+}
+
 void Arguments::hand_on(std::vector<std::string>& words) {
   app_.parse_complete_callback([options = without_variable_, &words] {
     std::vector<std::string> positionals;

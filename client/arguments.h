@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -55,6 +56,8 @@ class Arguments {
   void repeatable(const std::string& flags, const std::string& value_name, const std::string& help,
                   Names names = Names::kAnything);
   void flag(const std::string& flags, const std::string& help);
+  /// Options that `declare` adds, as the program does to which the verb hands its words on.
+  void options_of(const std::function<void(CLI::App&)>& declare);
   /// What was given of those that were declared so: "--name=value", "--flag", then "--" and the positionals
   /// if there are any. An empty value of an option that is given once is none.
   void hand_on(std::vector<std::string>& words);

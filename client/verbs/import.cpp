@@ -1,7 +1,6 @@
-#include <fmt/format.h>
-
 #include "base/process.h"
 #include "client/verbs/verbs.h"
+#include "run/import/import_run.h"
 
 namespace shaken::client {
 namespace {
@@ -21,37 +20,22 @@ class Import : public Verb {
   }
 
   void declare(Arguments& arguments) override {
-    arguments.required("FILE", file_, "A table of rods in CSV, or the trajectory.h5 of a run", Names::kFile);
-    arguments.option("--scene", scene_, "SCENE", "The scene whose rods these are: must be given", Names::kFile);
-    arguments.repeatable("-s,--set", settings_, "PATH=VALUE", "Change one value of the scene", Names::kSetting);
-    arguments.option("--frame", frame_, "N", "Of a trajectory: this frame, from 0; the last one if left out");
-    arguments.flag("--random-velocities", random_velocities_,
-                   "Of a table without velocities: as of any other start, by the scene's seed; 0 if left out");
-    arguments.flag("--json", json_, "Print JSON, also of problems");
+    arguments.required("FILE", asked_.file, "A table of rods in CSV, or the trajectory.h5 of a run", Names::kFile);
+    arguments.options_of([this](CLI::App& app) { run::declare(app, asked_); });
+    arguments.hand_on(words_);
   }
 
   ExitCode run(const Context& context) override {
-    if (scene_.empty()) throw Failure(ExitCode::kBadInput, "--scene is missing: the scene whose rods these are");
-    if (frame_ && *frame_ < 0) {
-      throw Failure(ExitCode::kBadInput, fmt::format("--frame takes a number from 0, not {}", *frame_));
-    }
-    std::vector<std::string> command{
-        sibling_program("shaken-worker").string(), "import", "--scene", scene_, "--root", context.root().string()};
-    for (const std::string& setting : settings_) command.insert(command.end(), {"-s", setting});
-    if (frame_) command.insert(command.end(), {"--frame", std::to_string(*frame_)});
-    if (random_velocities_) command.emplace_back("--random-velocities");
-    if (json_) command.emplace_back("--json");
-    command.insert(command.end(), {"--", file_});
+    std::vector<std::string> command{sibling_program("shaken-worker").string(), "import", "--root",
+                                     context.root().string()};
+    command.insert(command.end(), words_.begin(), words_.end());
+    command.insert(command.end(), {"--", asked_.file});
     become(command);
   }
 
  private:
-  std::string file_;
-  std::string scene_;
-  std::vector<std::string> settings_;
-  std::optional<int> frame_;
-  bool random_velocities_ = false;
-  bool json_ = false;
+  run::ImportOptions asked_;
+  std::vector<std::string> words_;  ///< the same, as they were given
 };
 
 }  // namespace

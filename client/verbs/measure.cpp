@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "client/live/target.h"
 #include "client/verbs/verbs.h"
+#include "run/recorded/measure_command.h"
 
 namespace shaken::client {
 namespace {
@@ -27,43 +28,30 @@ class Measure : public Verb {
   }
 
   void declare(Arguments& arguments) override {
-    arguments.required("RUN", run_, "A job, by its id, a run directory, a trajectory.h5, or a table in CSV",
+    arguments.required("RUN", asked_.file, "A job, by its id, a run directory, a trajectory.h5, or a table in CSV",
                        Names::kJobOrFolder);
-    arguments.option("--scene", "SCENE", "Measure what it measures; of frames, what their own does if left out",
-                     Names::kFile);
-    arguments.repeatable("-s,--set", "PATH=VALUE", "Change one value; of frames: of measure, or time.steady",
-                         Names::kSetting);
-    arguments.option("-o,--out", "DIR", "Folder of the results; measured-ID if left out", Names::kFolder);
-    arguments.option("--scale", "MM", "Table: mm in one unit of its lengths, as a pixel");
-    arguments.option("--interval", "TIME", "Table: time from frame to frame, e.g. 20ms; by its times if left out");
-    arguments.option("--columns", "NAME=COLUMN,...", "Table: what columns are called, as in x=POSITION_X,angle=phi");
-    arguments.flag("--flip-y", "Table: y is counted downwards, from the upper edge");
-    arguments.flag("--wrap", "Table: put positions into the periodic box");
-    arguments.option("--fill", "N", "Table: interpolate rods that are missed for up to N frames");
-    arguments.flag("--complete", "Table: leave rods out that are not in every frame");
-    arguments.flag("--degrees", "Table: angles are in degrees, as they are if nothing tells otherwise");
-    arguments.flag("--radians", "Table: angles are in radians");
-    arguments.flag("--json", "Print JSON, also of problems");
+    arguments.options_of([this](CLI::App& app) { run::declare(app, asked_); });
     arguments.hand_on(words_);
   }
 
   ExitCode run(const Context& context) override {
+    std::string& run = asked_.file;
     std::error_code ignored;
-    if (!std::filesystem::exists(run_, ignored)) {
-      if (run_.find_first_of("./") != std::string::npos)  // no id of a job
-        throw Failure(ExitCode::kBadInput, fmt::format("there is no {}", printable(run_)));
+    if (!std::filesystem::exists(run, ignored)) {
+      if (run.find_first_of("./") != std::string::npos)  // no id of a job
+        throw Failure(ExitCode::kBadInput, fmt::format("there is no {}", printable(run)));
       ApiClient session(context.root());
-      run_ = find_job(session, run_).at("directory").get<std::string>();
+      run = find_job(session, run).at("directory").get<std::string>();
     }
     std::vector<std::string> command{sibling_program("shaken-worker").string(), "measure"};
     command.insert(command.end(), words_.begin(), words_.end());
-    command.insert(command.end(), {"--", run_});
+    command.insert(command.end(), {"--", run});
     become(command);
   }
 
  private:
-  std::string run_;
-  std::vector<std::string> words_;
+  run::MeasureOptions asked_;
+  std::vector<std::string> words_;  ///< the same, as they were given
 };
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "run/import/csv_fields.h"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cmath>
 
@@ -62,6 +64,13 @@ std::optional<double> number_in(std::string text) {
   const auto [end, trouble] = std::from_chars(begin, text.data() + text.size(), number);
   if (trouble != std::errc{} || end != text.data() + text.size() || !std::isfinite(number)) return std::nullopt;
   return number;
+}
+
+std::optional<std::string> remark_on_angles(double largest, std::string_view cure) {
+  constexpr double kMostRadians = 3.2, kAlongX = 0.1;
+  if (largest > kMostRadians || largest <= kAlongX) return std::nullopt;
+  return fmt::format("no angle is larger than {:.3g}: they are taken as degrees; if they are radians, {}", largest,
+                     cure);
 }
 
 }  // namespace shaken::run

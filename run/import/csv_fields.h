@@ -24,4 +24,8 @@ std::vector<CsvField> fields_of(std::string_view line, char separator);
 /// None if `text` is no finite number. A decimal comma is one where it separates nothing else.
 std::optional<double> number_in(std::string text);
 
+/// What to say of angles in degrees none of which is larger than `largest`: that they may be radians, and what to do
+/// about it then. Nothing where they are too large for that, or so small that all rods lie along x.
+std::optional<std::string> remark_on_angles(double largest, std::string_view cure);
+
 }  // namespace shaken::run

@@ -23,9 +23,6 @@ constexpr double kUnitLength = 1e-3;  ///< by which the length of a director may
 constexpr double kUpright = 90;       ///< the most that a rod is tilted [degrees]
 constexpr double kMostAngle = 1e6;    ///< in the plane, also of rods that have turned round many times [degrees]
 
-/// Angles that are no larger are likely radians, unless all rods lie along x [degrees].
-constexpr double kMostRadians = 3.2, kAlongX = 0.1;
-
 bool is_column(const std::string& name) { return std::find(kColumns.begin(), kColumns.end(), name) != kColumns.end(); }
 
 class CsvRods {
@@ -73,12 +70,8 @@ class CsvRods {
       }
     }
     if (!has_header) report(0, fmt::format("the file is empty: its first line names the columns, as {}", kExample));
-    if (has("angle") && rods.size() > 1 && largest_angle_ <= kMostRadians && largest_angle_ > kAlongX) {
-      remarks_.push_back(
-          fmt::format("no angle is larger than {:.3g}: they are taken as degrees; if they are radians, "
-                      "multiply them by 180/pi",
-                      largest_angle_));
-    }
+    const auto remark = remark_on_angles(largest_angle_, "multiply them by 180/pi");
+    if (has("angle") && rods.size() > 1 && remark) remarks_.push_back(*remark);
     return rods;
   }
 

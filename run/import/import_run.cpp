@@ -37,16 +37,6 @@ constexpr const char* kExamples = R"(Examples:
 
 Exit codes: 0 done, 1 failed, 2 bad input.)";
 
-struct ImportOptions {
-  std::string file;
-  std::string scene;
-  std::vector<std::string> settings;
-  std::optional<int> frame;
-  std::string root;
-  bool random_velocities = false;
-  bool json = false;
-};
-
 /// "FILE: what" and "FILE what" without the name of the file, which stands before every problem.
 std::string without_name(const std::string& message, const std::string& file) {
   if (!message.starts_with(file)) return message;
@@ -184,20 +174,25 @@ ExitCode import_rods(const ImportOptions& asked) {
 
 }  // namespace
 
+void declare(CLI::App& app, ImportOptions& asked) {
+  app.add_option("--scene", asked.scene, "The scene whose rods these are")->type_name("FILE")->required();
+  app.add_option("-s,--set", asked.settings, "Change one value of the scene")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
+  app.add_option("--frame", asked.frame, "Of a trajectory: this frame, from 0; the last one if left out")
+      ->type_name("N")
+      ->check(CLI::NonNegativeNumber.description(""));
+  app.add_flag("--random-velocities", asked.random_velocities,
+               "Of a table without velocities: as of any other start, by the scene's seed; 0 if left out");
+  app.add_flag("--json", asked.json, "Print JSON, also of problems");
+}
+
 int import_command(int argc, char** argv) {
   Program app("shaken-worker import", "Makes a run of the rods in a file, from which others can start.", kExamples);
   ImportOptions asked;
   app.add_option("FILE", asked.file, "Table of rods in CSV, or a trajectory.h5")->required();
-  app.add_option("--scene", asked.scene, "Scene whose rods these are")->type_name("SCENE")->required();
-  app.add_option("-s,--set", asked.settings, "Change one value of the scene")
-      ->type_name("PATH=VALUE")
-      ->allow_extra_args(false);
-  app.add_option("--frame", asked.frame, "Frame of a trajectory, from 0; the last one if not given")
-      ->type_name("N")
-      ->check(CLI::NonNegativeNumber);
-  app.add_flag("--random-velocities", asked.random_velocities, "Velocities as of any other start, by the scene's seed");
+  declare(app, asked);
   app.add_option("--root", asked.root, "The daemon's root directory")->type_name("DIR");
-  app.add_flag("--json", asked.json, "Print JSON");
   return app.run(argc, argv, [&] { return import_rods(asked); });
 }
 

@@ -42,15 +42,6 @@ constexpr const char* kMeasureExamples = R"(Examples:
 Exit codes: 0 done, 1 failed, 2 bad input.)";
 constexpr std::size_t kMostOfTable = std::size_t{4} << 30;  ///< of a table
 
-struct MeasureOptions {
-  std::string file;
-  std::string scene;
-  std::vector<std::string> settings;
-  std::string out;
-  TrackConventions conventions;
-  bool json = false;
-};
-
 /// What the folder is to hold may take the place of another measurement, and of nothing else.
 void claim(const RunDirectory& directory) {
   std::error_code none;
@@ -189,50 +180,52 @@ ExitCode measure(const MeasureOptions& asked) {
 
 }  // namespace
 
+void declare(CLI::App& app, MeasureOptions& asked) {
+  TrackConventions& table = asked.conventions;
+  app.add_option("--scene", asked.scene, "Measure what it measures; of frames, what their own does if left out")
+      ->type_name("FILE");
+  app.add_option("-s,--set", asked.settings, "Change one value; of frames: of measure, or time.steady")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
+  app.add_option("-o,--out", asked.out, "Folder of the results; measured-ID if left out")->type_name("DIR");
+  app.add_option("--scale", table.scale, "Table: mm in one unit of its lengths, as a pixel")
+      ->type_name("MM")
+      ->check(CLI::PositiveNumber.description(""));
+  app.add_option("--interval", asked.interval, "Table: time from frame to frame, e.g. 20ms; by its times if left out")
+      ->type_name("TIME");
+  app.add_option("--columns", asked.columns, "Table: what columns are called, as in x=POSITION_X,angle=phi")
+      ->type_name("NAME=COLUMN")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  app.add_flag("--flip-y", table.flips_y, "Table: y is counted downwards, from the upper edge");
+  app.add_flag("--wrap", table.wraps, "Table: put positions into the periodic box");
+  app.add_option("--fill", table.filled, "Table: interpolate rods that are missed for up to N frames")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1000));
+  app.add_flag("--complete", table.only_complete, "Table: leave rods out that are not in every frame");
+  app.add_flag("--degrees", asked.degrees, "Table: angles are in degrees, as they are if nothing tells otherwise")
+      ->excludes(app.add_flag("--radians", asked.radians, "Table: angles are in radians"));
+  app.add_flag("--json", asked.json, "Print JSON, also of problems");
+}
+
 int measure_command(int argc, char** argv) {
   Program app("shaken-worker measure", "Measures recorded frames of a run, or tracked rods of an experiment.",
               kMeasureExamples);
   MeasureOptions asked;
-  std::string interval;
-  std::vector<std::string> columns;
-  bool radians = false, degrees = false;
   app.add_option("FILE", asked.file, "A run directory, its trajectory.h5 or trajectory.part, or a table in CSV")
       ->required();
-  app.add_option("--scene", asked.scene, "Measure what this scene measures; of frames that may be left out")
-      ->type_name("SCENE");
-  app.add_option("-s,--set", asked.settings, "Change one value of the scene; of frames: of measure, or time.steady")
-      ->type_name("PATH=VALUE")
-      ->allow_extra_args(false);
-  app.add_option("-o,--out", asked.out, "Folder of the results; measured-ID if not given")->type_name("DIR");
-  app.add_option("--scale", asked.conventions.scale, "Table: mm in one unit of its lengths, as a pixel")
-      ->type_name("MM")
-      ->check(CLI::PositiveNumber);
-  app.add_option("--interval", interval, "Table: time from frame to frame, e.g. 20ms; by its times if not given")
-      ->type_name("TIME");
-  app.add_option("--columns", columns, "Table: what columns are called, as in x=POSITION_X,angle=phi")
-      ->type_name("NAME=COLUMN")
-      ->delimiter(',')
-      ->allow_extra_args(false);
-  app.add_flag("--flip-y", asked.conventions.flips_y, "Table: y is counted downwards, from the upper edge");
-  app.add_flag("--wrap", asked.conventions.wraps, "Table: put positions into the periodic box");
-  app.add_option("--fill", asked.conventions.filled, "Table: interpolate rods that are missed for up to N frames")
-      ->type_name("N")
-      ->check(CLI::Range(0, 1000));
-  app.add_flag("--complete", asked.conventions.only_complete, "Table: leave rods out that are not in every frame");
-  app.add_flag("--degrees", degrees, "Table: angles are in degrees")
-      ->excludes(app.add_flag("--radians", radians, "Table: in radians"));
-  app.add_flag("--json", asked.json, "Print JSON");
+  declare(app, asked);
   return app.run(argc, argv, [&] {
-    if (radians || degrees) asked.conventions.radians = radians;
-    if (!interval.empty()) {
-      const auto time = keys::parse_quantity(interval, keys::Dimension::kTime);
+    if (asked.radians || asked.degrees) asked.conventions.radians = asked.radians;
+    if (!asked.interval.empty()) {
+      const auto time = keys::parse_quantity(asked.interval, keys::Dimension::kTime);
       if (!time || !(*time > 0)) {
         throw Failure(ExitCode::kBadInput,
-                      "--interval: " + (time ? interval + " is not above 0" : time.error().message));
+                      "--interval: " + (time ? asked.interval + " is not above 0" : time.error().message));
       }
       asked.conventions.interval = *time;
     }
-    for (const std::string& column : columns) {
+    for (const std::string& column : asked.columns) {
       const std::size_t equals = column.find('=');
       if (equals == std::string::npos)
         throw Failure(ExitCode::kBadInput, fmt::format("--columns takes NAME=COLUMN, not '{}'", printable(column)));

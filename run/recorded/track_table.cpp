@@ -24,8 +24,7 @@ namespace {
 using keys::Problem;
 
 constexpr double kRadian = kPi / 180;
-constexpr double kLikelyRadians = 1.6;  ///< angles none of which is larger are likely radians
-constexpr double kEqual = 1e-3;         ///< by which intervals between frames may differ, of themselves
+constexpr double kEqual = 1e-3;  ///< by which intervals between frames may differ, of themselves
 constexpr std::size_t kMostProblems = 20;
 constexpr double kLargestAngle = 1e6;  ///< of whatever unit
 constexpr double kMostBoxes = 1e6;     ///< that a path goes on through
@@ -298,12 +297,8 @@ class TrackTable {
       for (auto& [frame, rods] : frames_) std::ranges::sort(rods, {}, &Sighting::id);
     }
     if (n_missed_ > 0) remarks_.push_back(fmt::format("{} without a position or an angle", counted(n_missed_, "row")));
-    if (has("angle") && !in_radians() && largest_angle_ <= kLikelyRadians) {
-      remarks_.push_back(
-          fmt::format("no angle is larger than {:.3g}: they are taken as degrees; --radians if they are "
-                      "not",
-                      largest_angle_));
-    }
+    const auto remark = remark_on_angles(largest_angle_, "give --radians");
+    if (has("angle") && !in_radians() && remark) remarks_.push_back(*remark);
   }
 
   /// From frame to frame [s]; none may be missing.

@@ -239,8 +239,9 @@ TEST(TrackTable, SaysWhatIsWrongWithItsLines) {
 }
 
 TEST(TrackTable, AnglesThatMayBeRadiansGetARemark) {
-  EXPECT_THAT(tracks_in("frame,x,y,angle\n0,1,2,1.5\n").remarks,
-              ElementsAre("no angle is larger than 1.5: they are taken as degrees; --radians if they are not"));
+  EXPECT_THAT(tracks_in("frame,x,y,angle\n0,1,2,3\n").remarks,
+              ElementsAre("no angle is larger than 3: they are taken as degrees; if they are radians, give --radians"));
+  EXPECT_THAT(tracks_in("frame,x,y,angle\n0,1,2,0\n").remarks, IsEmpty()) << "all lie along x";
   TrackConventions degrees = at_intervals();
   degrees.radians = false;
   EXPECT_THAT(tracks_in("frame,x,y,angle\n0,1,2,170\n", degrees).remarks, IsEmpty());
