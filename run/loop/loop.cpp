@@ -403,12 +403,12 @@ RunOutcome fail(const RunOptions& options, const RunCallbacks& callbacks, const 
 }
 
 /// A directory of another scene is refused, never overwritten. One whose run is to go on longer, or less long, than it
-/// was gets the scene.json that says so.
-Result<void> claim(const scene::RunPlan& plan, const RunDirectory& directory) {
+/// was gets the scene.json that says so, unless it has ended.
+Result<void> claim(const scene::RunPlan& plan, const RunDirectory& directory, bool is_own_scene, bool has_ended) {
   const Result<bool> is_there = file_exists(directory.scene());
   if (!is_there) return is_there.error();
   if (!*is_there) return write_file_atomically(directory.scene(), scene_text(plan));
-  const Result<scene::RunPlan> present = read_plan(directory);
+  const Result<scene::RunPlan> present = is_own_scene ? Result<scene::RunPlan>(plan) : read_plan(directory);
   if (!present && may_pass(present.error())) return present.error();
   if (!present) {
     return Error{directory.root.string() + " holds a run whose scene cannot be read:\n" + present.error().message};
@@ -419,8 +419,7 @@ Result<void> claim(const scene::RunPlan& plan, const RunDirectory& directory) {
   if (scene::run_id(*present) != scene::run_id(plan)) {
     return Error{directory.root.string() + " holds the run of another scene (see its scene.json); choose another one"};
   }
-  if (is_done(directory, plan) || (present->measure_time == plan.measure_time && present->until == plan.until))
-    return {};
+  if (has_ended || (present->measure_time == plan.measure_time && present->until == plan.until)) return {};
   return write_file_atomically(directory.scene(), scene_text(plan));
 }
 
@@ -460,8 +459,9 @@ RunOutcome draw(const scene::RunPlan& plan, const RunOptions& options, const Run
 
 RunOutcome run_owned(const scene::RunPlan& plan, const RunOptions& options, const RunCallbacks& callbacks) {
   const RunDirectory directory{options.directory};
-  if (auto done = claim(plan, directory); !done) return failure(done.error());
-  if (is_done(directory, plan)) {
+  const bool has_ended = is_done(directory, plan);
+  if (auto done = claim(plan, directory, options.is_own_scene, has_ended); !done) return failure(done.error());
+  if (has_ended) {
     spdlog::info("{} is done already", directory.root.string());
     drop_logged_frames(directory);  // left by a worker that was killed right after its last word
     const Result<Progress> last = read_progress(directory.progress());

@@ -18,8 +18,7 @@ namespace shaken::run {
 /// How, not what, to run: nothing here changes a result.
 struct RunOptions {
   std::filesystem::path directory;
-  std::string run_id;                  ///< scene/canonical.h
-  std::string scene_json;              ///< the resolved scene, for scene.json and trajectory.h5
+  bool is_own_scene = false;           ///< the plan was read from the scene.json there, and is unchanged
   std::string job_id;                  ///< in live messages
   std::string label;                   ///< the swept parameters, for viewers
   std::optional<std::string> lcm_url;  ///< none: no live state

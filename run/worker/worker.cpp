@@ -88,6 +88,7 @@ ExitCode run_scene(const scene::RunPlan& plan, const WorkerOptions& asked) {
   }
   RunOptions options;
   options.directory = asked.out;
+  options.is_own_scene = asked.settings.empty() && std::filesystem::equivalent(asked.scene, directory.scene(), hidden);
   options.job_id = asked.job_id.empty() ? scene::run_id(plan) : asked.job_id;
   options.label = asked.label;
   if (!asked.no_lcm) options.lcm_url = asked.lcm_url;

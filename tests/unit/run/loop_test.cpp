@@ -329,6 +329,17 @@ TEST(Run, SurvivesASuddenEnd) {
   expect_same_results(undisturbed(), folder.path());
 }
 
+TEST(Run, ReadsNoSceneOnceMoreThatItWasGiven) {
+  const ScratchFolder folder;
+  ASSERT_TRUE(write_file(RunDirectory{folder.path()}.scene(), "{"));
+  EXPECT_THAT(run_in(folder.path(), small_plan()).message, HasSubstr("a run whose scene cannot be read"));
+  RunOptions options;
+  options.directory = folder.path();
+  options.is_own_scene = true;
+  EXPECT_EQ(run(small_plan(), options).state, RunState::kDone);
+  EXPECT_EQ(*read_file(RunDirectory{folder.path()}.scene()), "{");
+}
+
 TEST(Run, RefusesTheDirectoryOfAnotherScene) {
   scene::RunPlan other = small_plan();
   other.system.seed += 1;
