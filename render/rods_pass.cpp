@@ -35,9 +35,9 @@ Result<void> check_drawable(const RodPicture& picture, const PictureStyle& style
     return Error{"as many directors as positions are needed"};
   for (const BeadRow& beads : picture.cell.shapes) {
     if (beads.offset.empty() || beads.offset.size() != beads.radius.size() ||
-        beads.offset.size() > RodsPass::kMaxBeads) {
+        beads.offset.size() > RodsPass::kMostDrawnBeads) {
       return Error{"a rod of " + std::to_string(beads.offset.size()) + " beads cannot be drawn; possible are 1 to " +
-                   std::to_string(RodsPass::kMaxBeads)};
+                   std::to_string(RodsPass::kMostDrawnBeads)};
     }
   }
   if (picture.cell.shapes.size() > 1 && picture.cell.shape_of_rod.size() != picture.n_rods())

@@ -19,8 +19,8 @@ namespace shaken::render {
 /// Numerics: the samples of a pixel are averaged; the same bits for any number of rasteriser threads.
 class RodsPass {
  public:
-  /// Rods of more beads than this are refused.
-  static constexpr std::size_t kMaxBeads = 255;
+  /// Rods of more beads than this are refused: the shaders' arrays end there. Scenes have fewer.
+  static constexpr std::size_t kMostDrawnBeads = 255;
   /// Pictures with a longer side than this are refused [pixels].
   static constexpr int kMaxSide = 5400;
 

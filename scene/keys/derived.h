@@ -8,10 +8,9 @@
 /// Quantities that a scene may be written in and that a plan does not store.
 namespace shaken::scene {
 
-inline constexpr double kDefaultBeadPitch = 0.3;      ///< [mm]; gives the paper's numbers of rods
-inline constexpr double kDefaultAreaFraction = 0.75;  ///< ordered at l = 4.5 mm
-inline constexpr double kDefaultGamma = 7.0;          ///< the paper's
-inline constexpr int kMaxBeads = 101;
+inline constexpr double kDefaultBeadPitch = 0.3;            ///< [mm]; gives the paper's numbers of rods
+inline constexpr double kDefaultAreaFraction = 0.75;        ///< ordered at l = 4.5 mm
+inline constexpr double kDefaultGamma = 7.0;                ///< the paper's
 inline constexpr double kMaxAreaFractionAligned = 0.92;     ///< interlocked rows of tapered rods get no further
 inline constexpr double kMaxAreaFractionRandom = 0.45;      ///< random insertion of rods jams there
 inline constexpr double kMaxAreaFractionCompressed = 0.86;  ///< 0.85, in whole rods; rods that are compressed can jam

@@ -271,7 +271,7 @@ std::vector<Field> shape(const std::string& name, const std::string& of_density)
     instead(name + ".bead_pitch", nullptr, kLength, 0.01, 10, kDefaultBeadPitch,
             "Largest distance between neighbouring beads; a rod gets the smallest odd number of beads that keeps to "
             "it."),
-    derived(whole(name + ".beads", at<rod..., &RodShape::n_beads>, 1, kMaxBeads,
+    derived(whole(name + ".beads", at<rod..., &RodShape::n_beads>, 1, kMostBeads,
                   "Number of beads, odd, in place of bead_pitch; 1 makes a sphere of diameter mid_diameter."),
             "from bead_pitch"),
     quantity(name + ".density", at<rod..., &RodShape::density>, kDensity, 0.001, 100,

@@ -111,8 +111,8 @@ bool resolve_listed_beads(Resolution& scene, const RodGroup& group) {
     }
     return value;
   };
-  if (n > kMaxBeads) {
-    return scene.refuse({list}, fmt::format("{} beads are more than {}", n, kMaxBeads));
+  if (n > kMostBeads) {
+    return scene.refuse({list}, fmt::format("{} beads are more than {}", n, kMostBeads));
   }
   rod.n_beads = static_cast<int>(follows("beads", n));
   rod.mid_diameter = follows("mid_diameter", thickest);
@@ -159,10 +159,10 @@ bool resolve_shape(Resolution& scene, const RodGroup& group) {
     const double pitch = scene.number(pitch_path);
     int n_beads = 1;
     for (const RodShape& size : sizes_of(rod)) {
-      if ((size.length - size.end_diameter) / pitch > kMaxBeads - 1) {
+      if ((size.length - size.end_diameter) / pitch > kMostBeads - 1) {
         return scene.refuse({pitch_path, length_path},
                             fmt::format("beads every {} make more than {} on a rod of {}", length_text(pitch),
-                                        kMaxBeads, length_text(size.length)));
+                                        kMostBeads, length_text(size.length)));
       }
       n_beads = std::max(n_beads, beads_for_pitch(size.length, size.end_diameter, pitch));
     }
@@ -171,8 +171,8 @@ bool resolve_shape(Resolution& scene, const RodGroup& group) {
   if (rod.n_beads == 1) return true;
   if (const auto size = size_with_holes(rod)) {
     RodShape enough = rod;
-    while (size_with_holes(enough) && enough.n_beads < kMaxBeads) enough.n_beads += 2;
-    const std::string cure = size_with_holes(enough) ? fmt::format("even {} would; make the rods thicker", kMaxBeads)
+    while (size_with_holes(enough) && enough.n_beads < kMostBeads) enough.n_beads += 2;
+    const std::string cure = size_with_holes(enough) ? fmt::format("even {} would; make the rods thicker", kMostBeads)
                                                      : fmt::format("take at least {}", enough.n_beads);
     return scene.refuse(
         {beads, pitch_path, length_path, group.path("length_spread"), group.path("end_diameter_spread")},

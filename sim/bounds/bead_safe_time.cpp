@@ -192,7 +192,7 @@ struct SafeTimeKernel {
       const BeadSafeTime all = bound<W>(0);
       return {std::min(safe.time, all.time), std::min(safe.gap, all.gap)};
     }
-    float away[kMostBeads / W + 1];
+    float away[(kMostBeads + kLanes - 1) / kLanes * kLanes / W];
     int n_vectors = 0;
     for (int l = 0; l < i.n_lanes(); l += W) away[n_vectors++] = least_gap_to_hull<W>(l);
     for (int done = 0; done < n_vectors; ++done) {

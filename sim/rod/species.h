@@ -8,8 +8,8 @@
 
 namespace shaken {
 
-/// No rod has more beads.
-inline constexpr int kMostBeads = 128;
+/// No rod has more beads: a scene that asks for more is refused.
+inline constexpr int kMostBeads = 101;
 
 /// One end of a rod's hull.
 struct HullEnd {

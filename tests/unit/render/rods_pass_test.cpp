@@ -248,8 +248,8 @@ TEST(RodsPass, RefusesWhatCannotBeDrawn) {
   no_beads.cell.shapes[0].radius.clear();
   EXPECT_NE(message(no_beads).find("0 beads"), std::string::npos);
   RodPicture many_beads = red_picture();
-  many_beads.cell.shapes[0].offset.assign(RodsPass::kMaxBeads + 1, 0);
-  many_beads.cell.shapes[0].radius.assign(RodsPass::kMaxBeads + 1, 1);
+  many_beads.cell.shapes[0].offset.assign(RodsPass::kMostDrawnBeads + 1, 0);
+  many_beads.cell.shapes[0].radius.assign(RodsPass::kMostDrawnBeads + 1, 1);
   EXPECT_NE(message(many_beads).find("256 beads"), std::string::npos);
   RodPicture uneven = red_picture();
   uneven.frame.position.emplace_back(1, 1, 1);
