@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "analysis/geometry/periodic.h"
+#include "base/keys/markdown.h"
 
 namespace shaken::render {
 namespace {
@@ -213,15 +214,16 @@ Asked asked_by(const PictureStyle& style) {
 }
 
 std::string colourings_as_markdown() {
-  std::string table =
-      "| `--colour` | what colours a rod | scale |\n|---|---|---|\n"
-      "| `auto` | `layers` where there is order (S of 0.7 or more in nine of ten frames) and no defect is marked, else "
-      "`angle` | |\n";
+  std::string table = keys::table_head({"`--colour`", "what colours a rod", "scale"}) +
+                      keys::table_line({"`auto`",
+                                        "`layers` where there is order (S of 0.7 or more in nine of ten frames) and no "
+                                        "defect is marked, else `angle`",
+                                        ""});
   for (const Colouring& c : kColourings) {
     const char* space = std::string_view(c.unit).empty() ? "" : " ";
     const std::string scale =
         c.scale == Scale::kNames ? "" : fmt::format("{:g} to {:g}{}{}", c.range.x(), c.range.y(), space, c.unit);
-    table += fmt::format("| `{}` | {} | {} |\n", c.name, c.doc, scale);
+    table += keys::table_line({fmt::format("`{}`", c.name), c.doc, scale});
   }
   return table;
 }

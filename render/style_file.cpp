@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/files.h"
+#include "base/keys/markdown.h"
 #include "base/keys/nearest.h"
 #include "base/keys/schema.h"
 #include "render/style_keys.h"
@@ -81,8 +82,8 @@ Result<PictureStyle> named_style(const std::string& name, const PictureStyle& st
 nlohmann::ordered_json style_schema() { return keys::document_schema("Style of pictures of Shaken", style_keys()); }
 
 std::string presets_as_markdown() {
-  std::string table = "| `--style` | what it shows |\n|---|---|\n";
-  for (const Preset& preset : kPresets) table += fmt::format("| `{}` | {} |\n", preset.name, preset.doc);
+  std::string table = keys::table_head({"`--style`", "what it shows"});
+  for (const Preset& preset : kPresets) table += keys::table_line({fmt::format("`{}`", preset.name), preset.doc});
   return table;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/keys/markdown.h"
 #include "base/keys/nearest.h"
 
 namespace shaken::keys {
@@ -76,11 +77,11 @@ std::string Rules::suggest_path(std::string_view path) const {
 }
 
 std::string Rules::as_markdown(std::string_view path) const {
-  std::string table = "| key | meaning | unit | allowed | default |\n|---|---|---|---|---|\n";
+  std::string table = table_head({"key", "meaning", "unit", "allowed", "default"});
   for (const Rule* rule : rules_) {
     if (!is_beneath(rule->path, path)) continue;
-    table += fmt::format("| `{}` | {} | {} | {} | {} |\n", rule->path, rule->doc, default_unit(rule->dimension),
-                         allowed(*rule), fallback_of(*rule));
+    table += table_line(
+        {"`" + rule->path + "`", rule->doc, default_unit(rule->dimension), allowed(*rule), fallback_of(*rule)});
   }
   return table;
 }

@@ -39,10 +39,10 @@ MeasurementKind lattice_kind() {
       .make = measure_lattice,
       .numbers =
           {
-              {"psi_6", "\\|⟨ψ₆⟩\\| over the rods of an instant, in coordinates compressed along the director", false,
+              {"psi_6", "|⟨ψ₆⟩| over the rods of an instant, in coordinates compressed along the director", false,
                kNoSix},
-              {"psi_6_local", "⟨\\|ψ₆\\|⟩, without regard to the axes of other rods", false, kNoSix},
-              {"psi_6_raw", "\\|⟨ψ₆⟩\\| in plain coordinates", false, kNoSix},
+              {"psi_6_local", "⟨|ψ₆|⟩, without regard to the axes of other rods", false, kNoSix},
+              {"psi_6_raw", "|⟨ψ₆⟩| in plain coordinates", false, kNoSix},
               {"bragg_peak", "largest Bragg peak: 1 for a perfect lattice"},
           },
   };

@@ -92,7 +92,7 @@ MeasurementKind temperatures_kind() {
               called("rms speed", R"(v_\mathrm{rms})",
                      {"speed_rms_mm_s", "√⟨v²⟩ in the plane, of velocities of instants"}),
               called("mean speed", R"(\langle|v|\rangle)",
-                     {"speed_mean_mm_s", "⟨\\|v\\|⟩ in the plane, of velocities of instants"}),
+                     {"speed_mean_mm_s", "⟨|v|⟩ in the plane, of velocities of instants"}),
           },
       .of_axis = {"along_pJ", "across_pJ", "turning_pJ", "tipping_pJ", "spinning_pJ", "temperature_along_pJ",
                   "temperature_across_pJ", "temperature_turning_pJ", "temperature_tipping_pJ",

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string>
 
+#include "base/keys/markdown.h"
 #include "base/process.h"
 #include "client/arguments.h"
 #include "client/catalogue.h"
@@ -474,14 +475,14 @@ TEST(Catalogue, SaysOfEveryQuantityWhatItIs) {
 
 TEST(Catalogue, ListsTheStatesOfJobsForThePageAndItsReaders) {
   std::string module = "export const kJobStates = {\n",
-              table = "| state | meaning | worker | ended |\n|---|---|---|---|\n";
+              table = keys::table_head({"state", "meaning", "worker", "ended"});
   const auto yes = [](const Json& is_so) { return is_so.get<bool>() ? "yes" : ""; };
   const Json states = Json::parse(catalogue())["job_states"];
   for (const auto& [word, row] : states.items()) {
     const Json of_page{{"has_worker", row["has_worker"]}, {"requests", row["requests"]}};
     module += "  " + Json(word).dump() + ": " + of_page.dump() + ",\n";
-    table += "| `" + word + "` | " + row["doc"].get<std::string>() + " | " + yes(row["has_worker"]) + " | " +
-             yes(row["has_ended"]) + " |\n";
+    table += keys::table_line(
+        {"`" + word + "`", row["doc"].get<std::string>(), yes(row["has_worker"]), yes(row["has_ended"])});
   }
   expect_generated(SHAKEN_SOURCE_DIR "/web/page/job_states.js", "states", module + "};\n");
   expect_generated(SHAKEN_SOURCE_DIR "/docs/protocol.md", "states", table);

@@ -1,5 +1,6 @@
 // docs/files.md and docs/observables.md against the files themselves: they name all that a run writes, with the units
 // that the files say, and nothing else.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <hdf5.h>
 
@@ -13,6 +14,7 @@
 #include <string>
 
 #include "base/files.h"
+#include "base/keys/markdown.h"
 #include "base/scratch_folder.h"
 #include "run/files/directory.h"
 #include "run/files/unit_of_name.h"
@@ -27,6 +29,8 @@
 
 namespace shaken::run {
 namespace {
+
+using keys::table_head, keys::table_line;
 
 /// A page from the headline "## title" to the next.
 std::string section(const std::string& title, const char* name = "files.md") {
@@ -251,61 +255,56 @@ std::string in_backticks(std::string_view names) {
 }
 
 TEST(EffectsPage, ListsEveryEffect) {
-  std::ostringstream table;
-  table << "| effect | what it is | on and off by | work |\n|---|---|---|---|\n";
+  std::string table = table_head({"effect", "what it is", "on and off by", "work"});
   for (const Effect& effect : all_effects()) {
-    table << "| `" << effect.name << "` | " << effect.what << " | " << in_backticks(effect.keys) << " | "
-          << std::regex_replace(std::string(effect.unit), std::regex("_"), " × ") << " |\n";
+    table += table_line({in_backticks(effect.name), effect.what, in_backticks(effect.keys),
+                         std::regex_replace(std::string(effect.unit), std::regex("_"), " × ")});
   }
-  expect_generated(kPages + "effects.md", "effects", table.str());
+  expect_generated(kPages + "effects.md", "effects", table);
 }
 
 TEST(FilesPage, ListsEveryKeyOfTheSummary) {
-  std::ostringstream table;
-  table << "| key | unit | meaning | null |\n|---|---|---|---|\n";
+  std::string table = table_head({"key", "unit", "meaning", "null"});
   for (const SummaryKey& key : summary_keys())
-    table << "| `" << key.name << "` | " << key.unit << " | " << key.meaning << " | " << key.if_null << " |\n";
-  expect_generated(kPages + "files.md", "summary", table.str());
+    table += table_line({in_backticks(key.name), key.unit, key.meaning, key.if_null});
+  expect_generated(kPages + "files.md", "summary", table);
 }
 
 TEST(ObservablesPage, ListsEveryBlock) {
-  std::ostringstream table;
-  table << "| block | observable | with side walls | among posts | code in `analysis/` |\n|---|---|---|---|---|\n";
+  std::string table = table_head({"block", "observable", "with side walls", "among posts", "code in `analysis/`"});
   const auto yes_or_no = [](bool is_so) { return is_so ? "yes" : "no"; };
   for (const scene::Observable& observable : scene::observables()) {
     for (const MeasurementKind& kind : measurement_kinds()) {
       if (kind.name != observable.name) continue;
-      table << "| `" << kind.name << "` | " << observable.doc << " | " << yes_or_no(observable.within_walls()) << " | "
-            << yes_or_no(observable.among_posts()) << " | " << in_backticks(kind.sources) << " |\n";
+      table += table_line({in_backticks(kind.name), observable.doc, yes_or_no(observable.within_walls()),
+                           yes_or_no(observable.among_posts()), in_backticks(kind.sources)});
     }
   }
-  expect_generated(kPages + "observables.md", "blocks", table.str());
+  expect_generated(kPages + "observables.md", "blocks", table);
 }
 
 TEST(ObservablesPage, ListsEveryNumber) {
-  std::ostringstream table;
-  table << "| block | number | unit | meaning |\n|---|---|---|---|\n";
+  std::string table = table_head({"block", "number", "unit", "meaning"});
   for (const MeasurementKind& kind : measurement_kinds()) {
     for (const Output& number : kind.numbers) {
       EXPECT_FALSE(number.meaning.empty()) << number.name;
-      table << "| `" << kind.name << "` | `" << number.name << "` | " << unit_of_name(number.name) << " | "
-            << kind.meaning(number) << " |\n";
+      table += table_line(
+          {in_backticks(kind.name), in_backticks(number.name), unit_of_name(number.name), kind.meaning(number)});
     }
   }
-  expect_generated(kPages + "observables.md", "numbers", table.str());
+  expect_generated(kPages + "observables.md", "numbers", table);
 }
 
 TEST(ObservablesPage, ListsEveryArray) {
-  std::ostringstream table;
-  table << "| data set | unit | error | meaning |\n|---|---|---|---|\n";
+  std::string table = table_head({"data set", "unit", "error", "meaning"});
   for (const MeasurementKind& kind : measurement_kinds()) {
     for (const Output& array : kind.arrays) {
       EXPECT_FALSE(array.meaning.empty()) << array.name;
-      table << "| `/" << kind.name << "/" << array.name << "` | " << unit_of_name(array.name) << " |"
-            << (array.has_error ? " ± " : " ") << "| " << kind.meaning(array) << " |\n";
+      table += table_line({fmt::format("`/{}/{}`", kind.name, array.name), unit_of_name(array.name),
+                           array.has_error ? "±" : "", kind.meaning(array)});
     }
   }
-  expect_generated(kPages + "observables.md", "arrays", table.str());
+  expect_generated(kPages + "observables.md", "arrays", table);
 }
 
 TEST(MeasurementKinds, AreTheObservablesOfScenes) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "base/keys/markdown.h"
 #include "base/keys/nearest.h"
 
 namespace shaken::keys {
@@ -148,6 +149,10 @@ TEST(Nearest, FindsSlipsOfThePenOnly) {
   EXPECT_EQ(nearest("colour", names), "");
   EXPECT_EQ(nearest("x", names), "");
   EXPECT_EQ(nearest("anything", std::vector<std::string>{}), "");
+}
+
+TEST(Markdown, KeepsABarWithinItsCell) {
+  EXPECT_EQ(table_head({"a", "b"}) + table_line({"⟨|v|⟩", ""}), "| a | b |\n|---|---|\n| ⟨\\|v\\|⟩ |  |\n");
 }
 
 }  // namespace
