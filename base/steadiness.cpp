@@ -1,37 +1,36 @@
 #include "base/steadiness.h"
 
+#include <array>
+#include <cstddef>
+
 namespace shaken {
+namespace {
+
+struct Words {
+  const char *mark, *word, *advice;
+};
+/// In the order of Steadiness.
+constexpr std::array<Words, 3> kRows{
+    {{"", "steady", ""},
+     {"~", "still relaxing", "no steady state yet, run it longer (-s time.measure=...)"},
+     {"?", "not known to be steady",
+      "too short to tell, its error holds the drift; run it longer (-s time.measure=...)"}}};
+
+const Words& words_of(Steadiness steadiness) { return kRows.at(static_cast<std::size_t>(steadiness)); }
+
+}  // namespace
 
 Steadiness steadiness_of(std::optional<bool> steady) {
   if (!steady) return Steadiness::kNotKnown;
   return *steady ? Steadiness::kSteady : Steadiness::kRelaxing;
 }
 
-const char* mark_of(Steadiness steadiness) {
-  return steadiness == Steadiness::kRelaxing ? "~" : steadiness == Steadiness::kNotKnown ? "?" : "";
-}
+const char* mark_of(Steadiness steadiness) { return words_of(steadiness).mark; }
 
-const char* word_of(Steadiness steadiness) {
-  switch (steadiness) {
-    case Steadiness::kRelaxing:
-      return "still relaxing";
-    case Steadiness::kNotKnown:
-      return "not known to be steady";
-    default:
-      return "steady";
-  }
-}
+const char* word_of(Steadiness steadiness) { return words_of(steadiness).word; }
 
-const char* meaning_of(Steadiness steadiness) {
-  switch (steadiness) {
-    case Steadiness::kRelaxing:
-      return "still relaxing: no steady state yet, run it longer (-s time.measure=...)";
-    case Steadiness::kNotKnown:
-      return "not known to be steady: too short to tell, its error holds the drift; run it longer (-s "
-             "time.measure=...)";
-    default:
-      return "";
-  }
+std::string meaning_of(Steadiness steadiness) {
+  return std::string(words_of(steadiness).word) + ": " + words_of(steadiness).advice;
 }
 
 }  // namespace shaken

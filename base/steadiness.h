@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 namespace shaken {
 
@@ -18,7 +19,7 @@ Steadiness steadiness_of(std::optional<bool> steady);
 const char* mark_of(Steadiness steadiness);
 /// "steady", "still relaxing", "not known to be steady".
 const char* word_of(Steadiness steadiness);
-/// The word, what it means for the value and what to do, as a line below a table; empty for kSteady.
-const char* meaning_of(Steadiness steadiness);
+/// The word, what it means for the value and what to do, as a line below a table; of all but kSteady.
+std::string meaning_of(Steadiness steadiness);
 
 }  // namespace shaken

@@ -2,36 +2,26 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <utility>
 
 namespace shaken::client {
 namespace {
 
 /// A meaning is stored as the name of the value's type, which CLI11 keeps for every option.
+constexpr std::array<std::pair<Names, const char*>, 9> kValueNames{{{Names::kFile, "FILE"},
+                                                                    {Names::kFolder, "DIR"},
+                                                                    {Names::kId, "ID"},
+                                                                    {Names::kJob, "JOB"},
+                                                                    {Names::kSweep, "SWEEP"},
+                                                                    {Names::kRun, "ID|DIR"},
+                                                                    {Names::kJobOrFolder, "JOB|DIR"},
+                                                                    {Names::kField, "FIELD"},
+                                                                    {Names::kSetting, "PATH=VALUE"}}};
 const char* value_name_of(Names names) {
-  switch (names) {
-    case Names::kFile:
-      return "FILE";
-    case Names::kFolder:
-      return "DIR";
-    case Names::kId:
-      return "ID";
-    case Names::kJob:
-      return "JOB";
-    case Names::kSweep:
-      return "SWEEP";
-    case Names::kRun:
-      return "ID|DIR";
-    case Names::kJobOrFolder:
-      return "JOB|DIR";
-    case Names::kField:
-      return "FIELD";
-    case Names::kSetting:
-      return "PATH=VALUE";
-    case Names::kAnything:
-      break;
-  }
-  return "";
+  const auto found = std::ranges::find(kValueNames, names, &std::pair<Names, const char*>::first);
+  return found == kValueNames.end() ? "" : found->second;
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -50,9 +40,8 @@ constexpr const char* kNothing = " ";
 }  // namespace
 
 Names meaning(const CLI::Option& option) {
-  for (const Names names : {Names::kFile, Names::kFolder, Names::kId, Names::kJob, Names::kSweep, Names::kRun,
-                            Names::kJobOrFolder, Names::kField, Names::kSetting}) {
-    if (option.get_type_name() == value_name_of(names)) return names;
+  for (const auto& [names, value_name] : kValueNames) {
+    if (option.get_type_name() == value_name) return names;
   }
   return Names::kAnything;
 }

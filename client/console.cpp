@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <array>
 #include <cstdlib>
 #include <iostream>
 
@@ -11,25 +12,8 @@
 namespace shaken::client {
 namespace {
 
-const char* escape_of(Colour colour) {
-  switch (colour) {
-    case Colour::kGreen:
-      return "\x1b[32m";
-    case Colour::kYellow:
-      return "\x1b[33m";
-    case Colour::kRed:
-      return "\x1b[31m";
-    case Colour::kBlue:
-      return "\x1b[36m";
-    case Colour::kDim:
-      return "\x1b[2m";
-    case Colour::kBold:
-      return "\x1b[1m";
-    case Colour::kPlain:
-      break;
-  }
-  return "";
-}
+/// In the order of Colour.
+constexpr std::array kEscapes{"", "\x1b[32m", "\x1b[33m", "\x1b[31m", "\x1b[36m", "\x1b[2m", "\x1b[1m"};
 
 }  // namespace
 
@@ -43,7 +27,7 @@ void Console::refresh_size() {
 
 std::string Console::painted(Colour colour_wanted, std::string_view text) const {
   if (!colour || colour_wanted == Colour::kPlain || text.empty()) return std::string(text);
-  return escape_of(colour_wanted) + std::string(text) + "\x1b[0m";
+  return kEscapes.at(static_cast<std::size_t>(colour_wanted)) + std::string(text) + "\x1b[0m";
 }
 
 bool Console::agrees(const std::string& question, bool otherwise) const {

@@ -103,21 +103,8 @@ std::string_view default_unit(Dimension dimension) {
 }
 
 std::string_view name_of(Dimension dimension) {
-  switch (dimension) {
-    case Dimension::kPlain:
-      return "plain number";
-    case Dimension::kLength:
-      return "length";
-    case Dimension::kTime:
-      return "time";
-    case Dimension::kFrequency:
-      return "frequency";
-    case Dimension::kAcceleration:
-      return "acceleration";
-    case Dimension::kDensity:
-      return "density";
-  }
-  return "";
+  constexpr std::array kNames{"plain number", "length", "time", "frequency", "acceleration", "density"};  // in order
+  return kNames.at(static_cast<std::size_t>(dimension));
 }
 
 Result<Written> split_quantity(std::string_view text) {

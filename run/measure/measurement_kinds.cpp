@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -22,19 +23,9 @@ std::span<const MeasurementKind> measurement_kinds() {
 }
 
 std::string_view word_of(Needs need) {
-  switch (need) {
-    case Needs::kImpacts:
-      return "impacts";
-    case Needs::kSpins:
-      return "angular velocities";
-    case Needs::kVelocities:
-      return "velocities";
-    case Needs::kTilts:
-      return "tilts out of the plane";
-    case Needs::kIdentities:
-      break;
-  }
-  return "rods that are followed from frame to frame";
+  constexpr std::array kWords{"impacts", "angular velocities", "velocities", "tilts out of the plane",
+                              "rods that are followed from frame to frame"};  // in the order of Needs
+  return kWords.at(static_cast<std::size_t>(need));
 }
 
 std::optional<double> MeasurementKind::every(const scene::RunPlan& plan) const {
