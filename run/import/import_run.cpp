@@ -181,7 +181,7 @@ void declare(CLI::App& app, ImportOptions& asked) {
       ->allow_extra_args(false);
   app.add_option("--frame", asked.frame, "Of a trajectory: this frame, from 0; the last one if left out")
       ->type_name("N")
-      ->check(CLI::NonNegativeNumber.description(""));
+      ->check(CLI::Range(0, 1'000'000'000));
   app.add_flag("--random-velocities", asked.random_velocities,
                "Of a table without velocities: as of any other start, by the scene's seed; 0 if left out");
   app.add_flag("--json", asked.json, "Print JSON, also of problems");
