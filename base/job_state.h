@@ -25,7 +25,8 @@ struct JobStateRow {
 };
 
 // clang-format off
-/// In the order of JobState. Whoever asks for the jobs of one state after the other misses none that goes on meanwhile.
+/// In the order of JobState. Whoever asks for the jobs of one state after the other misses none that goes on meanwhile,
+/// but for one that goes back to the queue.
 inline constexpr std::array<JobStateRow, 8> kJobStates{{
     {JobState::kQueued,    "queued",    false, false, false, "hold cancel",   "It waits for its turn."},
     {JobState::kHeld,      "held",      false, false, false, "resume cancel", "It waits to be resumed, or for room."},

@@ -1,5 +1,7 @@
 #include "python/native/measured_arrays.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -16,9 +18,29 @@
 #include "sim/world.h"
 
 namespace shaken::python {
+namespace {
+
+/// Fails with what no rod of the box can have.
+Result<void> check(const Snapshot& frame, std::size_t number, const Box& box) {
+  constexpr double kEqual = 1e-5;  // sides of files in single precision
+  if (frame.box.x() > 0 && !frame.box.sides().isApprox(box.sides(), kEqual)) {
+    return Error{
+        fmt::format("frame {} is of a box of {:.6g} by {:.6g} mm, and the scene has one of {:.6g} by {:.6g} mm", number,
+                    frame.box.x(), frame.box.y(), box.x(), box.y())};
+  }
+  for (std::size_t i = 0; i < frame.n_rods(); ++i) {
+    const Vec3& at = frame.position[i];
+    const bool is_near = (at.head<2>().array().abs() <= run::kMostBoxes * box.shorter()).all();
+    if (is_near && !std::isinf(at.z()) && frame.director[i].allFinite() && frame.velocity[i].allFinite()) continue;
+    return Error{fmt::format("frame {}, rod {}: a number is none, or lies too far from the box", number, i)};
+  }
+  return {};
+}
+
+}  // namespace
 
 Result<Measured> measure_arrays(const Scene& scene, std::vector<Snapshot> frames, double interval,
-                                const run::Lacking& lacking) {
+                                const run::Lacking& lacking, const GoOn& go_on) {
   const std::string started = utc_now();
   const Result<scene::RunPlan> asked = resolved(scene);
   if (!asked) return asked.error();
@@ -37,6 +59,7 @@ Result<Measured> measure_arrays(const Scene& scene, std::vector<Snapshot> frames
   std::vector<run::RecordedFrame> recorded;
   const Snapshot* before = nullptr;
   for (Snapshot& frame : frames) {
+    if (auto done = check(frame, recorded.size(), own->system.box()); !done) return done.error();
     frame.tick = spacing * static_cast<Tick>(recorded.size());
     frame.time = static_cast<double>(frame.tick) * own->system.dt;
     frame.box = own->system.box();
@@ -51,7 +74,8 @@ Result<Measured> measure_arrays(const Scene& scene, std::vector<Snapshot> frames
   const run::FramesInMemory memory(std::move(header), std::move(recorded));
   const auto by = run::plan_for_frames({text, "scene"}, {text, "scene"}, {}, spacing, lacking);
   if (!by) return as_error(by.error());
-  const Result<run::MeasuredFrames> found = run::measure_frames(by->plan, memory);
+  const Result<run::MeasuredFrames> found =
+      run::measure_frames(by->plan, memory, [&](std::size_t) { return !go_on || go_on(); });
   if (!found) return found.error();
   run::Summary summary = run::summary_of(*by, *found, "arrays");
   summary.started = started;

@@ -3,6 +3,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <limits>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -86,9 +87,9 @@ class NativeSimulation {
   NativeSimulation(const std::string& scene, std::vector<std::string> settings, const Doubles& positions,
                    const Doubles& directors, const std::optional<Doubles>& velocities,
                    const std::optional<Doubles>& angular_velocities, const std::vector<int>& species)
-      : run_(value_or_raise(SimulatedRun::start({scene, std::move(settings)},
-                                                rods_of(positions, directors, velocities, angular_velocities, species),
-                                                !velocities && !angular_velocities))) {}
+      : NativeSimulation({scene, std::move(settings)},
+                         rods_of(positions, directors, velocities, angular_velocities, species),
+                         !velocities && !angular_velocities) {}
   explicit NativeSimulation(const py::tuple& saved) : run_(value_or_raise(SimulatedRun::resume(saved_of(saved)))) {}
 
   void use_threads(int n) {
@@ -108,10 +109,11 @@ class NativeSimulation {
   }
 
   /// With the next vibration, to which it steps.
-  void begin_stage(std::vector<std::string> settings) {
+  void begin_stage(const std::vector<std::string>& settings) {
+    const Result<void> allowed = with_run([&](const SimulatedRun& run) { return run.may_set(settings); });
+    if (!allowed) throw Refused(allowed.error().message);  // before it steps
     advance_to(with_run([](const SimulatedRun& run) { return run.next_beat(); }));
-    const Result<void> done =
-        with_run([&](SimulatedRun& run) { return run.begin_stage(std::move(settings), goes_on); });
+    const Result<void> done = with_run([&](SimulatedRun& run) { return run.begin_stage(settings, goes_on); });
     if (PyErr_Occurred() != nullptr) throw py::error_already_set();
     if (!done) throw Refused(done.error().message);
   }
@@ -192,9 +194,10 @@ class NativeSimulation {
   }
 
   py::tuple save() {
-    const SavedRun saved = with_run([](const SimulatedRun& run) { return run.save(); });
+    const SavedRun saved = value_or_raise(with_run([](const SimulatedRun& run) { return run.save(); }));
     return py::make_tuple(saved.scene.text, saved.scene.settings, saved.start ? saved.start->run : "",
-                          saved.start ? saved.start->time : 0.0, saved.time_before, python_bytes(saved.simulation),
+                          saved.start ? saved.start->time : 0.0, saved.time_before, saved.spent.cpu_seconds,
+                          saved.spent.wall_seconds, saved.spent.started, python_bytes(saved.simulation),
                           python_bytes(saved.measurements));
   }
 
@@ -203,6 +206,10 @@ class NativeSimulation {
   };
 
  private:
+  NativeSimulation(Scene scene, const std::vector<run::ImportedRod>& rods, bool draws_velocities)
+      : run_(value_or_raise(
+            without_python([&] { return SimulatedRun::start(std::move(scene), rods, draws_velocities); }))) {}
+
   static SavedRun saved_of(const py::tuple& saved) {
     SavedRun found;
     found.scene = {saved[0].cast<std::string>(), saved[1].cast<std::vector<std::string>>()};
@@ -213,8 +220,9 @@ class NativeSimulation {
       const auto bytes = bytes_of_python(from);
       to.assign(bytes.begin(), bytes.end());
     };
-    assign(found.simulation, saved[5].cast<py::bytes>());
-    assign(found.measurements, saved[6].cast<py::bytes>());
+    found.spent = {saved[5].cast<double>(), saved[6].cast<double>(), saved[7].cast<std::string>()};
+    assign(found.simulation, saved[8].cast<py::bytes>());
+    assign(found.measurements, saved[9].cast<py::bytes>());
     return found;
   }
 
@@ -233,8 +241,11 @@ class NativeSimulation {
     std::vector<run::ImportedRod> rods;
     for (std::size_t i = 0; i < at.size(); ++i) {
       const double length = along[i].norm();
-      if (!(length > 0) || !at[i].head<2>().allFinite() || !v[i].allFinite() || !w[i].allFinite())
+      if (!(length > 0) || !along[i].allFinite() || !at[i].head<2>().allFinite() || !v[i].allFinite() ||
+          !w[i].allFinite())
         throw Refused(fmt::format("rod {}: a number is none, or its director has no length", i));
+      if (!species.empty() && (species[i] < 0 || species[i] > std::numeric_limits<std::uint8_t>::max()))
+        throw Refused(fmt::format("rod {} is of species {}, which there is not", i, species[i]));
       rods.push_back({static_cast<int>(i), static_cast<std::uint8_t>(species.empty() ? 0 : species[i]), at[i],
                       along[i] / length, v[i], w[i]});
     }
@@ -258,15 +269,16 @@ struct Told {
   }
 };
 
-/// `frames`: (positions, directors, velocities, images or None) of each, (n, 3).
+/// `frames`: (positions, directors, velocities, images or None) of each, (n, 3), and the sides of its box, or None.
 py::tuple measure(const std::string& scene, std::vector<std::string> settings, const py::list& frames, double interval,
                   bool has_velocities, bool has_tilts, bool is_followed) {
   const Told told{has_velocities, has_tilts, is_followed};
   std::vector<Snapshot> snapshots;
   for (const py::handle each : frames) {
-    const auto [positions, directors, velocities, images] =
-        each.cast<std::tuple<Doubles, Doubles, Doubles, std::optional<Integers>>>();
+    const auto [positions, directors, velocities, images, box] = each.cast<
+        std::tuple<Doubles, Doubles, Doubles, std::optional<Integers>, std::optional<std::pair<double, double>>>>();
     Snapshot frame;
+    if (box) frame.box = Box(box->first, box->second);
     frame.position = vectors_of(positions, "positions");
     frame.director = vectors_of(directors, "directors");
     frame.velocity = vectors_of(velocities, "velocities");
@@ -277,20 +289,20 @@ py::tuple measure(const std::string& scene, std::vector<std::string> settings, c
     snapshots.push_back(std::move(frame));
   }
   Result<Measured> found = without_python([&] {
-    return measure_arrays({scene, std::move(settings)}, std::move(snapshots), interval, told.lacking());
+    return measure_arrays({scene, std::move(settings)}, std::move(snapshots), interval, told.lacking(), goes_on);
   });
-  const Measured measured = value_or_raise(std::move(found));
+  const Measured measured = value_unless_interrupted(std::move(found));
   return py::make_tuple(measured.scene, measured.summary, dict_of(measured.arrays));
 }
 
 }  // namespace
 
 PYBIND11_MODULE(_native, module) {
-  const py::object errors = py::module_::import("shaken.errors");
-  py::register_exception<Refused>(module, "Refused", errors.attr("ShakenError"));
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);
+    } catch (const Refused& refused) {
+      PyErr_SetString(py::module_::import("shaken.errors").attr("ShakenError").ptr(), refused.what());
     } catch (const NativeSimulation::Trouble& trouble) {
       const py::object type = py::module_::import("shaken.errors").attr("NumericalTrouble");
       const py::object value = type(trouble.what.what, trouble.what.tick, trouble.what.rods);

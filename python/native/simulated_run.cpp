@@ -1,5 +1,7 @@
 #include "python/native/simulated_run.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -19,6 +21,11 @@ namespace {
 
 constexpr Tick kMostTicksToABeat = 1'000'000;
 
+Scene with(Scene scene, const std::vector<std::string>& settings) {
+  scene.settings.insert(scene.settings.end(), settings.begin(), settings.end());
+  return scene;
+}
+
 }  // namespace
 
 Error as_error(const std::vector<keys::Problem>& problems) {
@@ -37,7 +44,7 @@ SimulatedRun::SimulatedRun(Scene scene, scene::RunPlan plan, Simulation simulati
     : scene_(std::move(scene)),
       plan_(std::move(plan)),
       run_(run::begin_run(plan_, std::move(simulation))),
-      started_(utc_now()) {
+      spent_{0, 0, utc_now()} {
   run_.recording.reset();
 }
 
@@ -55,6 +62,16 @@ Result<SimulatedRun> SimulatedRun::start(Scene scene, const std::vector<run::Imp
                                          bool draws_velocities) {
   Result<scene::RunPlan> plan = resolved(scene);
   if (!plan) return plan.error();
+  for (const run::ImportedRod& rod : rods) {
+    if (!plan->system.has_species(rod.shape))
+      return Error{fmt::format("rod {} is of species {}, which the scene does not have", rod.number, rod.shape)};
+  }
+  const World empty = empty_world(plan->system);
+  if (empty.species.size() != empty.species_of_shape.back() + 1U) {
+    return Error{
+        "rods of the scene differ in size, of which arrays say nothing: leave out length_spread and "
+        "end_diameter_spread"};
+  }
   std::vector<keys::Problem> problems;
   const scene::RunPlan placed = run::without_start(*plan);
   auto found = run::place_rods(placed.system, rods, "the rods", false, problems);
@@ -78,11 +95,13 @@ Result<SimulatedRun> SimulatedRun::resume(const SavedRun& saved) {
   SimulatedRun run(saved.scene, std::move(plan).value(), std::move(simulation).value());
   if (auto done = run.run_.measurements.restore(saved.measurements); !done) return done.error();
   run.time_before_ = saved.time_before;
+  run.spent_ = saved.spent;
   return run;
 }
 
-SavedRun SimulatedRun::save() const {
-  return {scene_, plan_.start, time_before_, run_.simulation.checkpoint(), run_.measurements.save()};
+Result<SavedRun> SimulatedRun::save() const {
+  if (trouble_) return Error{"it has met numerical trouble, from which nothing goes on: " + trouble_->what};
+  return SavedRun{scene_, plan_.start, time_before_, spent_, run_.simulation.checkpoint(), run_.measurements.save()};
 }
 
 void SimulatedRun::measure() {
@@ -102,8 +121,8 @@ bool SimulatedRun::advance(Tick target) {
     if (!trouble_) measure();
     if (now - begin > run::kLongSlice) break;
   }
-  cpu_seconds_ += cpu_seconds() - cpu_before;
-  wall_seconds_ += run::WallSeconds(run::WallClock::now() - begin).count();
+  spent_.cpu_seconds += cpu_seconds() - cpu_before;
+  spent_.wall_seconds += run::WallSeconds(run::WallClock::now() - begin).count();
   return run_.simulation.tick() >= target;
 }
 
@@ -116,9 +135,13 @@ Tick SimulatedRun::next_beat() const {
   return now;  // two vibrations that hardly ever begin together: the stage is refused
 }
 
-Result<void> SimulatedRun::begin_stage(std::vector<std::string> settings, const GoOn& go_on) {
-  Scene next = scene_;
-  next.settings.insert(next.settings.end(), settings.begin(), settings.end());
+Result<void> SimulatedRun::may_set(const std::vector<std::string>& settings) const {
+  const Result<scene::RunPlan> plan = resolved(with(scene_, settings));
+  return plan ? Result<void>() : plan.error();
+}
+
+Result<void> SimulatedRun::begin_stage(const std::vector<std::string>& settings, const GoOn& go_on) {
+  Scene next = with(scene_, settings);
   Result<scene::RunPlan> plan = resolved(next);
   if (!plan) return plan.error();
   Result<Simulation> simulation = Simulation::start(plan->system, run_.simulation.world(), go_on);
@@ -133,9 +156,9 @@ Result<void> SimulatedRun::begin_stage(std::vector<std::string> settings, const 
 
 std::string SimulatedRun::summary(const run::Reduction& reduction) const {
   run::Summary summary = run::summary_of(plan_, run_, reduction, std::nullopt);
-  summary.cpu_seconds = cpu_seconds_;
-  summary.wall_seconds = wall_seconds_;
-  summary.started = started_;
+  summary.cpu_seconds = spent_.cpu_seconds;
+  summary.wall_seconds = spent_.wall_seconds;
+  summary.started = spent_.started;
   if (trouble_) {
     summary.state = "failed";
     summary.reason = trouble_->what;

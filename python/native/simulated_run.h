@@ -25,11 +25,18 @@ Error as_error(const std::vector<keys::Problem>& problems);
 /// What the scene resolves to; fails with all that is wrong with it.
 Result<scene::RunPlan> resolved(const Scene& scene);
 
+/// What a run has taken so far.
+struct Spent {
+  double cpu_seconds = 0, wall_seconds = 0;  ///< of steps
+  std::string started;                       ///< UTC
+};
+
 /// What a run needs to go on elsewhere as if it had not stopped.
 struct SavedRun {
   Scene scene;
   std::optional<scene::StartState> start;  ///< where the rods come from, if they were not placed by the scene
   double time_before = 0;                  ///< length of the stages before this one [s]
+  Spent spent;
   std::vector<std::byte> simulation{}, measurements{};
 };
 
@@ -42,16 +49,19 @@ class SimulatedRun {
   /// they get those of any other start.
   static Result<SimulatedRun> start(Scene scene, const std::vector<run::ImportedRod>& rods, bool draws_velocities);
   static Result<SimulatedRun> resume(const SavedRun& saved);
-  SavedRun save() const;
+  /// Fails after trouble, from which nothing goes on.
+  Result<SavedRun> save() const;
 
   /// Steps towards `target` for as long as a slice; whether it is there. Trouble is final.
   bool advance(Tick target);
   const std::optional<NumericalTrouble>& trouble() const { return trouble_; }
   /// The first tick from now on at which the plates begin a vibration; now, where none comes soon.
   Tick next_beat() const;
+  /// Fails with what is wrong with a scene in which `settings` hold.
+  Result<void> may_set(const std::vector<std::string>& settings) const;
   /// Begins a stage in which `settings` hold, as a stage of a protocol does: at tick 0, with the rods as they are, and
   /// with measurements of its own. Fails if the plates are in the middle of a vibration, or if the rods do not fit.
-  Result<void> begin_stage(std::vector<std::string> settings, const GoOn& go_on);
+  Result<void> begin_stage(const std::vector<std::string>& settings, const GoOn& go_on);
 
   const scene::RunPlan& plan() const { return plan_; }
   Simulation& simulation() { return run_.simulation; }
@@ -70,8 +80,7 @@ class SimulatedRun {
   run::OpenRun run_;
   run::Slice slice_;
   double time_before_ = 0;
-  double cpu_seconds_ = 0, wall_seconds_ = 0;  ///< of steps
-  std::string started_;
+  Spent spent_;
   std::optional<NumericalTrouble> trouble_;
 };
 

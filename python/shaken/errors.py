@@ -1,7 +1,8 @@
 """What goes wrong, in one sentence with the way out."""
 from __future__ import annotations
 
-from typing import Iterable, Sequence
+import importlib
+from typing import Any, Iterable, Sequence
 
 
 class ShakenError(Exception):
@@ -24,7 +25,10 @@ class NumericalTrouble(ShakenError):
 
     def __init__(self, said: str, tick: int, rods: Sequence[int]) -> None:
         super().__init__(f"tick {tick}, rods {', '.join(map(str, rods)) or 'none'}: {said}")
-        self.tick, self.rods = tick, list(rods)
+        self.tick, self.rods, self._said = tick, list(rods), said
+
+    def __reduce__(self) -> tuple[type, tuple[str, int, list[int]]]:
+        return type(self), (self._said, self.tick, self.rods)
 
 
 class NoDaemon(ShakenError):
@@ -41,6 +45,15 @@ class DaemonFailed(ShakenError):
     """A daemon whose answer is none, or which could not do what it was asked for."""
 
     exit_code = 1
+
+
+def imported(module: str, otherwise: str = "") -> Any:
+    """A module that not everybody has. Raises ShakenError where it is missing, with what does `otherwise`."""
+    try:
+        return importlib.import_module(module)
+    except ImportError:
+        name = module.partition(".")[0]
+        raise ShakenError(f"{name} is not installed: `apt install python3-{name}`{otherwise}") from None
 
 
 def _distance(a: str, b: str) -> int:

@@ -6,6 +6,8 @@ import math
 from dataclasses import dataclass, replace
 from typing import Any, Iterable, Sequence
 
+from .errors import imported
+
 NAN = float("nan")
 #: Before a value: "~" where it still relaxes, "?" where it is not known to be of a steady state.
 MARKS = {True: "", False: "~", None: "?"}
@@ -55,8 +57,7 @@ class Estimate:
 
     def to_uncertainties(self) -> Any:
         """The `ufloat` of the package uncertainties (Debian: python3-uncertainties), of value and error."""
-        from uncertainties import ufloat
-        return ufloat(self.value, self.error)
+        return imported("uncertainties").ufloat(self.value, self.error)
 
     def _repr_html_(self) -> str:
         return html.escape(str(self))

@@ -7,7 +7,7 @@ from typing import Any, Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from .errors import ShakenError
+from .errors import ShakenError, imported
 from .frames import Frame
 from .units import seconds
 
@@ -24,13 +24,10 @@ def gsd_frames(path: str | Path, *, step: float | str, scale: float = 1.0, axis:
 
     Needs the package gsd (Debian: python3-gsd). Raises ShakenError where the file is none.
     """
-    try:
-        import gsd.hoomd
-    except ImportError:
-        raise ShakenError("gsd is not installed: `apt install python3-gsd`") from None
+    gsd = imported("gsd.hoomd")
     turned, duration = np.asarray(axis, dtype=float), seconds(step)
     try:
-        with gsd.hoomd.open(str(path), "rb") as file:
+        with gsd.open(str(path), "rb") as file:
             for snapshot in file:
                 rods = snapshot.particles
                 if kind is not None and kind not in rods.types:

@@ -44,6 +44,8 @@ def measure(frames: Iterable[Any], *, interval: float | str | None = None, scene
     rods = [_Rods.of(frame) for frame in frames]
     if not rods:
         raise ShakenError("there are no frames")
+    if scene is not None and box is not None:
+        raise ShakenError("a scene has its box: leave out box=")
     if scene is None:
         if box is None:
             raise ShakenError("say in which box the rods are: box=(Lx, Ly) in mm, or a scene that has it")
@@ -59,13 +61,14 @@ def measure(frames: Iterable[Any], *, interval: float | str | None = None, scene
 
 @dataclass
 class _Rods:
-    """The arrays of a frame, of three columns each; velocities, images and time are None where it has none."""
+    """The arrays of a frame, of three columns each; velocities, images, time and box are None where it has none."""
 
     positions: NDArray[Any]
     directors: NDArray[Any]
     velocities: NDArray[Any] | None
     images: NDArray[Any] | None
     time: float | None
+    box: tuple[float, float] | None
     has_tilts: bool
 
     @classmethod
@@ -73,7 +76,7 @@ class _Rods:
         if isinstance(frame, Frame):
             first = frame.species == 0
             return cls(frame.positions[first], frame.directors[first], frame.velocities[first], frame.images[first],
-                       frame.time, True)
+                       frame.time, (float(frame.box[0]), float(frame.box[1])), True)
         if not isinstance(frame, (tuple, list)) or not 2 <= len(frame) <= 3:
             raise ShakenError("a frame is (positions, directors), or with velocities, or a Frame of Shaken")
         positions, directors, *velocities = (np.asarray(each, dtype=float) for each in frame)
@@ -82,7 +85,7 @@ class _Rods:
             directors = np.stack([np.cos(directors), np.sin(directors)], axis=-1)
         directors = directors / np.linalg.norm(directors, axis=-1, keepdims=True)
         return cls(_columns(positions, np.nan), _columns(directors, 0.0),
-                   _columns(velocities[0], 0.0) if velocities else None, None, None, has_tilts)
+                   _columns(velocities[0], 0.0) if velocities else None, None, None, None, has_tilts)
 
     def as_tuple(self, is_followed: bool) -> tuple[Any, ...]:
         if not len(self.positions) == len(self.directors) == len(self.velocities if self.velocities is not None
@@ -90,7 +93,7 @@ class _Rods:
             raise ShakenError(f"a frame has {len(self.positions)} positions and {len(self.directors)} directors: each "
                               "rod has one of either, and a velocity if there are any")
         velocities = np.zeros_like(self.positions) if self.velocities is None else self.velocities
-        return self.positions, self.directors, velocities, self.images if is_followed else None
+        return self.positions, self.directors, velocities, self.images if is_followed else None, self.box
 
 
 def _columns(array: NDArray[Any], third: float) -> NDArray[Any]:

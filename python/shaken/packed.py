@@ -2,17 +2,21 @@
 runs give equal files."""
 from __future__ import annotations
 
-import io
+import filecmp
 import lzma
+import os
 import re
+import shutil
 import tarfile
+import tempfile
 from pathlib import Path
 from typing import Iterable
 
 from .errors import ShakenError
 from .hdf5 import open_file
 from .run import DirectoryRun
-from .system import write_whole
+from .system import whole_file
+from .text import printable
 
 SUFFIX = ".tar.xz"
 #: Of a run, what is packed: the last only if it is asked for. The summary comes last: it says that all is there.
@@ -26,8 +30,8 @@ def pack(directories: Iterable[str | Path], file: str | Path, frames: bool = Fal
     runs = {run.id: run for run in map(DirectoryRun, directories)}
     if not runs:
         raise ShakenError("there is no run to be packed: none of them is done")
-    content = io.BytesIO()
-    with lzma.open(content, "wb", preset=6) as compressed, tarfile.open(fileobj=compressed, mode="w") as tar:
+    with whole_file(Path(file), sync=True) as content, lzma.open(content, "wb", preset=6) as compressed, \
+            tarfile.open(fileobj=compressed, mode="w") as tar:
         for run_id, run in sorted(runs.items()):
             for name in _FILES:
                 path = run.directory / name
@@ -39,39 +43,55 @@ def pack(directories: Iterable[str | Path], file: str | Path, frames: bool = Fal
                 entry.size = path.stat().st_size
                 with path.open("rb") as source:
                     tar.addfile(entry, source)
-    write_whole(Path(file), content.getvalue(), sync=True)
     return sorted(runs)
 
 
 def unpack(file: str | Path, folder: str | Path) -> list[Path]:
     """Puts the runs of a file of `pack` into a folder, a directory for each, and returns these. What is there already
-    is left as it is. Raises ShakenError where the file is no such file or is damaged, and where a directory of the same
-    name holds other results; directories of runs that came before it are whole."""
-    found: dict[str, Path] = {}
+    is left as it is. Raises ShakenError, and puts nothing there, where the file is no such file or is damaged, or where
+    a directory of the same name holds other results."""
+    place = Path(folder)
+    place.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(prefix=".unpacked-", dir=place) as beside:
+        names = _extracted(file, Path(beside))
+        for name in names:
+            _check(file, Path(beside, name))
+            for path in Path(beside, name).iterdir():
+                there = place / name / path.name
+                if there.exists() and not filecmp.cmp(there, path, shallow=False):
+                    raise ShakenError(f"{there} is there, and is another file: unpack into another folder")
+        for name in names:
+            (place / name).mkdir(exist_ok=True)
+            for part in _FILES:
+                if Path(beside, name, part).exists():
+                    os.replace(Path(beside, name, part), place / name / part)
+    return [place / name for name in names]
+
+
+def _extracted(file: str | Path, folder: Path) -> list[str]:
+    """The names of the runs in a file, whose files are in the folder then."""
+    names: dict[str, None] = {}
     try:
         with lzma.open(file) as compressed, tarfile.open(fileobj=compressed, mode="r|") as tar:
             for entry in tar:
                 match = _MEMBER.fullmatch(entry.name)
-                if match is None or not entry.isreg():
-                    raise ShakenError(f"{file} has a member '{entry.name}', which `shaken pack` has not written")
-                source = tar.extractfile(entry)
-                assert source is not None
-                found[match[1]] = Path(folder) / match[1]
-                _put(found[match[1]] / match[2], source.read())
-    except (OSError, EOFError, lzma.LZMAError, tarfile.TarError) as error:
+                source = tar.extractfile(entry) if match and entry.isreg() and not entry.pax_headers else None
+                if match is None or source is None or entry.issparse():
+                    raise ShakenError(f"{file} has a member '{printable(entry.name)}', which `shaken pack` has not "
+                                      "written")
+                names[match[1]] = None
+                (folder / match[1]).mkdir(exist_ok=True)
+                with (folder / match[1] / match[2]).open("xb") as target:
+                    shutil.copyfileobj(source, target)
+    except (OSError, EOFError, ValueError, MemoryError, lzma.LZMAError, tarfile.TarError) as error:
         raise ShakenError(f"{file} is damaged, or no file of `shaken pack`: {error}") from None
-    if not found:
+    if not names:
         raise ShakenError(f"{file} has no runs")
-    for run_id, directory in found.items():
-        if DirectoryRun(directory).id != run_id:
-            raise ShakenError(f"{file}: what is called {run_id} is another run")
-        for path in directory.glob("*.h5"):
-            open_file(path).close()
-    return list(found.values())
+    return list(names)
 
 
-def _put(path: Path, content: bytes) -> None:
-    if path.exists() and path.read_bytes() != content:
-        raise ShakenError(f"{path} is there, and is another file: unpack into another folder")
-    path.parent.mkdir(parents=True, exist_ok=True)
-    write_whole(path, content)
+def _check(file: str | Path, directory: Path) -> None:
+    if DirectoryRun(directory).id != directory.name:
+        raise ShakenError(f"{file}: what is called {directory.name} is another run")
+    for path in directory.glob("*.h5"):
+        open_file(path).close()

@@ -34,13 +34,15 @@ class Simulation:
     at once nor on the number of threads. Other threads of Python go on meanwhile, and Ctrl-C ends `advance` between two
     ticks, from which it can be gone on from. What the scene measures is measured; nothing is recorded or drawn.
 
-    scene:     a dict as docs/scene.md has it, the text of a file or its path
-    settings:  keys that are set in it: {"rods.area_fraction": 0.75, "time.step": "8 us"}
-    threads:   that share each tick; worth it from some 2,000 rods on
-    positions, directors: (n, 3) centres [mm] and axes of rods that take the place of those that the scene places, as
-               `shaken import` takes them; z is the height above the base, NaN as low as possible
-    velocities, angular_velocities: (n, 3) [mm/s], [rad/s]; drawn as at any other start where both are left out
-    species:   (n,) 0 for `rods`, 1 and 2 for `rods_2` and `rods_3`; left out where there is one
+    scene:      a dict as docs/scene.md has it, the text of a file or its path
+    settings:   keys that are set in it: {"rods.area_fraction": 0.75, "time.step": "8 us"}
+    threads:    that share each tick; worth it from some 2,000 rods on
+    positions:  (n, 3) centres [mm] of rods that take the place of those that the scene places, as `shaken import` takes
+                them; z is the height above the base, NaN as low as possible
+    directors:  (n, 3) their axes
+    velocities: (n, 3) of the centres [mm/s], and `angular_velocities` (n, 3) [rad/s]; drawn as at any other start where
+                both are left out
+    species:    (n,) 0 for `rods`, 1 and 2 for `rods_2` and `rods_3`; left out where there is one
 
     Raises ShakenError with all that is wrong with the scene, or with the rods.
     """
@@ -61,7 +63,7 @@ class Simulation:
         self._begin(threads)
 
     def _begin(self, threads: int) -> None:
-        self._threads = threads
+        self._threads, self._stage = threads, getattr(self, "_stage", 0) + 1
         self._now: Frame | None = None
         self._rods: dict[str, Any] = self._native.rods()
         if threads > 1:
@@ -105,7 +107,7 @@ class Simulation:
         self._native.advance_to(self.tick + math.floor(n + 0.5))
 
     def set(self, key: str, value: Any) -> None:
-        """Begins a stage in which a key of the scene has another value, as a stage of a protocol does (docs/scene.md):
+        """Begins a stage in which a key of the scene has another value, as a stage of a protocol does (docs/sweeps.md):
         `simulation.set("plates.gamma", 8)`. It begins with the next vibration of the plates, to which this steps; tick
         and measurements begin anew, and `time` goes on.
 
@@ -128,13 +130,13 @@ class Simulation:
             self._now = Frame(self._native.time_before() + now["time"], now["tick"], now["positions"], now["directors"],
                               now["velocities"], now["images"], species, np.array(now["box"]),
                               tuple(self._rods["spheres"]), self._rods["periodic"],
-                              functools.partial(self._picture, now["tick"]))
+                              functools.partial(self._picture, self._stage, now["tick"]))
             self._spins = now["angular_velocities"]
         return self._now
 
-    def _picture(self, tick: int) -> bytes | None:
-        """Of the rods at a tick, as long as it is that."""
-        if tick != self.tick:
+    def _picture(self, stage: int, tick: int) -> bytes | None:
+        """Of the rods at a tick of a stage, as long as it is that."""
+        if (stage, tick) != (self._stage, self.tick):
             return None
         with tempfile.TemporaryDirectory(prefix="shaken-frame-") as folder:
             self._native.write_frame(f"{folder}/trajectory.h5")
@@ -173,10 +175,12 @@ class Simulation:
         return measured_run(self.scene, summary, arrays, "a simulation in this process")
 
     def checkpoint(self) -> bytes:
-        """All that it needs to go on elsewhere, or later, as if it had not stopped. `copy` and `pickle` use it."""
-        text, settings, run, time, time_before, *parts = self._native.save()
+        """All that it needs to go on elsewhere, or later, as if it had not stopped. `copy` and `pickle` use it. Raises
+        ShakenError after numerical trouble, from which nothing goes on."""
+        text, settings, run, time, time_before, *spent, state, measured = self._native.save()
+        parts = (state, measured)
         head = json.dumps({"scene": text, "settings": settings, "start": [run, time], "time_before": time_before,
-                           "threads": self._threads, "bytes": [len(part) for part in parts]}).encode()
+                           "spent": spent, "threads": self._threads, "bytes": [len(part) for part in parts]}).encode()
         body = head + b"\n" + b"".join(parts)
         return _MAGIC + hashlib.blake2b(body, digest_size=16).digest() + body
 
@@ -191,7 +195,7 @@ class Simulation:
         n = head["bytes"][0]
         simulation = cls.__new__(cls)
         simulation._native = native().Simulation((head["scene"], head["settings"], *head["start"], head["time_before"],
-                                                  parts[:n], parts[n:]))
+                                                  *head["spent"], parts[:n], parts[n:]))
         simulation._begin(head["threads"])
         return simulation
 
@@ -199,7 +203,7 @@ class Simulation:
         return Simulation.resume, (self.checkpoint(),)
 
     def _repr_png_(self) -> bytes | None:
-        return self._picture(self.tick)
+        return self._picture(self._stage, self.tick)
 
     def __repr__(self) -> str:
         return f"<simulation at {self.time:g} s: {len(self.positions)} rods, S = {self.order:.3g}>"

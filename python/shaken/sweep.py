@@ -1,7 +1,6 @@
 """Sweeps: a row for each state point, with its replicas put together."""
 from __future__ import annotations
 
-import importlib
 import json
 from pathlib import Path
 from typing import Any, Iterable, Iterator, Mapping, Sequence
@@ -11,7 +10,7 @@ import numpy as np
 from .archive import archived_runs
 from .catalogue import KEYS, UNITS
 from .daemon import Daemon, quoted
-from .errors import ShakenError, UnknownName
+from .errors import ShakenError, UnknownName, imported
 from .estimate import Estimate, replica_mean
 from .notebook import numbers_html, points_html
 from .folder import parameters_of, run_directories
@@ -151,7 +150,7 @@ class Sweep:
         """A pandas DataFrame: a row for each point; the swept keys, then for each number NAME, NAME:error and
         NAME:steady (True, False, or missing where that cannot be told). Units are in `attrs["units"]`. Needs pandas
         (Debian: python3-pandas)."""
-        frame = _imported("pandas").DataFrame(self.records())
+        frame = imported("pandas", "; `records()` does without").DataFrame(self.records())
         frame = frame.astype({name: "boolean" for name in frame if name.endswith(":steady")})
         units = {name: point[name].unit for point in self for name in point.names()}
         frame.attrs["units"] = {**{key: KEYS.get(key, {}).get("unit", "1") for key in self._swept()}, **units,
@@ -190,7 +189,7 @@ class Sweep:
                                   f"which differ in {self._differing(other, point)}: choose one, as in "
                                   f"sweep.where(...).pivot(...)")
         found = [(point.key(down), point.key(across), value) for point, value in cells.values()]
-        frame = _imported("pandas").DataFrame(found, columns=["down", "across", name])
+        frame = imported("pandas", "; `records()` does without").DataFrame(found, columns=["down", "across", name])
         return frame.pivot(index="down", columns="across", values=name).rename_axis(index=rows, columns=columns)
 
     def _differing(self, a: Point, b: Point) -> str:
@@ -231,7 +230,7 @@ class Sweep:
         """An xarray Dataset (Debian: python3-xarray) whose dimensions are the swept keys that are numbers: NAME and
         NAME_error of each number, NaN where there is no point; units are in `attrs`. Raises ShakenError where a place
         would have several points, as `pivot` does."""
-        xarray = _imported("xarray")
+        xarray = imported("xarray", "; `records()` does without")
         keys = [key for key in self.parameters
                 if all(isinstance(number_of(point.key(key)), (int, float)) for point in self)]
         axes = [sorted({number_of(point.key(key)) for point in self}) for key in keys]
@@ -258,13 +257,6 @@ class Sweep:
 
     def __repr__(self) -> str:
         return f"<sweep {self.name or '-'}: {len(self.points)} points over {', '.join(self.parameters) or 'nothing'}>"
-
-
-def _imported(name: str) -> Any:
-    try:
-        return importlib.import_module(name)
-    except ImportError:
-        raise ShakenError(f"{name} is not installed: `apt install python3-{name}`; `records()` does without") from None
 
 
 def _equal(a: Any, b: Any) -> bool:

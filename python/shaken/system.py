@@ -9,7 +9,7 @@ import signal
 import subprocess
 import tempfile
 from pathlib import Path
-from typing import Iterator, Sequence
+from typing import BinaryIO, Iterator, Sequence
 
 from .errors import ShakenError
 
@@ -45,12 +45,14 @@ def scratch_folder(prefix: str) -> Iterator[Path]:
         remover.communicate()
 
 
-def write_whole(path: Path, content: bytes, sync: bool = False) -> None:
-    """A reader never finds half a file, and writers do not disturb each other. With `sync` it is on the disk then."""
+@contextlib.contextmanager
+def whole_file(path: Path, sync: bool = False) -> Iterator[BinaryIO]:
+    """A file to be written, which takes its place at the end: a reader never finds half of it, and writers do not
+    disturb each other. With `sync` it is on the disk then."""
     beside = path.with_name(f".{path.name[:200]}.{secrets.token_hex(6)}.tmp")
     try:
         with beside.open("xb") as file:
-            file.write(content)
+            yield file
             if sync:
                 file.flush()
                 os.fsync(file.fileno())
@@ -63,3 +65,9 @@ def write_whole(path: Path, content: bytes, sync: bool = False) -> None:
             os.fsync(folder)
         finally:
             os.close(folder)
+
+
+def write_whole(path: Path, content: bytes, sync: bool = False) -> None:
+    """As whole_file, at once."""
+    with whole_file(path, sync) as file:
+        file.write(content)

@@ -6,7 +6,7 @@ from shaken.archive import archived_runs
 from shaken.run import Numbers
 from shaken.study.evidence import LENGTH, PACKING, Evidence, key_of
 from shaken.study.figures import FIGURES
-from shaken.study.next_runs import DECIDING, to_do
+from shaken.study.next_runs import DECIDING, sets_in, to_do
 from shaken.study.report import PAGES, content, index, page_of, write_report
 from shaken.study.rules import NO_DATA, OPEN
 from shaken.study.statements import STATEMENTS, judged
@@ -99,7 +99,7 @@ def test_archived_runs_that_are_named_as_deciding_a_statement_are_read_by_it():
         run.numbers = Noting(run.numbers)
     evidence, checks = Evidence(runs), {statement.id: statement.check for statement in STATEMENTS}
     for statement, (text, batches) in DECIDING.items():
-        sets = set(re.findall("`([a-z-]+)`", text))
+        sets = set(sets_in(text))
         assert sets and batches, f"{statement}: no set or no run is named"
         read.clear()
         checks[statement](evidence)

@@ -97,6 +97,10 @@ def test_frames_are_drawn(tmp_path):
     assert image.shape[:2] == (640, 640) and image.std() > 0.05  # something is there
     simulation.advance("5 ms")
     assert first._repr_png_() is None and simulation._repr_png_() != drawn  # never a picture of other rods
+    first = simulation.snapshot
+    simulation.set("plates.gamma", 6)
+    simulation.advance(ticks=first.tick)
+    assert simulation.tick == first.tick and first._repr_png_() is None
 
 
 def test_other_frames_know_no_picture():

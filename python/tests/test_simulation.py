@@ -1,6 +1,7 @@
 """The simulation in Python against the programs: the same bits; and what it alone can do."""
 import copy
 import json
+import multiprocessing
 import os
 import pickle
 import signal
@@ -115,8 +116,10 @@ def test_a_stage_begins_with_the_next_vibration(simulation):
     assert simulation.tick == 0 and simulation.time == pytest.approx(0.01, abs=simulation.step)
     with pytest.raises(shaken.ShakenError, match="plates.gamma"):
         simulation.set("plates.gamma", "much")
-    simulation.advance(ticks=10)  # a refused stage leaves it as it was
-    assert simulation.tick == 10 and simulation.scene["plates"]["gamma"] == 5
+    simulation.advance(ticks=10)
+    with pytest.raises(shaken.ShakenError, match="gama"):
+        simulation.set("plates.gama", 5)
+    assert simulation.tick == 10 and simulation.scene["plates"]["gamma"] == 5  # it was not moved, either
 
 
 def test_begins_with_rods_of_ones_own(tmp_path):
@@ -148,6 +151,11 @@ def test_begins_with_rods_of_ones_own(tmp_path):
         shaken.Simulation(scene, positions=[[5, 5, 0.5], [5, 5, 0.5], [9, 9, 0.5]], directors=directors)
     with pytest.raises(shaken.ShakenError, match="positions and directors"):
         shaken.Simulation(scene, positions=positions)
+    for wrong, said in (({"species": [0, 0, 200]}, "species 200"), ({"species": [0, 0, 256]}, "species 256"),
+                        ({"directors": [[np.inf, 0, 0], *directors[1:]]}, "rod 0: a number is none"),
+                        ({"settings": {"rods.length_spread": 0.1}}, "differ in size")):
+        with pytest.raises(shaken.ShakenError, match=said):
+            shaken.Simulation(scene, **{"positions": positions, "directors": directors, **wrong})
 
 
 def test_says_all_that_is_wrong_with_a_scene():
@@ -171,12 +179,16 @@ def test_other_threads_go_on_and_look(simulation):
 
     watcher = threading.Thread(target=look)
     watcher.start()
-    simulation.advance("1 s")
+    n = 0
+    half_a_second = round(0.5 / simulation.step)
+    while len({tick for tick, _ in seen if tick % half_a_second}) < 4 and n < 20:
+        simulation.advance("0.5 s")
+        n += 1
     end.set()
     watcher.join()
-    assert len({tick for tick, _ in seen}) > 3  # it was looked at on its way
+    assert n < 20, "nobody could look while it was on its way"
     alone = shaken.Simulation(SCENE)
-    alone.advance("1 s")
+    alone.advance(0.5 * n)
     assert alone.state_hash == simulation.state_hash
 
 
@@ -204,6 +216,24 @@ def test_trouble_names_tick_and_rods():
     with pytest.raises(shaken.NumericalTrouble):  # and stays
         simulation.advance(ticks=1)
     assert simulation.results().summary["exit"]["state"] == "failed"
+    with pytest.raises(shaken.ShakenError, match="nothing goes on"):
+        copy.copy(simulation)
+
+
+def _wrong_and_troubled(number):
+    """What a pool's worker meets."""
+    if number == 0:
+        shaken.Simulation({"rods": {"lenght": 4}})
+    raise shaken.NumericalTrouble("two rods overlap", 7, [1, 2])
+
+
+def test_errors_come_through_a_pool_of_processes():
+    with multiprocessing.Pool(1) as pool:
+        with pytest.raises(shaken.ShakenError, match="lenght"):
+            pool.apply_async(_wrong_and_troubled, (0,)).get(timeout=60)
+        with pytest.raises(shaken.NumericalTrouble) as trouble:
+            pool.apply_async(_wrong_and_troubled, (1,)).get(timeout=60)
+    assert (trouble.value.tick, trouble.value.rods) == (7, [1, 2])
 
 
 def test_arrays_are_measured_as_the_run_measures(run):
@@ -214,6 +244,8 @@ def test_arrays_are_measured_as_the_run_measures(run):
     differ = np.abs(found["/g2/g2"] - run["/g2/g2"])[np.isfinite(run["/g2/g2"])]
     assert np.max(differ) < 2e-3 and np.sum(differ > 1e-5) <= 4
     assert "measure.stress is left out: it needs impacts" in found.summary["frames"]["remarks"]
+    with pytest.raises(shaken.ShakenError, match="a box of 16 by 16 mm, and the scene has one of 17 by 17 mm"):
+        shaken.measure(run.frames(), box=17.0, order=True)
     plain = shaken.measure([(frame.positions, frame.directors) for frame in run.frames()], interval="5 ms",
                            box=16.0, g2={"every": "5 ms"}, msd={"every": "5 ms"})
     assert plain["/msd/total_mm2"].axis[0] == pytest.approx(0.005) and plain["/msd/total_mm2"][0] > 0
@@ -240,7 +272,10 @@ def test_known_answers_of_arrays():
     (dict(frames=[([[1, 1]], [0.0])], box=10), "interval"),
     (dict(frames=[([[1, 1]], [0.0, 1.0])], box=10, interval=1.0), "1 positions and 2 directors"),
     (dict(frames=[([[1, 1]], [0.0])], box=20, interval=1.0, g3=True), "g3"),
-    (dict(frames=[([1, 1], [0.0])], box=20, interval=1.0, order=True), "shape")])
+    (dict(frames=[([1, 1], [0.0])], box=20, interval=1.0, order=True), "shape"),
+    *((dict(frames=[([[1, 1], [9, at]], [0.0, 0.1])] * 2, box=20, interval=1.0, order=True), "frame 0, rod 1")
+      for at in (np.inf, np.nan, 1e15)),
+    (dict(frames=[([[1, 1]], [0.0])], box=20, scene={}), "leave out box=")])
 def test_says_what_is_wrong_with_arrays(given, said):
     with pytest.raises(shaken.ShakenError, match=said):
         shaken.measure(**given)

@@ -91,7 +91,7 @@ using Of = const Summary&;
 // clang-format off
 constexpr auto kKeys = std::to_array<SummaryKey>({
     {"start", "", "", "`run` and `time_s`: the state that the run began with "
-     "([scene.md](starts.md#from-the-end-of-another-run))", [](Of s) { return json_of(s.start); },
+     "([starts.md](starts.md#from-the-end-of-another-run))", [](Of s) { return json_of(s.start); },
      "the rods were placed, not taken over from another run"},
     {"n_rods", "1", "", "number of rods, of all species", at<&Summary::n_rods>},
     {"sim_seconds", "s", "simulated time", "simulated time", at<&Summary::sim_seconds>},

@@ -27,7 +27,6 @@ constexpr double kRadian = kPi / 180;
 constexpr double kEqual = 1e-3;  ///< by which intervals between frames may differ, of themselves
 constexpr std::size_t kMostProblems = 20;
 constexpr double kLargestAngle = 1e6;  ///< of whatever unit
-constexpr double kMostBoxes = 1e6;     ///< that a path goes on through
 constexpr double kMostInterval = 1e5;  ///< between frames [s]
 
 /// What a column is, and what trackers call it: trackpy, TrackMate, ImageJ, and others.

@@ -24,9 +24,12 @@ Tick ticks_between(double interval, const scene::RunPlan& plan);
 /// in problems.
 keys::Loaded<scene::RunPlan> plan_of_tracks(const scene::RunPlan& plan, const std::string& file, const Tracks& tracks);
 
+/// Boxes that a path goes on through, at most.
+inline constexpr double kMostBoxes = 1e6;
+
 /// Puts the rods of a frame into a box that repeats itself after `period` [mm], 0 for never, and counts how often each
 /// has left it: so often as it was moved, or, with `before`, the same rods one frame earlier, so that it has moved by
-/// less than half a box since.
+/// less than half a box since. They are within kMostBoxes.
 void fold_into_box(Snapshot& frame, const Vec2& period, const Snapshot* before);
 
 }  // namespace shaken::run

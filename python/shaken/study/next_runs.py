@@ -3,6 +3,7 @@ asks."""
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass, replace
 from typing import Iterable
 
@@ -30,9 +31,9 @@ class Batch:
     end: float = 0.4
     gap: float = 1.2
 
-    def missing(self, evidence: Evidence) -> int:
+    def missing(self, there_are: Runs) -> int:
         """How many of the runs are not there yet; a run that follows a shorter stage counts as if it began there."""
-        there = [run for run in evidence.everything.at(length=self.length, end=self.end, gap=self.gap)
+        there = [run for run in there_are.at(length=self.length, end=self.end, gap=self.gap)
                  if abs(key_of(run, PACKING) - self.packing) < 2e-3 and run.summary["sim_seconds"] > 0.85 * self.seconds
                  and abs(math.prod(box_of(run)) / self.side**2 - 1) < 0.01]
         return max(0, self.n_runs - len(there))
@@ -63,7 +64,8 @@ DECIDING: dict[str, tuple[str, tuple[Batch, ...]]] = {
     "oblique": ("three seeds that start turned by 30°: the set `turned`", (Batch(3.5, 0.85, 41.865, 400, 3),)),
     "long-range": ("0.55, 0.60 and 0.65 in a box of 134 mm, two seeds: the set `long-range`",
                    (Batch(4.5, 0.60, 133.968, 400, 6),)),
-    "taper": ("untapered rods at 0.80 and 0.85, three seeds: the set `taper`", (Batch(4.5, 0.85, 41.865, 430, 6),)),
+    "taper": ("untapered rods at 0.80 and 0.85, three seeds: the set `taper`",
+              (Batch(4.5, 0.80, 41.865, 430, 3, end=0.8), Batch(4.5, 0.85, 41.865, 430, 3, end=0.8))),
     "larger-box": ("two seeds in a box of 84 mm: the set `larger-box`", (Batch(4.0, 0.85, 83.73, 400, 2),)),
     "defects": ("a run in the paper's box: the first of the set `no-order`", (Batch(3.0, 0.85, 83.73, 400, 1),)),
     "isotropic": ("twenty seeds: the set `dilute`", (Batch(4.5, 0.45, 66.984, 100, 20),)),
@@ -98,10 +100,16 @@ def hours(evidence: Evidence, batch: Batch) -> float:
     return batch.n_runs * n_rods * batch.seconds / speed(known, batch.packing) / 3600
 
 
+def sets_in(text: str) -> list[str]:
+    """The sets that a text of DECIDING names."""
+    return re.findall("`([a-z-]+)`", text)
+
+
 def to_do(evidence: Evidence, statement: str) -> list[Batch]:
     """The runs that would decide a statement and are not there yet."""
-    wanted = DECIDING.get(statement, ("", ()))[1]
-    return [replace(batch, n_runs=n) for batch in wanted if (n := batch.missing(evidence))]
+    text, wanted = DECIDING.get(statement, ("", ()))
+    there_are = evidence.joined(*sets_in(text))
+    return [replace(batch, n_runs=n) for batch in wanted if (n := batch.missing(there_are))]
 
 
 def _price(evidence: Evidence, batches: Iterable[Batch]) -> str:

@@ -18,16 +18,19 @@ def _counted(n: int) -> str:
 def pack(options: argparse.Namespace) -> None:
     if not options.ids:
         raise ShakenError("say what to pack: a sweep, a job, or a folder of runs")
-    directories, waiting = [], 0
+    directories: list[str] = []
+    waiting, name = 0, ""
     for word in options.ids:
         if (Path(word) / "summary.json").exists():
             directories.append(word)
+            name = name or Path(word).resolve().name
             continue
-        jobs = target_of(Daemon(options.root), word).jobs
+        target = target_of(Daemon(options.root), word)
+        jobs, name = target.jobs, name or (target.name if target.is_sweep else target.id[:8])
         done = [job["directory"] for job in jobs if job["state"] == "done"]
         waiting += len(jobs) - len(done)
         directories += done
-    file = options.out or Path(options.ids[0].rstrip("/")).name[:40] + packed.SUFFIX
+    file = options.out or name + packed.SUFFIX
     ids = packed.pack(directories, file, options.frames)
     size = Path(file).stat().st_size
     if options.json:
@@ -41,13 +44,14 @@ def unpack(options: argparse.Namespace) -> None:
     if len(options.ids) != 1:
         raise ShakenError("say which file to unpack, one at a time")
     file = options.ids[0]
-    folder = options.out or Path(file).name.removesuffix(packed.SUFFIX)
-    if folder == Path(file).name:
-        folder += ".runs"
+    name = Path(file).name
+    folder = options.out or name.removesuffix(packed.SUFFIX)
+    if folder in ("", name):
+        folder = name + ".runs"
     directories = packed.unpack(file, folder)
     if options.json:
         print(json_text({"folder": folder, "directories": list(map(str, directories))}))
         return
-    name = printable(folder.rstrip("/"))
-    print(f"{_counted(len(directories))} in {name}/: `shaken results {name}/`; once more, with the same bits, by "
+    shown = printable(folder.rstrip("/"))
+    print(f"{_counted(len(directories))} in {shown}/: `shaken results {shown}/`; once more, with the same bits, by "
           f"`shaken run {printable(str(directories[0]))}/scene.json`")

@@ -46,10 +46,10 @@ TEST(RulesTest, ARefusalPausesAtMostSixteenTimesAsLong) {
 TEST(RulesTest, EveryPhaseIsARowOfItsOwn) {
   for (int k = 0; k < kPhases; ++k) {
     const auto [state, hold, after_stop] = stored(static_cast<JobPhase>(k));
-    EXPECT_EQ(phase_of(state, hold, after_stop), static_cast<JobPhase>(k));
+    EXPECT_EQ(server::phase_of(state, hold, after_stop), static_cast<JobPhase>(k));
   }
-  EXPECT_EQ(phase_of(JobState::kStopping, "", ""), JobPhase::kStopToQueue) << "of the first version";
-  EXPECT_FALSE(phase_of(JobState::kHeld, "up", ""));
+  EXPECT_EQ(server::phase_of(JobState::kStopping, "", ""), JobPhase::kStopToQueue) << "of the first version";
+  EXPECT_FALSE(server::phase_of(JobState::kHeld, "up", ""));
 }
 
 TEST(RulesTest, AJobLosesAndGetsItsWorkerInOneWayOnly) {
