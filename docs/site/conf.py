@@ -12,7 +12,7 @@ sys.path.insert(0, str(PYTHON))
 project = html_title = "Shaken"
 extensions = ["myst_parser", "sphinx.ext.autodoc"]
 include_patterns = ["*.md", "docs/**.md"]
-exclude_patterns = ["build", ".*"]
+exclude_patterns = ["build", ".*", "docs/figures"]  # the last has pages that `shaken figures` writes, for itself
 root_doc = "docs/index"
 templates_path = ["."]
 html_theme = "furo"
