@@ -10,6 +10,7 @@ is neither, and an entry that fits none, fails the test. Without SHAKEN_NIGHT, t
 """
 import os
 import re
+import shlex
 import signal
 import subprocess
 import sys
@@ -167,6 +168,20 @@ def shortened(command, job):
     return command
 
 
+def lay_out(shell, job):
+    """What the commands of docs/experiment.md find in their folder: a run, its tracks, scenes and a paper's curve."""
+    (shell.folder / "runs").mkdir()
+    (shell.folder / "runs" / "first").symlink_to(shell.folder / "first")
+    scene = next((shell.folder / "root" / "runs").glob(job + "*")) / "scene.json"
+    (shell.folder / "others.json").write_text(scene.read_text())
+    (shell.folder / "paper.csv").write_text("r_mm,g2\n2,0.9\n4,0.8\n6,0.7\n")
+    (shell.folder / "dish.json").write_text(re.sub('"steady": "0.4 s"', '"steady": 0',
+                                                   (SOURCE / "configs" / "tracks.json").read_text()))
+    shell.type(shortened("shaken run dish.json --out sim", job))
+    shell.type(f"PYTHONPATH={shlex.quote(str(SOURCE / 'python'))} /usr/bin/python3 "
+               f"{shlex.quote(str(SOURCE / 'docs' / 'tracks_of_a_run.py'))} sim tracks.csv")
+
+
 def type_docs(shell, job):
     typed = 0
     used = set()
@@ -175,6 +190,7 @@ def type_docs(shell, job):
                                              '"sweep": {"grid": {"rods.area_fraction": [0.4, 0.5]}}}')
     for run in RUNS:
         shell.type(shortened(f"shaken run configs/quickstart.json --out {run}", job))
+    lay_out(shell, job)
     for page in sorted(path.relative_to(SOURCE) for path in (SOURCE / "docs").glob("*.md")):
         for command in commands_of(page):
             reasons = [pattern for pattern, _ in LEFT_OUT if re.match(pattern, command)]
