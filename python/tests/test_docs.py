@@ -20,19 +20,23 @@ SWEEP = {"name": "demo", "scene": {"box": {"side": "14 mm"}, "accuracy": "draft"
 SHORT = {**SWEEP, "name": "short", "sweep": {"grid": {"rods.area_fraction": [0.3, 0.5]}}}
 
 
-def test_every_block_of_python_md_works(programs, tmp_path, monkeypatch):
+def test_every_block_of_python_md_works(programs, tmp_path, monkeypatch, capsys):
     pytest.importorskip("pandas")
     daemon = programs.start_daemon("--no-lcm", "--slots", "2")
     daemon.wait(daemon.submit(SWEEP), timeout="100 s")
     monkeypatch.setenv("SHAKEN_ROOT", str(programs.root))
     monkeypatch.setenv("MPLBACKEND", "Agg")
     monkeypatch.chdir(tmp_path)
-    blocks = re.findall(r"^```python\n(.*?)^```$", (DOCS / "python.md").read_text(), flags=re.M | re.S)
+    page = (DOCS / "python.md").read_text()
+    blocks = re.findall(r"^```python\n(.*?)^```$", page, flags=re.M | re.S)
     assert len(blocks) == 14
     assert len([line for line in blocks[0].splitlines() if line]) <= 11
     names: dict = {}
     for block in blocks:
         exec(compile(block, "docs/python.md", "exec"), names)
+    said = capsys.readouterr().out.splitlines()
+    shown = re.findall(r"^print\(.*\)  # ([<{][^;\n]*[>}])", page, flags=re.M)  # what the page says is printed
+    assert len(shown) == 2 and set(shown) <= set(said)
     assert (tmp_path / "phases.png").read_bytes()[1:4] == b"PNG"
     assert (tmp_path / "order.pdf").read_bytes()[:4] == b"%PDF" and (tmp_path / "order.csv").exists()
     assert list((tmp_path / "archive").iterdir())

@@ -205,6 +205,29 @@ def test_ctrl_c_ends_it_between_two_ticks(simulation):
     assert other.state_hash == simulation.state_hash
 
 
+def cpu_seconds_of(work):
+    begin = time.process_time()
+    try:
+        return work() and time.process_time() - begin
+    except KeyboardInterrupt:
+        return time.process_time() - begin
+
+
+def test_ctrl_c_ends_a_compressed_start_and_a_measurement():
+    rng = np.random.default_rng(1)
+    frames = [(rng.uniform(0, 100, (2000, 2)), rng.uniform(0, 3, 2000)) for _ in range(150)]
+    every = {"every": 0.01}
+    dense = {"rods": {"area_fraction": 0.75, "start": "compressed"}, "box": {"side": "60 mm"}}
+    for work in (lambda: shaken.Simulation(dense),
+                 lambda: shaken.measure(frames, interval=0.01, box=100.0, g2=every, pairs=every, defects=every)):
+        whole = cpu_seconds_of(work)
+        timer = threading.Timer(0.2 * whole, lambda: os.kill(os.getpid(), signal.SIGINT))
+        timer.start()
+        interrupted = cpu_seconds_of(work)
+        timer.join()
+        assert interrupted < 0.6 * whole  # it is not told at the end
+
+
 def test_trouble_names_tick_and_rods():
     # rods that are thrown so hard that they pass through each other within a tick
     scene = {"rods": {"length": "4 mm", "count": 2}, "box": {"side": "20 mm"}, "time": {"measure": "1 s"}}
