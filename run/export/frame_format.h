@@ -31,7 +31,7 @@ class FrameFormat {
 
 /// Extended XYZ with one line a rod, which OVITO and ASE open: Lattice, Properties, Time and Step in the comment line;
 /// of each rod its species (from 1), centre, index, orientation (x, y, z, w), the semi-axes of an ellipsoid as long and
-/// as wide as the rod, how often it left the box, velocity and director. docs/files.md lists the columns.
+/// as wide as the rod, how often it left the box, velocity, director and angle. docs/files.md lists the columns.
 std::unique_ptr<FrameFormat> make_extended_xyz(const TrajectoryHeader& header);
 
 /// XYZ with one line a bead, which VMD, MDAnalysis and OVITO open: name, centre, radius and index of the rod. The name
@@ -40,7 +40,7 @@ std::unique_ptr<FrameFormat> make_extended_xyz(const TrajectoryHeader& header);
 std::unique_ptr<FrameFormat> make_beads_xyz(const TrajectoryHeader& header);
 
 /// GSD 2 with the schema "hoomd" 1.4, `n_frames` of them: centres, from the middle of the box, orientations
-/// (w, x, y, z), velocities, images, and each species as the union of its beads.
+/// (w, x, y, z), velocities, images, angles, and each species as the union of its beads.
 /// Source: the file layer and the schema of https://gsd.readthedocs.io.
 std::unique_ptr<FrameFormat> make_gsd(const TrajectoryHeader& header, std::size_t n_frames);
 

@@ -14,6 +14,7 @@
 #include "base/core/check.h"
 #include "base/core/state_io.h"
 #include "run/export/frame_format.h"
+#include "run/export/rod_angles.h"
 #include "run/export/xyz_comment.h"
 #include "run/files/version.h"
 
@@ -134,6 +135,7 @@ class Gsd final : public FrameFormat {
                {"particles/orientation", Number::kFloat, n_rods, 4, false},
                {"particles/velocity", Number::kFloat, n_rods, 3, false},
                {"particles/image", Number::kInt32, n_rods, 3, false},
+               {"log/particles/theta", Number::kFloat, n_rods, 1, false},
                {"log/time_s", Number::kDouble, 1, 1, false}};
   }
 
@@ -171,6 +173,7 @@ class Gsd final : public FrameFormat {
     append_all(bytes, frame.orientation);
     append_all(bytes, frame.velocity);
     append_all(bytes, frame.image);
+    append_all(bytes, rod_angles(header_, frame));
     bytes.put(frame.time);
     SHAKEN_CHECK(bytes.bytes().size() == due, "a frame is not what the index of GSD says");
     ++n_written_;

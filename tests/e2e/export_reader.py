@@ -61,6 +61,16 @@ def close(what, found, expected):
     assert np.allclose(found, expected, **CLOSE), f"{what} differs by {np.abs(found - expected).max()}"
 
 
+def check_theta(run, f, found):
+    """Angles in the plane to the director of the first species, whose sines are compared: -90 and 90 degrees are one."""
+    z = run.director[f] @ [1, 1j, 0]
+    director = np.sqrt(((z / np.abs(z)) ** 2)[run.kind == 0].mean())
+    expected = z / np.abs(z) * (director / abs(director)).conjugate()
+    assert (np.abs(found) <= np.pi / 2).all()
+    assert np.abs(np.sin(found) * np.cos(found) - expected.real * expected.imag).max() < 1e-5, "theta differs"
+    assert np.abs(np.cos(found) ** 2 - expected.real ** 2).max() < 1e-5, "theta differs"
+
+
 def check_gsd(run, path):
     import gsd.hoomd
     with gsd.hoomd.open(path, "rb") as frames:
@@ -80,6 +90,7 @@ def check_gsd(run, path):
             same("orientation", rods.orientation, run.quaternion[f])
             same("velocity", rods.velocity, run.velocity[f])
             same("image", rods.image, run.image[f])
+            check_theta(run, f, frame.log["particles/theta"])
             assert len(rods.type_shapes) == len(run.beads)
             for shape, (offset, radius) in zip(rods.type_shapes, run.beads):
                 assert shape["type"] == "SphereUnion"
@@ -123,6 +134,7 @@ def check_extxyz(run, path):
         same("velo", rods["velo"], run.velocity[f])
         same("map_shift", rods["map_shift"], run.image[f])
         close("director", rods["director"], run.director[f])
+        check_theta(run, f, rods["theta"][:, 0])
         for rod, kind in enumerate(run.kind):
             offset, radius = run.beads[kind]
             close("aspherical_shape", rods["aspherical_shape"][rod],

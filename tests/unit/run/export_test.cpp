@@ -11,6 +11,7 @@
 #include "run/export/columns.h"
 #include "run/export/frame_format.h"
 #include "run/export/frames.h"
+#include "run/export/rod_angles.h"
 #include "run/files/frame_log.h"
 #include "run/files/quaternion.h"
 
@@ -61,10 +62,11 @@ constexpr const char* kBox = R"(Lattice="10 0 0 0 5 0 0 0 2" Properties=)";
 TEST(ExtendedXyz, HasOneLineForEachRod) {
   EXPECT_EQ(text_of(*make_extended_xyz(two_species()), {frame_of_two()}),
             std::string("2\n") + kBox +
-                "type:I:1:pos:R:3:id:I:1:orientation:R:4:aspherical_shape:R:3:map_shift:I:3:velo:R:3:director:R:3 "
+                "type:I:1:pos:R:3:id:I:1:orientation:R:4:aspherical_shape:R:3:map_shift:I:3:velo:R:3:director:R:3:"
+                "theta:R:1 "
                 "pbc=\"T T F\" Time=2 Step=8 units=\"mm s\" source=\"Shaken run 0123456789abcdef seed 7\"\n"
-                "1 1 2 0.5 0 0 0.70710677 0 0.70710677 0.5 0.5 1.25 0 -1 0 1.5 -2 0 1 0 0\n"
-                "2 9.5 0.25 1 1 0 0 0 1 0.5 0.5 1 3 0 0 0 0 4 0 0 1\n");
+                "1 1 2 0.5 0 0 0.70710677 0 0.70710677 0.5 0.5 1.25 0 -1 0 1.5 -2 0 1 0 0 0\n"
+                "2 9.5 0.25 1 1 0 0 0 1 0.5 0.5 1 3 0 0 0 0 4 0 0 1 nan\n");
 }
 
 TEST(BeadsXyz, HasOneLineForEachBead) {
@@ -228,6 +230,34 @@ TEST(Gsd, HasATypeForEachSize) {
   EXPECT_THAT(file.array<char>(0, "particles/types", kInt8), ::testing::ElementsAre('A', '1', '\0', 'A', '2', '\0'));
 }
 
+/// Rods that lie at these angles, in degrees.
+RecordedFrame frame_at(double first, double second) {
+  RecordedFrame frame = frame_of_two();
+  frame.orientation.clear();
+  for (const double angle : {first, second}) {
+    for (const double q : quaternion_of_director({std::cos(angle * kPi / 180), std::sin(angle * kPi / 180), 0}))
+      frame.orientation.push_back(static_cast<float>(q));
+  }
+  return frame;
+}
+
+TEST(RodAngles, AreToTheDirectorOfTheFirstSpeciesWhichSpheresHaveNot) {
+  const auto degrees = [](const TrajectoryHeader& header, double first, double second) {
+    std::vector<float> found = rod_angles(header, frame_at(first, second));
+    for (float& angle : found) angle *= static_cast<float>(180 / kPi);
+    return found;
+  };
+  using ::testing::ElementsAre, ::testing::FloatNear, ::testing::IsNan;
+  EXPECT_THAT(degrees(two_sizes(), 75, 105), ElementsAre(FloatNear(-15, 1e-4F), FloatNear(15, 1e-4F)));
+  EXPECT_THAT(degrees(two_sizes(), 75, 285), ElementsAre(FloatNear(-15, 1e-4F), FloatNear(15, 1e-4F)));  // turned round
+  EXPECT_THAT(degrees(two_species(), 75, 105), ElementsAre(FloatNear(0, 1e-4F), FloatNear(30, 1e-4F)));
+  TrajectoryHeader spheres = two_species();
+  spheres.cell.shapes[1] = {{0}, {0.5}};
+  EXPECT_THAT(degrees(spheres, 75, 105), ElementsAre(FloatNear(0, 1e-4F), IsNan()));
+  std::swap(spheres.cell.shapes[0], spheres.cell.shapes[1]);
+  EXPECT_THAT(degrees(spheres, 75, 105), ElementsAre(IsNan(), IsNan()));
+}
+
 TEST(Gsd, HoldsTheRodsFromTheMiddleOfTheBox) {
   const GsdFile file(text_of(*make_gsd(two_species(), 1), {frame_of_two()}));
   const auto is = [](auto... values) { return ::testing::ElementsAre(values...); };
@@ -239,6 +269,7 @@ TEST(Gsd, HoldsTheRodsFromTheMiddleOfTheBox) {
   EXPECT_EQ(file.array<float>(0, "particles/orientation", kFloat), frame_of_two().orientation);
   EXPECT_EQ(file.array<float>(0, "particles/velocity", kFloat), frame_of_two().velocity);
   EXPECT_EQ(file.array<std::int32_t>(0, "particles/image", kInt32), frame_of_two().image);
+  EXPECT_THAT(file.array<float>(0, "log/particles/theta", kFloat), ::testing::ElementsAre(0.F, ::testing::IsNan()));
   EXPECT_THAT(file.array<double>(0, "log/time_s", kDouble), is(2.0));
   EXPECT_THAT(file.array<char>(0, "particles/types", kInt8), is('A', '\0', 'B', '\0'));
 
@@ -293,7 +324,7 @@ TEST(Gsd, ReadsBackAsItWas) {
     const TrajectoryHeader header = many_rods(side);
     const std::vector<RecordedFrame> frames = random_frames(9, header.n_rods, side);
     const GsdFile file(text_of(*make_gsd(header, frames.size()), frames));
-    ASSERT_EQ(file.entries().size(), 5U + 6 * frames.size());
+    ASSERT_EQ(file.entries().size(), 5U + 7 * frames.size());
     for (std::size_t f = 0; f < frames.size(); ++f) {
       const auto x = file.array<float>(f, "particles/position", kFloat);
       ASSERT_EQ(x.size(), frames[f].position.size());
@@ -319,7 +350,7 @@ TEST(Gsd, IndexIsSortedAndCoversTheFile) {
   // more entries than are handed over at once
   const std::vector<RecordedFrame> frames = random_frames(1500, header.n_rods, 20);
   const GsdFile file(text_of(*make_gsd(header, frames.size()), frames));
-  ASSERT_EQ(file.entries().size(), 5U + 6 * frames.size());
+  ASSERT_EQ(file.entries().size(), 5U + 7 * frames.size());
   EXPECT_EQ(file.at<std::uint64_t>(16), file.entries().size() + 1);  // one of zeros behind them
   auto end = static_cast<std::int64_t>(file.at<std::uint64_t>(8) + 32 * file.at<std::uint64_t>(16));
   for (std::size_t e = 0; e < file.entries().size(); ++e) {
