@@ -21,6 +21,8 @@ struct Snapshot {
   std::vector<Vec3> angular_velocity;              ///< [rad/s]
 
   std::size_t n_rods() const { return position.size(); }
+  /// The centre of rod `i` without the jumps at the borders of the box [mm].
+  Vec3 unwrapped(std::size_t i) const { return position[i] + Vec3(image[i][0] * box.x(), image[i][1] * box.y(), 0); }
 };
 
 }  // namespace shaken

@@ -39,8 +39,8 @@ Result<void> check(const Snapshot& frame, std::size_t number, const Box& box) {
 
 }  // namespace
 
-Result<Measured> measure_arrays(const Scene& scene, std::vector<Snapshot> frames, double interval,
-                                const run::Lacking& lacking, const GoOn& go_on) {
+Result<Measured> measure_arrays(const Scene& scene, std::vector<Snapshot> frames, double interval, run::Lacking lacking,
+                                const GoOn& go_on) {
   const std::string started = utc_now();
   const Result<scene::RunPlan> asked = resolved(scene);
   if (!asked) return asked.error();
@@ -50,30 +50,37 @@ Result<Measured> measure_arrays(const Scene& scene, std::vector<Snapshot> frames
       frames.empty()
           ? 0
           : static_cast<std::size_t>(std::llround(static_cast<double>(n_all) / static_cast<double>(frames.size())));
-  const auto own = run::plan_of_tracks(*asked, "scene", {std::max<std::size_t>(mean, 1), frames.size(), interval});
+  const auto own = run::plan_of_tracks(*asked, "scene", {{std::max<std::size_t>(mean, 1)}, frames.size(), interval});
   if (!own) return as_error(own.error());
 
   const Tick spacing = run::ticks_between(interval, *asked);
   const Vec2 period = period_of(own->system.box(), own->system.walls);
   const bool is_followed = !lacking.contains(run::Needs::kIdentities);
-  std::vector<run::RecordedFrame> recorded;
+  std::size_t number = 0;
   const Snapshot* before = nullptr;
   for (Snapshot& frame : frames) {
-    if (auto done = check(frame, recorded.size(), own->system.box()); !done) return done.error();
-    frame.tick = spacing * static_cast<Tick>(recorded.size());
+    if (auto done = check(frame, number, own->system.box()); !done) return done.error();
+    frame.tick = spacing * static_cast<Tick>(number++);
     frame.time = static_cast<double>(frame.tick) * own->system.dt;
     frame.box = own->system.box();
     for (Vec3& at : frame.position) at.z() = std::isnan(at.z()) ? own->system.gap / 2 : at.z();
     if (frame.image.empty()) run::fold_into_box(frame, period, is_followed ? before : nullptr);
     before = &frame;
-    recorded.push_back(run::record(frame));
   }
+  std::vector<std::string> remarks;
+  if (is_followed && frames.size() > 1 && lacking.erase(run::Needs::kVelocities) > 0)
+    remarks.push_back(run::set_velocities(frames, interval));
+  if (!run::heads_are_told(frames)) lacking.insert(run::Needs::kHeads);
+  std::vector<run::RecordedFrame> recorded;
+  recorded.reserve(frames.size());
+  for (const Snapshot& frame : frames) recorded.push_back(run::record(frame));
   const std::string text = scene::to_json(*own).dump(2) + "\n";
   run::TrajectoryHeader header = run::trajectory_header(empty_world(own->system), text, {});
   header.n_rods = static_cast<int>(mean);
   const run::FramesInMemory memory(std::move(header), std::move(recorded));
-  const auto by = run::plan_for_frames({text, "scene"}, {text, "scene"}, {}, spacing, lacking);
+  auto by = run::plan_for_frames({text, "scene"}, {text, "scene"}, {}, spacing, lacking);
   if (!by) return as_error(by.error());
+  by->remarks.insert(by->remarks.begin(), remarks.begin(), remarks.end());
   const Result<run::MeasuredFrames> found =
       run::measure_frames(by->plan, memory, [&](std::size_t) { return !go_on || go_on(); });
   if (!found) return found.error();

@@ -23,7 +23,7 @@ struct Measured {
 /// height that is no number is that of the middle plane; where crossings of the border are not counted, they are here.
 /// The box of a frame, if it has one, must be the scene's. `go_on` is asked at each frame. Fails with what is wrong
 /// with the scene or with a frame.
-Result<Measured> measure_arrays(const Scene& scene, std::vector<Snapshot> frames, double interval,
-                                const run::Lacking& lacking, const GoOn& go_on);
+Result<Measured> measure_arrays(const Scene& scene, std::vector<Snapshot> frames, double interval, run::Lacking lacking,
+                                const GoOn& go_on);
 
 }  // namespace shaken::python

@@ -24,7 +24,7 @@ class Frame:
     positions:  (n, 3) centres of mass [mm]; x and y are wrapped into the box, z is the height above the lowest position
                 of the base
     directors:  (n, 3) unit vectors along the rods, from tail to head; those of spheres mean nothing
-    velocities: (n, 3) [mm/s]
+    velocities: (n, 3) [mm/s]; NaN of tracked rods that nobody could follow
     images:     (n, 3) crossings of the border of the box: positions + box * images is a path without jumps
     species:    (n,) 0 for `rods`, 1 and 2 for `rods_2` and `rods_3` as far as the scene has them
     box:        (3,) sides of the box along x and y [mm], and the gap between the plates
@@ -158,9 +158,14 @@ class Trajectory:
         k = range(len(self))[k]
         rods = self._rods
         return Frame(float(self.times[k]), int(rods["position/step"][k]), rods["position/value"][k].astype(float),
-                     directors_of(rods["orientation/value"][k]), rods["velocity/value"][k].astype(float),
+                     directors_of(rods["orientation/value"][k]), self._velocities(k),
                      rods["image/value"][k], self.species, rods["box/edges/value"][k].diagonal().copy(),
                      self._spheres, self._periodic, functools.partial(picture, self.path, k))
+
+    def _velocities(self, k: int) -> NDArray[Any]:
+        velocities: NDArray[Any] = self._rods["velocity/value"][k].astype(float)
+        lacking = self._parameters["lacking"].asstr()[()] if "lacking" in self._parameters else ""
+        return np.full_like(velocities, np.nan) if "velocities" in lacking.split(", ") else velocities
 
     def frames(self, every: float | str | None = None) -> Iterator[Frame]:
         """The frames one by one. With `every` ([s], or "0.1 s"), those nearest to its multiples, each once. Raises

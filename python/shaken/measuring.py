@@ -28,7 +28,8 @@ def measure(frames: Iterable[Any], *, interval: float | str | None = None, scene
 
     frames:      Frame of a run or of a simulation, or tuples of arrays (positions, directors) or (positions, directors,
                  velocities): positions (n, 2) or (n, 3) [mm], directors (n, 2) or (n, 3), or (n,) angles in the plane
-                 [rad], velocities (n, 3) [mm/s]. Without z, rods lie between the plates. n may vary
+                 [rad], velocities (n, 3) [mm/s]. Without z, rods lie between the plates; without velocities those of
+                 rods that are followed are displacements, which is said. n may vary
     interval:    from one frame to the next [s]; that of the frames where they are `Frame`
     box:         sides of the periodic box [mm]; a scene has other views, as a disc or a rectangle with open edges
     length:      of the rods, by which bins and ranges are chosen that are not given
@@ -75,8 +76,10 @@ class _Rods:
     def of(cls, frame: Any) -> "_Rods":
         if isinstance(frame, Frame):
             first = frame.species == 0
-            return cls(frame.positions[first], frame.directors[first], frame.velocities[first], frame.images[first],
-                       frame.time, (float(frame.box[0]), float(frame.box[1])), True)
+            velocities, directors = frame.velocities[first], frame.directors[first]
+            return cls(frame.positions[first], directors, None if np.isnan(velocities).any() else velocities,
+                       frame.images[first], frame.time, (float(frame.box[0]), float(frame.box[1])),
+                       bool(directors[:, 2].any()))  # of tracks without tilts all rods lie flat
         if not isinstance(frame, (tuple, list)) or not 2 <= len(frame) <= 3:
             raise ShakenError("a frame is (positions, directors), or with velocities, or a Frame of Shaken")
         positions, directors, *velocities = (np.asarray(each, dtype=float) for each in frame)

@@ -71,6 +71,17 @@ def test_tracks_with_noise_and_holes_give_the_run_s_numbers_within_the_bias(fold
                                rtol=0.15)
 
 
+def test_a_folder_of_tracks_that_is_measured_anew_knows_what_they_lack(folder):
+    rows = [f"{frame},{2 + 3 * rod},{4 + rod},{10 * rod}" for frame in range(3) for rod in range(4)]
+    (folder / "few.csv").write_text("\n".join(["frame,x,y,angle", *rows]))
+    once = json.loads(measure(folder, folder / "few.csv", "--scene", folder / "lab.json", "--interval", "10ms"))
+    tracks = said(PROGRAMS / "shaken", "measure", once["directory"], "-o", folder / "anew", "--json",
+                  "-s", "measure.polar=true", "-s", "measure.layers=true")
+    for name in ("polar is left out: it needs velocities", "layers is left out: it needs tilts", "msd is left out"):
+        assert name in tracks
+    assert np.isnan(next(iter(shaken.open(once["directory"]).frames())).velocities).all()
+
+
 def test_what_is_wrong_is_said_with_code_2(folder):
     said(PROGRAMS / "shaken", "measure", folder / "sim", "-s", "box.gap=1.3", "-o", folder / "new", code=2)
     assert not (folder / "new").exists()

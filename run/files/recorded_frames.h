@@ -17,6 +17,7 @@ struct TrajectoryHeader {
   double dt = 0;             ///< [s]
   std::string scene_json{};  ///< the resolved scene
   Provenance provenance{};
+  std::string lacking{};  ///< of rods that were tracked: what nobody has seen, in words (run/measure: words_of)
 };
 
 /// Nothing if a scene may have such rods (scene/keys/cell_limits.h); else what is wrong.

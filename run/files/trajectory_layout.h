@@ -23,6 +23,7 @@ inline constexpr const char* kSpecies = "/particles/trajectory/species";
 /// (n_rods) shape of each rod, and (n_shapes) the species of each shape; only where rods of a species differ in size.
 inline constexpr const char* kShape = "/particles/trajectory/shape";
 inline constexpr const char* kSpeciesOfShape = "/parameters/species_of_shape";
+inline constexpr const char* kLacking = "lacking";  ///< in /parameters
 inline constexpr const char* kWalls = "/parameters/walls";
 inline constexpr const char* kPosts = "/parameters/posts";
 /// Where the beads of species k are: they are counted from 1, as the scene's rods, rods_2 are.

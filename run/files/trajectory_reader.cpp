@@ -58,6 +58,8 @@ TrajectoryHeader read_header(hid_t file) {
   hdf5::read_attribute(parameters, "dt_s", H5T_NATIVE_DOUBLE, &header.dt);
   header.scene_json = hdf5::read_string(parameters, "scene_json");
   header.provenance = hdf5::read_provenance(file);
+  if (hdf5::exists(parameters, trajectory_layout::kLacking))
+    header.lacking = hdf5::read_string(parameters, trajectory_layout::kLacking);
   const auto bytes = [file](const char* name) {
     return hdf5::read_vector<std::uint8_t>(hdf5::open_dataset(file, name), H5T_NATIVE_UINT8);
   };

@@ -69,6 +69,7 @@ void write_parameters(hid_t file, const TrajectoryHeader& header) {
   hdf5::write_attribute(parameters, "dt_s", H5T_NATIVE_DOUBLE, {}, &header.dt);
   write_beads(parameters, header.cell.shapes.at(0));
   hdf5::write_string(parameters, "scene_json", header.scene_json);
+  if (!header.lacking.empty()) hdf5::write_string(parameters, trajectory_layout::kLacking, header.lacking);
   const auto& species_of_shape = header.cell.species_of_shape;
   for (std::size_t k = 1; k < header.cell.shapes.size(); ++k) {
     const std::string group = species_of_shape.empty() ? trajectory_layout::beads_of(k) : trajectory_layout::shape(k);

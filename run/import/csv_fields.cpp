@@ -1,9 +1,12 @@
 #include "run/import/csv_fields.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <charconv>
 #include <cmath>
+
+#include "base/text.h"
 
 namespace shaken::run {
 namespace {
@@ -64,6 +67,19 @@ std::optional<double> number_in(std::string text) {
   const auto [end, trouble] = std::from_chars(begin, text.data() + text.size(), number);
   if (trouble != std::errc{} || end != text.data() + text.size() || !std::isfinite(number)) return std::nullopt;
   return number;
+}
+
+Result<std::uint8_t> species_in(const std::string& text, std::span<const std::string> names) {
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    if (text == names[k] || text == std::to_string(k)) return static_cast<std::uint8_t>(k);
+  }
+  return Error{fmt::format("species: the scene has no '{}'; it has {}, counted from 0", printable(text),
+                           fmt::join(names, ", "))};
+}
+
+std::optional<std::string> lack_of_species(std::span<const std::string> names) {
+  if (names.size() < 2) return std::nullopt;
+  return fmt::format("column species is missing: the scene has {}", fmt::join(names, " and "));
 }
 
 std::optional<std::string> remark_on_angles(double largest, std::string_view cure) {

@@ -1,10 +1,14 @@
 // The fields of tables in CSV, as R, pandas, numpy, ImageJ and spreadsheets write them.
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "base/core/result.h"
 
 namespace shaken::run {
 
@@ -23,6 +27,11 @@ std::vector<CsvField> fields_of(std::string_view line, char separator);
 
 /// None if `text` is no finite number. A decimal comma is one where it separates nothing else.
 std::optional<double> number_in(std::string text);
+
+/// The number of the species that a field names, or counts from 0; `names` are those of the scene's. Fails with both.
+Result<std::uint8_t> species_in(const std::string& text, std::span<const std::string> names);
+/// What is wrong with a table without a column of species; nothing where there is but one.
+std::optional<std::string> lack_of_species(std::span<const std::string> names);
 
 /// What to say of angles in degrees none of which is larger than `largest`: that they may be radians, and what to do
 /// about it then. Nothing where they are too large for that, or so small that all rods lie along x.

@@ -143,9 +143,8 @@ class CsvRods {
                             : has("nx")  ? "ny"
                                          : "nx"));
     }
-    if (!has("species") && species_.size() > 1) {
-      report(1, fmt::format("column species is missing: the scene has {}", fmt::join(species_, " and ")));
-    }
+    const auto lack = lack_of_species(species_);
+    if (!has("species") && lack) report(1, *lack);
     return problems_.size() == n_before;
   }
 
@@ -186,7 +185,12 @@ class CsvRods {
     }
     rod.velocity = {value("vx", 0), value("vy", 0), value("vz", 0)};
     rod.angular_velocity = {value("wx", 0), value("wy", 0), value("wz", 0)};
-    if (has("species")) rod.shape = species_in(fields[place_["species"]]);
+    if (has("species") && !species_.empty()) {
+      const CsvField& field = fields[place_["species"]];
+      const Result<std::uint8_t> species = species_in(field.text, species_);
+      if (!species) report(field.column, species.error().message);
+      rod.shape = species ? *species : std::uint8_t{0};
+    }
     if (problems_.size() > n_before) return std::nullopt;
     if (const double length = rod.director.norm(); !(std::abs(length - 1) <= kUnitLength)) {
       report(fields[place_["nx"]].column,
@@ -196,16 +200,6 @@ class CsvRods {
     }
     rod.director.normalize();
     return rod;
-  }
-
-  std::uint8_t species_in(const CsvField& field) {
-    for (std::size_t k = 0; k < species_.size(); ++k) {
-      if (field.text == species_[k] || field.text == std::to_string(k)) return static_cast<std::uint8_t>(k);
-    }
-    if (species_.empty()) return 0;
-    report(field.column, fmt::format("species: the scene has no '{}'; it has {}, counted from 0", printable(field.text),
-                                     fmt::join(species_, ", ")));
-    return 0;
   }
 
   const std::string& file_;

@@ -22,10 +22,33 @@ std::span<const MeasurementKind> measurement_kinds() {
   return kinds;
 }
 
-std::string_view word_of(Needs need) {
-  constexpr std::array kWords{"impacts", "angular velocities", "velocities", "tilts out of the plane",
-                              "rods that are followed from frame to frame"};  // in the order of Needs
-  return kWords.at(static_cast<std::size_t>(need));
+namespace {
+constexpr std::array<std::string_view, 6> kNeeds{"impacts",
+                                                 "angular velocities",
+                                                 "velocities",
+                                                 "tilts out of the plane",
+                                                 "rods that are followed from frame to frame",
+                                                 "heads (all rods point to one half of the plane)"};  // as in Needs
+constexpr std::string_view kBetweenNeeds = ", ";
+}  // namespace
+
+std::string_view word_of(Needs need) { return kNeeds.at(static_cast<std::size_t>(need)); }
+
+std::string words_of(const Lacking& lacking) {
+  std::string words;
+  for (const Needs need : lacking) words += std::string(words.empty() ? "" : kBetweenNeeds).append(word_of(need));
+  return words;
+}
+
+Lacking lacking_of(std::string_view words) {
+  Lacking lacking;
+  while (!words.empty()) {
+    const std::size_t end = std::min(words.find(kBetweenNeeds), words.size());
+    const auto* const need = std::ranges::find(kNeeds, words.substr(0, end));
+    if (need != kNeeds.end()) lacking.insert(static_cast<Needs>(need - kNeeds.begin()));
+    words.remove_prefix(std::min(end + kBetweenNeeds.size(), words.size()));
+  }
+  return lacking;
 }
 
 std::optional<double> MeasurementKind::every(const scene::RunPlan& plan) const {

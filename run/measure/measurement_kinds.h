@@ -52,10 +52,14 @@ enum class Needs {
   kVelocities,  ///< of centres at an instant
   kTilts,       ///< directions out of the plane
   kIdentities,  ///< which rod of one frame is which of another
+  kHeads,       ///< which end of a rod is its head
 };
 using Lacking = std::set<Needs>;
 /// "impacts", "angular velocities", ...
 std::string_view word_of(Needs need);
+/// "impacts, velocities", and what such words say.
+std::string words_of(const Lacking& lacking);
+Lacking lacking_of(std::string_view words);
 
 /// One thing that can be measured, the block "measure.NAME" of a scene, and all that becomes of it.
 struct MeasurementKind {

@@ -61,7 +61,7 @@ MeasurementKind polar_kind() {
               {"velocity_polarity",
                "speed of the mean velocity over the mean speed: 1 where all rods move the same way"},
           },
-      .needs = {Needs::kVelocities},
+      .needs = {Needs::kVelocities, Needs::kHeads},
   };
 }
 

@@ -35,10 +35,7 @@ class Sample {
   /// Centres without the jumps at the borders of the box (n_rods) [mm].
   const std::vector<Vec3>& unwrapped() const {
     if (unwrapped_.empty()) {
-      unwrapped_ = rods_.position;
-      for (std::size_t i = 0; i < unwrapped_.size(); ++i) {
-        unwrapped_[i] += Vec3(rods_.image[i][0] * rods_.box.x(), rods_.image[i][1] * rods_.box.y(), 0);
-      }
+      for (std::size_t i = 0; i < rods_.n_rods(); ++i) unwrapped_.push_back(rods_.unwrapped(i));
     }
     return unwrapped_;
   }

@@ -71,7 +71,10 @@ keys::Loaded<Task> task_of(const MeasureOptions& asked, const TrajectoryReader& 
   const auto spacing = frame_spacing(frames.recorded());
   if (!spacing) return std::vector<keys::Problem>{{asked.file, 0, 0, "", spacing.error().message}};
   const std::string given = asked.scene.empty() ? own : value_or_fail(read_input(asked.scene), ExitCode::kBadInput);
-  auto made = plan_for_frames({own, name}, {given, asked.scene.empty() ? name : asked.scene}, asked.settings, *spacing);
+  Lacking lacking = lacking_of(frames.header().lacking);
+  lacking.insert(kLackingInFiles.begin(), kLackingInFiles.end());
+  auto made = plan_for_frames({own, name}, {given, asked.scene.empty() ? name : asked.scene}, asked.settings, *spacing,
+                              lacking);
   if (!made) return made.error();
   return Task{*std::move(made), &frames.recorded()};
 }

@@ -13,6 +13,7 @@
 #include "base/text.h"
 #include "run/files/frames_in_memory.h"
 #include "run/import/csv_fields.h"
+#include "run/import/place_rods.h"
 #include "run/loop/open_run.h"
 #include "run/recorded/tracks.h"
 #include "scene/canonical.h"
@@ -45,7 +46,8 @@ const std::vector<Column>& columns() {
                                        {"tilt", {"tilt"}},
                                        {"nx", {"nx"}},
                                        {"ny", {"ny"}},
-                                       {"nz", {"nz"}}};
+                                       {"nz", {"nz"}},
+                                       {"species", {"species"}}};
   return all;
 }
 std::string known_columns() {
@@ -62,6 +64,7 @@ struct Sighting {
   double id = 0;
   Vec3 position = Vec3::Zero();  ///< outside of a periodic box where it was
   Vec3 director = Vec3::UnitX();
+  std::uint8_t species = 0;
 };
 
 class TrackTable {
@@ -76,7 +79,6 @@ class TrackTable {
 
   std::optional<TrackedRods> read(std::string_view text) {
     const std::size_t n_before = problems_.size();
-    if (plan_.system.has_species(1)) report("a table of tracks has rods of one species, and the scene has more");
     read_rows(text);
     if (problems_.size() > n_before) return std::nullopt;
     if (frames_.empty()) {
@@ -162,6 +164,7 @@ class TrackTable {
                          missing.size() > 1 ? "them" : "it", fmt::join(missing, "=NAME,")),
              1);
     }
+    if (const auto lack = lack_of_species(species_); lack && !has("species")) report(*lack, 1);
     if (has("frame") && !has("t") && !conventions_.interval)
       report("the table has numbers of frames and no times: --interval says the time from one to the next", 1);
     return problems_.size() == n_before;
@@ -204,6 +207,14 @@ class TrackTable {
       if (length > 0) rod.director /= length;
     }
     if (flips && called_["angle"] != kCountedUpwards) rod.director.y() = -rod.director.y();
+    if (species_.size() > 1) {
+      const CsvField& field = fields[place_.at("species")];
+      const Result<std::uint8_t> species = species_in(field.text, species_);
+      if (!species) report(species.error().message, line, field.column);
+      rod.species = species ? *species : std::uint8_t{0};
+      if (has("id") && species_of_.emplace(rod.id, rod.species).first->second != rod.species)
+        report(fmt::format("rod {:g} is of another species than before", rod.id), line, field.column);
+    }
     const double frame = has("frame") ? value("frame", 0) : value("t", 0);
     if (has("t")) time_of_.emplace(frame, value("t", 0));
     if (is_missed) {
@@ -269,7 +280,7 @@ class TrackTable {
         angle < 1e-9
             ? before.director
             : Vec3((std::sin((1 - part) * angle) * before.director + std::sin(part * angle) * end) / std::sin(angle));
-    return {before.id, before.position + part * step, turned.normalized()};
+    return {before.id, before.position + part * step, turned.normalized(), before.species};
   }
 
   /// Which rods can be followed.
@@ -293,7 +304,10 @@ class TrackTable {
                         "--fill N closes gaps of up to N frames before",
                         n_complete, seen_.size()));
       }
-      for (auto& [frame, rods] : frames_) std::ranges::sort(rods, {}, &Sighting::id);
+    }
+    for (auto& [frame, rods] : frames_) {
+      if (has("id")) std::ranges::sort(rods, {}, &Sighting::id);
+      std::ranges::stable_sort(rods, {}, &Sighting::species);
     }
     if (n_missed_ > 0) remarks_.push_back(fmt::format("{} without a position or an angle", counted(n_missed_, "row")));
     const auto remark = remark_on_angles(largest_angle_, "give --radians");
@@ -332,34 +346,61 @@ class TrackTable {
     }
     const auto mean =
         static_cast<std::size_t>(std::llround(static_cast<double>(n_all) / static_cast<double>(frames_.size())));
-    auto plan = plan_of_tracks(plan_, file_, {std::max<std::size_t>(mean, 1), frames_.size(), interval});
+    std::vector<std::size_t> n_rods{std::max<std::size_t>(mean, 1)};
+    if (species_.size() > 1) {
+      n_rods = n_of_species(frames_.begin()->second);
+      for (const auto& [number, rods] : frames_) {
+        if (n_of_species(rods) == n_rods) continue;
+        report(
+            fmt::format("of several species each frame must have as many, and frame {:g} has others than the first: "
+                        "see --complete",
+                        number));
+        return std::nullopt;
+      }
+    }
+    auto plan = plan_of_tracks(plan_, file_, {n_rods, frames_.size(), interval});
     if (!plan) {
       problems_.insert(problems_.end(), plan.error().begin(), plan.error().end());
       return std::nullopt;
     }
     TrackedRods found;
     found.has_constant_number = least == most;
-    found.lacking = {Needs::kImpacts, Needs::kSpins, Needs::kVelocities};
+    found.lacking = {Needs::kImpacts, Needs::kSpins};
     if (!is_followed_) found.lacking.insert(Needs::kIdentities);
     if (!has("tilt") && !has("nz")) found.lacking.insert(Needs::kTilts);
     if (least < most) remarks_.push_back(fmt::format("{} to {} rods in a frame, {} on average", least, most, mean));
 
     const Tick spacing = ticks_between(interval, plan_);
-    std::vector<RecordedFrame> frames;
-    std::optional<Snapshot> before;
+    std::vector<Snapshot> frames;
     for (const auto& [number, rods] : frames_) {
-      const bool goes_on = before && is_followed_;
-      Snapshot frame =
-          snapshot_of(rods, spacing * static_cast<Tick>(frames.size()), *plan, goes_on ? &*before : nullptr);
-      frames.push_back(record(frame));
-      before = std::move(frame);
+      const Snapshot* before = is_followed_ && !frames.empty() ? &frames.back() : nullptr;
+      frames.push_back(snapshot_of(rods, spacing * static_cast<Tick>(frames.size()), *plan, before));
     }
+    if (is_followed_ && frames.size() > 1) {
+      remarks_.push_back(set_velocities(frames, interval));
+    } else {
+      found.lacking.insert(Needs::kVelocities);
+    }
+    if (!heads_are_told(frames)) found.lacking.insert(Needs::kHeads);
+    std::vector<RecordedFrame> recorded;
+    recorded.reserve(frames.size());
+    for (const Snapshot& frame : frames) recorded.push_back(record(frame));
     TrajectoryHeader header = trajectory_header(empty_world(plan->system), scene::to_json(*plan).dump(2) + "\n", {});
     header.n_rods = static_cast<int>(mean);
-    found.frames = std::make_unique<FramesInMemory>(std::move(header), std::move(frames));
+    header.lacking = words_of(found.lacking);
+    for (std::size_t k = 0; species_.size() > 1 && k < n_rods.size(); ++k)
+      header.cell.shape_of_rod.insert(header.cell.shape_of_rod.end(), n_rods[k],
+                                      static_cast<std::uint8_t>(header.cell.first_shape_of(k)));
+    found.frames = std::make_unique<FramesInMemory>(std::move(header), std::move(recorded));
     found.plan = *std::move(plan);
     found.remarks = std::move(remarks_);
     return found;
+  }
+
+  std::vector<std::size_t> n_of_species(const std::vector<Sighting>& rods) const {
+    std::vector<std::size_t> n(species_.size());
+    for (const Sighting& rod : rods) ++n[rod.species];
+    return n;
   }
 
   /// Rods in the box; with --wrap their paths go on beyond it, otherwise they end at its border and begin at the other.
@@ -382,6 +423,7 @@ class TrackTable {
   const scene::RunPlan& plan_;
   const TrackConventions& conventions_;
   std::vector<Problem>& problems_;
+  const std::vector<std::string> species_ = species_names(plan_.system);
   const Vec2 period_ = period_of(plan_.system.box(), plan_.system.walls);
   Vec2 view_;  ///< sides of what the table is of: the box, or the rectangle around the arena [mm]
   std::vector<std::string> remarks_;
@@ -393,6 +435,7 @@ class TrackTable {
   std::map<double, std::vector<Sighting>> frames_;  ///< by number, or by time
   std::map<double, double> time_of_;                ///< of frames [s]
   std::map<double, std::set<double>> seen_;         ///< in which frames a rod is
+  std::map<double, std::uint8_t> species_of_;       ///< of rods that are followed
   bool is_followed_ = false;
   std::size_t n_missed_ = 0;
   double largest_angle_ = 0;

@@ -28,7 +28,7 @@ struct TrackConventions {
 
 /// Rods as an experiment has tracked them.
 struct TrackedRods {
-  std::unique_ptr<RecordedFrames> frames;  ///< of one species; their number may vary where kIdentities is lacking
+  std::unique_ptr<RecordedFrames> frames;  ///< species by species; of a single one the number may vary
   scene::RunPlan plan;                     ///< the scene with the number of rods, the frames' times and their length
   Lacking lacking;
   std::vector<std::string> remarks;
@@ -36,7 +36,7 @@ struct TrackedRods {
 };
 
 /// Reads a table in CSV with a row for each rod and frame: a number of the frame or a time, x and y, angle (or nx, ny),
-/// and, if it has them, an id, z, tilt (or nz); rows in any order. `plan` has the box and the rods' shape. Rows without
+/// and, if it has them, an id, z, tilt (or nz), species; rows in any order. `plan` has the box and the rods' shape. Rows without
 /// a position or an angle are rods that were missed. What is wrong is added to `problems`; then there is no result.
 std::optional<TrackedRods> read_tracks(std::string_view text, const std::string& file, const scene::RunPlan& plan,
                                        const TrackConventions& conventions, std::vector<keys::Problem>& problems);

@@ -1,9 +1,12 @@
 #include "run/recorded/tracks.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "run/import/place_rods.h"
 #include "scene/canonical.h"
 #include "scene/load.h"
 
@@ -16,8 +19,11 @@ Tick ticks_between(double interval, const scene::RunPlan& plan) {
 keys::Loaded<scene::RunPlan> plan_of_tracks(const scene::RunPlan& plan, const std::string& file, const Tracks& tracks) {
   nlohmann::ordered_json scene = scene::to_json(plan);
   scene["rods"].erase("start");
-  scene["rods"].erase("area_fraction");
-  scene["rods"]["count"] = tracks.n_rods;
+  const std::vector<std::string> species = species_names(plan.system);
+  for (std::size_t k = 0; k < species.size(); ++k) {
+    scene[species[k]].erase("area_fraction");
+    scene[species[k]]["count"] = tracks.n_rods.at(k);
+  }
   scene["time"]["step"] = tracks.interval / static_cast<double>(ticks_between(tracks.interval, plan));
   const double length = tracks.interval * static_cast<double>(std::max<std::size_t>(tracks.n_frames, 2) - 1);
   scene["time"]["measure"] = std::max(length - plan.steady.value_or(0), tracks.interval);
@@ -41,6 +47,32 @@ void fold_into_box(Snapshot& frame, const Vec2& period, const Snapshot* before) 
       }
     }
   }
+}
+
+std::string set_velocities(std::span<Snapshot> frames, double interval) {
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    const std::size_t before = k > 0 ? k - 1 : 0, after = std::min(k + 1, frames.size() - 1);
+    const double span = interval * static_cast<double>(after - before);
+    frames[k].velocity.clear();
+    for (std::size_t i = 0; i < frames[k].n_rods(); ++i) {
+      frames[k].velocity.emplace_back((frames[after].unwrapped(i) - frames[before].unwrapped(i)) / span);
+    }
+  }
+  return fmt::format("velocities are displacements from the frame before to the one after, over {:.6g} s",
+                     std::min<double>(2, static_cast<double>(frames.size() - 1)) * interval);
+}
+
+bool heads_are_told(std::span<const Snapshot> frames) {
+  // of -90 to 90 degrees all x are positive, of 0 to 180 all y, or, turned over with an image, none
+  Vec2 least = Vec2::Zero(), most = Vec2::Zero();
+  for (const Snapshot& frame : frames) {
+    for (const Vec3& director : frame.director) {
+      least = least.cwiseMin(director.head<2>());
+      most = most.cwiseMax(director.head<2>());
+    }
+  }
+  constexpr double kRounding = 1e-9;
+  return least.maxCoeff() < -kRounding && most.minCoeff() > kRounding;
 }
 
 }  // namespace shaken::run

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "base/core/types.h"
 #include "scene/keys/keys.h"
@@ -12,9 +14,9 @@ namespace shaken::run {
 
 /// Rods that were seen again and again.
 struct Tracks {
-  std::size_t n_rods = 0;    ///< in a frame, on average
-  std::size_t n_frames = 0;  ///< at least 1
-  double interval = 0;       ///< from one to the next [s]
+  std::vector<std::size_t> n_rods;  ///< of each species in a frame, on average
+  std::size_t n_frames = 0;         ///< at least 1
+  double interval = 0;              ///< from one to the next [s]
 };
 
 /// Ticks from one frame to the next, so that a tick is at most the step of `plan`.
@@ -31,5 +33,12 @@ inline constexpr double kMostBoxes = 1e6;
 /// has left it: so often as it was moved, or, with `before`, the same rods one frame earlier, so that it has moved by
 /// less than half a box since. They are within kMostBoxes.
 void fold_into_box(Snapshot& frame, const Vec2& period, const Snapshot* before);
+
+/// Sets the velocities of rods that are the same in all frames, two or more that are `interval` [s] apart: from the
+/// frame before to the one after, and at both ends from or to the next. What is to be said of that.
+std::string set_velocities(std::span<Snapshot> frames, double interval);
+
+/// Whether rods point to all sides. Trackers that know no heads give angles of one half turn.
+bool heads_are_told(std::span<const Snapshot> frames);
 
 }  // namespace shaken::run

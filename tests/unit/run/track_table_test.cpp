@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "base/text.h"
 #include "run/recorded/measure_frames.h"
 #include "sim/snapshot.h"
 
@@ -78,8 +79,9 @@ TEST(TrackTable, OfTrackpyIsReadInAnyOrderOfItsRows) {
   expect_rod(frame_of(tracks, 1), 0, {5, 6}, 30);
   expect_rod(frame_of(tracks, 1), 1, {1.5, 2.5}, -45);
   EXPECT_DOUBLE_EQ(frame_of(tracks, 1).time, kInterval);
-  EXPECT_THAT(tracks.lacking, ElementsAre(Needs::kImpacts, Needs::kSpins, Needs::kVelocities, Needs::kTilts));
-  EXPECT_THAT(tracks.remarks, IsEmpty());
+  EXPECT_THAT(tracks.lacking, ElementsAre(Needs::kImpacts, Needs::kSpins, Needs::kTilts, Needs::kHeads));
+  EXPECT_THAT(tracks.remarks,
+              ElementsAre("velocities are displacements from the frame before to the one after, over 0.02 s"));
 }
 
 TEST(TrackTable, OfTrackMateHasThreeMoreTitlesAndRadians) {
@@ -132,7 +134,7 @@ TEST(TrackTable, OfOtherNamesIsReadByThese) {
               HasSubstr("there is no column 'phi', which --columns names"));
   conventions.columns = {{"phi", "angle"}};
   EXPECT_THAT(refusal_of("frame,x,y,angle\n0,1,2,3\n", conventions),
-              HasSubstr("--columns phi=angle: a table has frame, t, id, x, y, z, angle, tilt, nx, ny, nz"));
+              HasSubstr("--columns phi=angle: a table has frame, t, id, x, y, z, angle, tilt, nx, ny, nz, species"));
   EXPECT_THAT(refusal_of("a,b\n"),
               HasSubstr("no column is x, or y, or angle, or frame: name them by --columns x=NAME,y=NAME"));
   EXPECT_THAT(refusal_of("frame,x,X,y,angle\n"), HasSubstr("x and X are both x"));
@@ -188,7 +190,7 @@ TEST(TrackTable, GapsAreFilledStraightOnByTheShorterWay) {
       "frame,id,x,y,angle\n0,2,5,5,0\n1,2,5,5,0\n2,2,5,5,0\n3,2,5,5,0\n0,1,18.5,4,10\n3,1,1.5,7,-140\n";
   const TrackedRods tracks = tracks_in(text, conventions);
   EXPECT_FALSE(tracks.lacking.contains(Needs::kIdentities));
-  EXPECT_THAT(tracks.remarks, ElementsAre("2 sightings interpolated, over 2 frames at most"));
+  EXPECT_THAT(tracks.remarks[0], "2 sightings interpolated, over 2 frames at most");
   expect_rod(frame_of(tracks, 1), 0, {19.5, 5}, 20);  // as an axis, it turns from 10 to 40 degrees
   expect_rod(frame_of(tracks, 2), 0, {0.5, 6}, 30);
   EXPECT_EQ(frame_of(tracks, 2).image[0], (std::array<std::int32_t, 2>{1, 0}));
@@ -233,9 +235,69 @@ TEST(TrackTable, SaysWhatIsWrongWithItsLines) {
   EXPECT_THAT(refusal_of("frame,x,y,angle\n0,1,2,3\n", {}), HasSubstr("--interval says the time"));
   EXPECT_THAT(refusal_of("frame,x,y,angle\n0,1,2,3\n1,1,2,3\n3,1,2,3\n"),
               HasSubstr("frames 0 and 1 are 0.02 s apart, where others are 0.03 s"));
+}
+
+TEST(TrackTable, VelocitiesAreDisplacementsOverTwoFramesAndPassTheBorder) {
+  const TrackedRods tracks =
+      tracks_in("frame,id,x,y,angle\n0,1,19,1,0\n1,1,19.5,1,120\n2,1,0.5,1.2,240\n0,2,5,5,0\n1,2,5,5,0\n2,2,5,5,0\n");
+  EXPECT_FALSE(tracks.lacking.contains(Needs::kVelocities));
+  EXPECT_FALSE(tracks.lacking.contains(Needs::kHeads)) << "rods point to all sides";
+  const auto velocity = [&](std::size_t frame) { return frame_of(tracks, frame).velocity[0]; };
+  EXPECT_NEAR((velocity(0) - Vec3(0.5, 0, 0) / kInterval).norm(), 0, 1e-3);
+  EXPECT_NEAR((velocity(1) - Vec3(1.5, 0.2, 0) / (2 * kInterval)).norm(), 0, 1e-3);
+  EXPECT_NEAR((velocity(2) - Vec3(1, 0.2, 0) / kInterval).norm(), 0, 1e-3);
+  EXPECT_EQ(frame_of(tracks, 1).velocity[1].norm(), 0);
+  EXPECT_TRUE(tracks_in("frame,id,x,y,angle\n0,1,19,1,0\n").lacking.contains(Needs::kVelocities)) << "one frame";
+  EXPECT_TRUE(tracks_in(kHoles).lacking.contains(Needs::kVelocities)) << "not followed";
+  EXPECT_EQ(lacking_of(tracks.frames->header().lacking), tracks.lacking) << "so that it can be measured anew";
+}
+
+TEST(TrackTable, HeadsAreNotToldByAnglesOfHalfATurn) {
+  const auto are_told = [](const std::string& angles) {
+    std::string text = "frame,x,y,angle\n";
+    for (const std::string& angle : split(angles, ' ')) text += fmt::format("0,1,2,{}\n", angle);
+    return !tracks_in(text).lacking.contains(Needs::kHeads);
+  };
+  EXPECT_FALSE(are_told("-90 -30 0 60 90"));
+  EXPECT_FALSE(are_told("0 30 90 120 180"));
+  EXPECT_TRUE(are_told("0 30 90 120 180 -20"));
+}
+
+TEST(TrackTable, OfTwoSpeciesIsMeasuredSpeciesBySpecies) {
   scene::RunPlan mixed = dish();
   mixed.system.added[0].emplace();
-  EXPECT_THAT(refusal_of("frame,x,y,angle\n0,1,2,3\n", at_intervals(), mixed), HasSubstr("rods of one species"));
+  mixed.of = scene::MeasuredSpecies::kEach;
+  const std::string text =
+      "frame,id,species,x,y,angle\n"
+      "0,1,rods_2,1,1,0\n0,2,rods,5,5,90\n0,3,rods_2,9,9,90\n0,4,0,3,9,90\n"
+      "1,3,1,9,9,0\n1,4,0,3,9,90\n1,2,0,6,5,90\n1,1,1,1,1,0\n";
+  const TrackedRods tracks = tracks_in(text, at_intervals(), mixed);
+  EXPECT_EQ(tracks.plan.system.n_rods, 2);
+  EXPECT_EQ(tracks.plan.system.n_all_rods(), 4);
+  EXPECT_THAT(tracks.frames->header().cell.shape_of_rod, ElementsAre(0, 0, 1, 1));
+  expect_rod(frame_of(tracks, 0), 0, {5, 5}, 90);
+  expect_rod(frame_of(tracks, 1), 0, {6, 5}, 90);
+  expect_rod(frame_of(tracks, 1), 2, {1, 1}, 0);
+  const std::string& own = tracks.frames->header().scene_json;
+  const auto made = plan_for_frames({own, "dish"}, {own, "dish"}, {}, *frame_spacing(*tracks.frames), tracks.lacking);
+  ASSERT_TRUE(made) << keys::to_string(made.error());
+  const auto found = measure_frames(made->plan, *tracks.frames);
+  ASSERT_TRUE(found) << found.error().message;
+  using testing::DoubleNear;
+  EXPECT_THAT(found->reduction.arrays.at("/order/order"), ElementsAre(DoubleNear(1, 1e-6), DoubleNear(1, 1e-6)));
+  EXPECT_THAT(found->reduction.arrays.at("/rods_2/order/order"), ElementsAre(DoubleNear(0, 1e-6), DoubleNear(1, 1e-6)));
+  EXPECT_THAT(found->reduction.arrays.at("/msd/total_mm2").at(0), DoubleNear(0.5, 1e-5));
+  EXPECT_THAT(found->reduction.arrays.at("/rods_2/msd/total_mm2").at(0), DoubleNear(0, 1e-9));
+
+  const auto refused = [&](const std::string& table) { return refusal_of(table, at_intervals(), mixed); };
+  EXPECT_THAT(refused("frame,x,y,angle\n0,1,2,3\n"),
+              HasSubstr("column species is missing: the scene has rods and rods_2"));
+  EXPECT_THAT(refused("frame,x,y,angle,species\n0,1,2,3,balls\n"),
+              HasSubstr("tracks.csv:2:9: species: the scene has no 'balls'; it has rods, rods_2, counted from 0"));
+  EXPECT_THAT(refused("frame,x,y,angle,species\n0,1,2,3,0\n0,1,2,3,1\n1,1,2,3,0\n"),
+              HasSubstr("frame 1 has others than the first: see --complete"));
+  EXPECT_THAT(refused("frame,id,x,y,angle,species\n0,7,1,2,3,0\n1,7,1,2,3,1\n"),
+              HasSubstr("rod 7 is of another species than before"));
 }
 
 TEST(TrackTable, AnglesThatMayBeRadiansGetARemark) {
