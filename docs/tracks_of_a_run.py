@@ -14,7 +14,7 @@ missed, shift, turn, pixel = (float(word) for word in (sys.argv[3:] + ["0.05", "
 random = np.random.default_rng(1)
 with open(out, "w", newline="") as file:
     table = csv.writer(file)
-    table.writerow(["frame", "particle", "x", "y", "angle"])
+    table.writerow(["frame", "particle", "x", "y", "angle", "species"])
     for number, frame in enumerate(run.frames()):
         width, height = frame.box[:2]
         seen = random.random(len(frame.positions)) >= missed
@@ -22,4 +22,5 @@ with open(out, "w", newline="") as file:
         y = (frame.positions[:, 1] + random.normal(0, shift, len(seen))) % height
         angle = np.degrees(np.arctan2(frame.directors[:, 1], frame.directors[:, 0])) + random.normal(0, turn, len(seen))
         for i in np.flatnonzero(seen):  # a camera counts y downwards, and an axis has no head
-            table.writerow([number, i, f"{x[i] / pixel:.2f}", f"{(height - y[i]) / pixel:.2f}", f"{-angle[i] % 180:.2f}"])
+            table.writerow([number, i, f"{x[i] / pixel:.2f}", f"{(height - y[i]) / pixel:.2f}", f"{-angle[i] % 180:.2f}",
+                            frame.species[i]])

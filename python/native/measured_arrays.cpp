@@ -42,8 +42,9 @@ Result<void> check(const Snapshot& frame, std::size_t number, const Box& box) {
 Result<Measured> measure_arrays(const Scene& scene, std::vector<Snapshot> frames, double interval, run::Lacking lacking,
                                 const GoOn& go_on) {
   const std::string started = utc_now();
-  const Result<scene::RunPlan> asked = resolved(scene);
+  Result<scene::RunPlan> asked = resolved(scene);
   if (!asked) return asked.error();
+  asked->system.added = {};  // frames are of the first species alone
   std::size_t n_all = 0;
   for (const Snapshot& frame : frames) n_all += frame.n_rods();
   const std::size_t mean =

@@ -198,16 +198,17 @@ def replica_mean(estimates: Iterable[Estimate]) -> Estimate:
     else:
         error = max(within, student_factor(n) * scatter)
         dof = n - 1 if error > within else math.inf
-    steady: bool | None = True
-    if any(estimate.steady is False for estimate in known):
-        steady = False
-    elif any(estimate.steady is None for estimate in known):
-        steady = None
     drifts = [e for e in known if math.isfinite(e.drift)]
     drift = math.fsum(e.drift for e in drifts) / n if len(drifts) == n else NAN
     drift_error = math.sqrt(math.fsum(e.drift_error**2 for e in drifts)) / n if len(drifts) == n else NAN
     n_eff = math.fsum(e.n_eff for e in known if math.isfinite(e.n_eff)) or NAN
-    return Estimate(value, error, steady, n_eff, drift, drift_error, known[0].unit, dof=dof)
+    return Estimate(value, error, _steady(known), n_eff, drift, drift_error, known[0].unit, dof=dof)
+
+
+def _steady(parts: Iterable[Estimate]) -> bool | None:
+    """Of several together: False where one is not steady, else None where one cannot tell."""
+    flags = {part.steady for part in parts}
+    return False if False in flags else None if None in flags else True
 
 
 def derived(value: float, terms: Iterable[tuple[float, Estimate]], unit: str | None = "1") -> Estimate:
@@ -220,12 +221,7 @@ def derived(value: float, terms: Iterable[tuple[float, Estimate]], unit: str | N
     dof = joint_dof((abs(slope) * e.error, e.dof) for slope, e in parts)
     drift = math.fsum(slope * e.drift for slope, e in parts)
     drift_error = math.sqrt(math.fsum((slope * e.drift_error) ** 2 for slope, e in parts))
-    steady: bool | None = True
-    if any(e.steady is False for _, e in parts):
-        steady = False
-    elif any(e.steady is None for _, e in parts):
-        steady = None
-    return Estimate(value, error, steady, NAN, drift, drift_error, unit, dof=dof)
+    return Estimate(value, error, _steady(e for _, e in parts), NAN, drift, drift_error, unit, dof=dof)
 
 
 def joint_dof(errors: Iterable[tuple[float, float]]) -> float:

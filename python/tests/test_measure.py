@@ -71,12 +71,31 @@ def test_tracks_with_noise_and_holes_give_the_run_s_numbers_within_the_bias(fold
                                rtol=0.15)
 
 
+def test_tracks_of_a_mixture_give_the_numbers_of_each_species(folder):
+    scene = {**SCENE, "rods_2": {"length": 2.5, "count": 30}, "measure": {**SCENE["measure"], "of": "each"}}
+    scene["rods"] = {"length": 4.5, "area_fraction": 0.5}
+    (folder / "mixed.json").write_text(json.dumps(scene))
+    said(PROGRAMS / "shaken-worker", folder / "mixed.json", "--out", folder / "mixture", "--no-lcm", "--quiet")
+    said(sys.executable, ROOT / "docs/tracks_of_a_run.py", folder / "mixture", folder / "mixed.csv", 0, 0, 0)
+    answer = json.loads(measure(folder, folder / "mixed.csv", "--scene", folder / "mixed.json", "--scale", 0.05,
+                                "--interval", "10ms", "--flip-y"))
+    run, seen = shaken.open(folder / "mixture"), shaken.open(answer["directory"])
+    for name in ("S", "rods_2.S"):
+        assert seen.numbers[name].value == pytest.approx(run.numbers[name].value, abs=1e-3)
+    for name in ("/msd/total_mm2", "/rods_2/msd/total_mm2"):
+        np.testing.assert_allclose(seen.arrays[name][3:], run.arrays[name][3:], rtol=0.02)
+    first = shaken.measure(run.frames(), scene=run.scene)
+    assert first.numbers["S"].value == pytest.approx(run.numbers["S"].value, abs=1e-6)
+    frame, same = next(iter(run.frames())), next(iter(seen.frames()))
+    assert (np.bincount(frame.species) == np.bincount(same.species)).all(), "they can be drawn"
+
+
 def test_a_folder_of_tracks_that_is_measured_anew_knows_what_they_lack(folder):
     rows = [f"{frame},{2 + 3 * rod},{4 + rod},{10 * rod}" for frame in range(3) for rod in range(4)]
     (folder / "few.csv").write_text("\n".join(["frame,x,y,angle", *rows]))
     once = json.loads(measure(folder, folder / "few.csv", "--scene", folder / "lab.json", "--interval", "10ms"))
     tracks = said(PROGRAMS / "shaken", "measure", once["directory"], "-o", folder / "anew", "--json",
-                  "-s", "measure.polar=true", "-s", "measure.layers=true")
+                  *(word for name in ("polar", "layers", "msd") for word in ("-s", f"measure.{name}=true")))
     for name in ("polar is left out: it needs velocities", "layers is left out: it needs tilts", "msd is left out"):
         assert name in tracks
     assert np.isnan(next(iter(shaken.open(once["directory"]).frames())).velocities).all()

@@ -388,9 +388,10 @@ class TrackTable {
     TrajectoryHeader header = trajectory_header(empty_world(plan->system), scene::to_json(*plan).dump(2) + "\n", {});
     header.n_rods = static_cast<int>(mean);
     header.lacking = words_of(found.lacking);
-    for (std::size_t k = 0; species_.size() > 1 && k < n_rods.size(); ++k)
-      header.cell.shape_of_rod.insert(header.cell.shape_of_rod.end(), n_rods[k],
-                                      static_cast<std::uint8_t>(header.cell.first_shape_of(k)));
+    Cell& cell = header.cell;  // a tracker does not tell sizes: each rod is the mean one of its species
+    cell.shape_of_rod.clear();
+    for (std::size_t k = 0; cell.shapes.size() > 1 && k < n_rods.size(); ++k)
+      cell.shape_of_rod.insert(cell.shape_of_rod.end(), n_rods[k], static_cast<std::uint8_t>(cell.first_shape_of(k)));
     found.frames = std::make_unique<FramesInMemory>(std::move(header), std::move(recorded));
     found.plan = *std::move(plan);
     found.remarks = std::move(remarks_);

@@ -17,6 +17,7 @@
 #include "base/keys/markdown.h"
 #include "base/scratch_folder.h"
 #include "run/files/directory.h"
+#include "run/files/trajectory.h"
 #include "run/files/unit_of_name.h"
 #include "run/loop/loop.h"
 #include "run/loop/summary.h"
@@ -188,6 +189,11 @@ TEST(FilesPage, NamesEveryPartOfTheTrajectoryWithItsUnit) {
   options.directory = folder / "sizes";
   ASSERT_EQ(run(of_sizes, options).state, RunState::kDone);
   written.merge(data_sets(RunDirectory{options.directory}.trajectory()));
+  const auto simulated = TrajectoryReader::open(files().trajectory());
+  TrajectoryHeader tracked = simulated->header();
+  tracked.lacking = words_of({Needs::kVelocities});
+  ASSERT_TRUE(write_trajectory(folder / "tracked.h5", tracked, simulated->recorded()));
+  written.merge(data_sets(folder / "tracked.h5"));
   for (const auto& [path, unit] : written) {
     // one data set under several names, and the third species or shape as the second
     std::string name =
