@@ -71,7 +71,6 @@ Result<Measured> measure_arrays(const Scene& scene, std::vector<Snapshot> frames
   std::vector<std::string> remarks;
   if (is_followed && frames.size() > 1 && lacking.erase(run::Needs::kVelocities) > 0)
     remarks.push_back(run::set_velocities(frames, interval));
-  if (!run::heads_are_told(frames)) lacking.insert(run::Needs::kHeads);
   std::vector<run::RecordedFrame> recorded;
   recorded.reserve(frames.size());
   for (const Snapshot& frame : frames) recorded.push_back(run::record(frame));

@@ -6,6 +6,7 @@
 #include <limits>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "python/native/simulated_run.h"
 #include "run/files/frames_in_memory.h"
 #include "run/files/trajectory.h"
+#include "run/recorded/tracks.h"
 #include "scene/canonical.h"
 #include "sim/cell.h"
 
@@ -260,19 +262,25 @@ class NativeSimulation {
 /// What the arrays of all frames tell.
 struct Told {
   bool has_velocities = false, has_tilts = false, is_followed = false;
-  run::Lacking lacking() const {
+  std::optional<std::string> lacking_words{};  ///< of frames of a run; none where nobody knows whether heads are told
+  run::Lacking lacking(std::span<const Snapshot> frames) const {
     run::Lacking found{run::Needs::kImpacts, run::Needs::kSpins};
     if (!has_velocities) found.insert(run::Needs::kVelocities);
     if (!has_tilts) found.insert(run::Needs::kTilts);
     if (!is_followed) found.insert(run::Needs::kIdentities);
+    if (lacking_words) {
+      found.merge(run::lacking_of(*lacking_words));
+    } else if (!run::heads_are_told(frames)) {
+      found.insert(run::Needs::kHeads);
+    }
     return found;
   }
 };
 
 /// `frames`: (positions, directors, velocities, images or None) of each, (n, 3), and the sides of its box, or None.
 py::tuple measure(const std::string& scene, std::vector<std::string> settings, const py::list& frames, double interval,
-                  bool has_velocities, bool has_tilts, bool is_followed) {
-  const Told told{has_velocities, has_tilts, is_followed};
+                  bool has_velocities, bool has_tilts, bool is_followed, std::optional<std::string> lacking_words) {
+  const Told told{has_velocities, has_tilts, is_followed, std::move(lacking_words)};
   std::vector<Snapshot> snapshots;
   for (const py::handle each : frames) {
     const auto [positions, directors, velocities, images, box] = each.cast<
@@ -289,7 +297,8 @@ py::tuple measure(const std::string& scene, std::vector<std::string> settings, c
     snapshots.push_back(std::move(frame));
   }
   Result<Measured> found = without_python([&] {
-    return measure_arrays({scene, std::move(settings)}, std::move(snapshots), interval, told.lacking(), goes_on);
+    run::Lacking lacking = told.lacking(snapshots);
+    return measure_arrays({scene, std::move(settings)}, std::move(snapshots), interval, std::move(lacking), goes_on);
   });
   const Measured measured = value_unless_interrupted(std::move(found));
   return py::make_tuple(measured.scene, measured.summary, dict_of(measured.arrays));

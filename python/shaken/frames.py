@@ -31,6 +31,7 @@ class Frame:
     spheres:    the species that are spheres, which have no axis
     periodic:   whether the box is, along x and y: not where side walls stand
     draw:       makes a PNG of it; None where it is not known how
+    lacking:    what is not known of tracked rods, in words: /parameters/lacking of docs/files.md
     """
 
     time: float
@@ -44,6 +45,7 @@ class Frame:
     spheres: tuple[int, ...] = ()
     periodic: tuple[bool, bool] = (True, True)
     draw: Callable[[], bytes | None] | None = field(default=None, compare=False)
+    lacking: str = ""
 
     @property
     def theta(self) -> NDArray[Any]:
@@ -160,12 +162,15 @@ class Trajectory:
         return Frame(float(self.times[k]), int(rods["position/step"][k]), rods["position/value"][k].astype(float),
                      directors_of(rods["orientation/value"][k]), self._velocities(k),
                      rods["image/value"][k], self.species, rods["box/edges/value"][k].diagonal().copy(),
-                     self._spheres, self._periodic, functools.partial(picture, self.path, k))
+                     self._spheres, self._periodic, functools.partial(picture, self.path, k), self._lacking)
+
+    @property
+    def _lacking(self) -> str:
+        return str(self._parameters["lacking"].asstr()[()]) if "lacking" in self._parameters else ""
 
     def _velocities(self, k: int) -> NDArray[Any]:
         velocities: NDArray[Any] = self._rods["velocity/value"][k].astype(float)
-        lacking = self._parameters["lacking"].asstr()[()] if "lacking" in self._parameters else ""
-        return np.full_like(velocities, np.nan) if "velocities" in lacking.split(", ") else velocities
+        return np.full_like(velocities, np.nan) if "velocities" in self._lacking.split(", ") else velocities
 
     def frames(self, every: float | str | None = None) -> Iterator[Frame]:
         """The frames one by one. With `every` ([s], or "0.1 s"), those nearest to its multiples, each once. Raises

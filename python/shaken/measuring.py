@@ -56,7 +56,8 @@ def measure(frames: Iterable[Any], *, interval: float | str | None = None, scene
     is_followed = followed and len({len(each.positions) for each in rods}) == 1
     said, summary, arrays = native().measure(
         text_of(scene), as_settings(asked), [each.as_tuple(is_followed) for each in rods], _interval(interval, rods),
-        all(each.velocities is not None for each in rods), all(each.has_tilts for each in rods), is_followed)
+        all(each.velocities is not None for each in rods), all(each.has_tilts for each in rods), is_followed,
+        rods[0].lacking)
     return measured_run(json.loads(said), summary, arrays, "what was measured on arrays")
 
 
@@ -71,6 +72,7 @@ class _Rods:
     time: float | None
     box: tuple[float, float] | None
     has_tilts: bool
+    lacking: str | None = None
 
     @classmethod
     def of(cls, frame: Any) -> "_Rods":
@@ -78,8 +80,8 @@ class _Rods:
             first = frame.species == 0
             velocities, directors = frame.velocities[first], frame.directors[first]
             return cls(frame.positions[first], directors, None if np.isnan(velocities).any() else velocities,
-                       frame.images[first], frame.time, (float(frame.box[0]), float(frame.box[1])),
-                       bool(directors[:, 2].any()))  # of tracks without tilts all rods lie flat
+                       frame.images[first], frame.time, (float(frame.box[0]), float(frame.box[1])), True,
+                       frame.lacking)
         if not isinstance(frame, (tuple, list)) or not 2 <= len(frame) <= 3:
             raise ShakenError("a frame is (positions, directors), or with velocities, or a Frame of Shaken")
         positions, directors, *velocities = (np.asarray(each, dtype=float) for each in frame)

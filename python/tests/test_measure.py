@@ -101,6 +101,20 @@ def test_a_folder_of_tracks_that_is_measured_anew_knows_what_they_lack(folder):
     assert np.isnan(next(iter(shaken.open(once["directory"]).frames())).velocities).all()
 
 
+def test_heads_of_a_run_are_known_where_all_point_one_way_and_those_of_arrays_are_not(folder):
+    rods = [(2 + 3 * k, 4 + k, 10 * k) for k in range(4)]
+    frames = [(np.array([(x, y) for x, y, _ in rods]), np.radians([angle for *_, angle in rods])) for _ in range(3)]
+    seen = shaken.measure(frames, interval="10 ms", box=20, polar=True, order=True)
+    said = seen.summary["frames"]["remarks"]
+    assert any("polar is left out: it needs heads" in remark for remark in said)
+    assert any("velocities are displacements" in remark for remark in said)
+    as_of_a_run = [shaken.Frame(0.01 * k, k, np.c_[x, np.ones(4)], np.c_[np.cos(a), np.sin(a), np.zeros(4)],
+                                np.zeros((4, 3)), np.zeros((4, 3), int), np.zeros(4, int), np.array([20, 20, 1.2]))
+                   for k, (x, a) in enumerate(frames)]
+    polar = shaken.measure(as_of_a_run, box=20, polar=True).numbers["P"].value
+    assert polar == pytest.approx(math.sin(math.radians(20)) / (4 * math.sin(math.radians(5))), abs=1e-6)
+
+
 def test_what_is_wrong_is_said_with_code_2(folder):
     said(PROGRAMS / "shaken", "measure", folder / "sim", "-s", "box.gap=1.3", "-o", folder / "new", code=2)
     assert not (folder / "new").exists()
