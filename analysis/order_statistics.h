@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "analysis/errors/spread.h"
 #include "analysis/errors/summed.h"
 
 namespace shaken::analysis {
@@ -27,21 +28,15 @@ class OrderStatistics : public Summed<OrderStatistics> {
   /// S of one instant; what is not finite is left out.
   void accumulate(double order);
   OrderDistribution reduce() const;
-  /// Adds the samples of `other`, which has as many bins.
-  void merge(const OrderStatistics& other);
 
   static constexpr const char* kName = "OrderStatistics";
-  static auto fields(auto& self) {
-    return listed(self.counts_, self.samples_, self.mean_, self.squared_spread_, self.square_, self.fourth_);
-  }
+  static auto fields(auto& self) { return listed(self.counts_, self.spread_, self.square_, self.fourth_); }
 
  private:
   std::vector<std::int64_t> counts_;
-  std::int64_t samples_ = 0;
-  double mean_ = 0;            // of S
-  double squared_spread_ = 0;  // sum of (S - mean)^2: the moments themselves would lose a small spread to rounding
-  double square_ = 0;          // sum of S^2
-  double fourth_ = 0;          // sum of S^4
+  Spread spread_;      // of S
+  double square_ = 0;  // sum of S^2
+  double fourth_ = 0;  // sum of S^4
 };
 
 }  // namespace shaken::analysis

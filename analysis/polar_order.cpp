@@ -37,10 +37,7 @@ std::vector<double> PolarSeries::directions() const {
 void PolarStatistics::accumulate(std::span<const Vec3> directors, std::span<const Vec3> velocities,
                                  const PolarOrder& order) {
   SHAKEN_CHECK(directors.size() == velocities.size(), "one velocity for each director");
-  ++samples_;
-  const double from_mean = order.order - mean_;
-  mean_ += from_mean / static_cast<double>(samples_);
-  squared_spread_ += from_mean * (order.order - mean_);
+  spread_.accumulate(order.order);
   double x = 0, y = 0, speeds = 0;
   for (std::size_t i = 0; i < directors.size(); ++i) {
     const Vec3& n = directors[i];
@@ -63,28 +60,13 @@ void PolarStatistics::accumulate(std::span<const Vec3> directors, std::span<cons
 }
 
 PolarNumbers PolarStatistics::reduce() const {
-  const auto samples = static_cast<double>(samples_), rods = static_cast<double>(rods_);
-  return {.order = samples_ > 0 ? mean_ : std::nan(""),
-          .variance = squared_spread_ / samples,
+  const auto rods = static_cast<double>(rods_);
+  return {.order = spread_.samples > 0 ? spread_.mean : std::nan(""),
+          .variance = spread_.variance(),
           .forward = forward_ / rods,
           .along_rms = std::sqrt(along_ / rods),
           .across_rms = std::sqrt(across_ / rods),
           .velocity_polarity = flight_ / static_cast<double>(moving_)};
-}
-
-void PolarStatistics::merge(const PolarStatistics& other) {
-  if (other.samples_ == 0) return;
-  const auto n = static_cast<double>(samples_), m = static_cast<double>(other.samples_);
-  const double apart = other.mean_ - mean_;
-  mean_ += apart * m / (n + m);
-  squared_spread_ += other.squared_spread_ + apart * apart * n * m / (n + m);
-  samples_ += other.samples_;
-  rods_ += other.rods_;
-  forward_ += other.forward_;
-  along_ += other.along_;
-  across_ += other.across_;
-  moving_ += other.moving_;
-  flight_ += other.flight_;
 }
 
 }  // namespace shaken::analysis

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analysis/errors/bounded_series.h"
+#include "analysis/errors/spread.h"
 #include "analysis/errors/summed.h"
 #include "base/core/types.h"
 
@@ -56,21 +57,17 @@ class PolarStatistics : public Summed<PolarStatistics> {
   /// The rods of one instant: their directors and velocities [mm/s], as many of each, and their polar_order().
   void accumulate(std::span<const Vec3> directors, std::span<const Vec3> velocities, const PolarOrder& order);
   PolarNumbers reduce() const;
-  void merge(const PolarStatistics& other);
 
   static constexpr const char* kName = "PolarStatistics";
   static auto fields(auto& self) {
-    return listed(self.samples_, self.mean_, self.squared_spread_, self.rods_, self.forward_, self.along_, self.across_,
-                  self.moving_, self.flight_);
+    return listed(self.spread_, self.rods_, self.forward_, self.along_, self.across_, self.moving_, self.flight_);
   }
 
  private:
-  std::int64_t samples_ = 0;
-  double mean_ = 0;            // of P
-  double squared_spread_ = 0;  // sum of (P - mean)^2: the moments themselves would lose a small spread to rounding
-  std::int64_t rods_ = 0;      // of all samples, that have a direction in the plane
-  double forward_ = 0;         // sum of v . u
-  double along_ = 0;           // sum of (v . u)^2
+  Spread spread_;          // of P
+  std::int64_t rods_ = 0;  // of all samples, that have a direction in the plane
+  double forward_ = 0;     // sum of v . u
+  double along_ = 0;       // sum of (v . u)^2
   double across_ = 0;
   std::int64_t moving_ = 0;  // samples in which any rod moves
   double flight_ = 0;        // sum of |<v>| / <|v|> over these

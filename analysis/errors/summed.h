@@ -11,7 +11,8 @@
 
 namespace shaken::analysis {
 
-/// An accumulator that consists of sums, of which its fields say how they are saved and merged: see Saved.
+/// An accumulator that consists of sums, or of what merges by itself, of which its fields say how they are saved and
+/// merged: see Saved.
 template <class Self>
 class Summed : public Saved<Self> {
  public:
@@ -21,7 +22,9 @@ class Summed : public Saved<Self> {
  private:
   template <class T, class From>
   static void add(T& to, const From& from) {
-    if constexpr (requires { to.fields(to); }) {
+    if constexpr (!std::is_same_v<T, Self> && requires { to.merge(from); }) {
+      to.merge(from);
+    } else if constexpr (requires { to.fields(to); }) {
       std::apply([&](auto&&... a) { std::apply([&](auto&&... b) { (add(a, b), ...); }, from.fields(from)); },
                  to.fields(to));
     } else if constexpr (std::is_arithmetic_v<T>) {

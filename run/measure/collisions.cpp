@@ -12,14 +12,22 @@ namespace {
 
 using analysis::CollisionCount;
 
-constexpr std::array<std::pair<CollisionCount, const char*>, analysis::kCollisionCounts> kCollisionNames{{
-    {CollisionCount::kRodRod, "impacts_rods_Hz"},
-    {CollisionCount::kBase, "impacts_base_Hz"},
-    {CollisionCount::kLid, "impacts_lid_Hz"},
-    {CollisionCount::kWalls, "impacts_walls_Hz"},
-    {CollisionCount::kGiven, "power_given_pJ_s"},
-    {CollisionCount::kLostRodRod, "power_lost_rods_pJ_s"},
-    {CollisionCount::kLostSurfaces, "power_lost_surfaces_pJ_s"},
+struct Rate {
+  CollisionCount count;
+  Output output;
+};
+constexpr std::array<Rate, analysis::kCollisionCounts> kRates{{
+    {CollisionCount::kRodRod, {"impacts_rods_Hz", "impacts of one rod with others in a second"}},
+    {CollisionCount::kBase, {"impacts_base_Hz", "with the base"}},
+    {CollisionCount::kLid, {"impacts_lid_Hz", "with the lid"}},
+    {CollisionCount::kWalls, {"impacts_walls_Hz", "with side walls"}},
+    {CollisionCount::kGiven,
+     called("power given to a rod", "P",
+            {"power_given_pJ_s", "energy that plates, walls and noise give to one rod in a second"})},
+    {CollisionCount::kLostRodRod,
+     {"power_lost_rods_pJ_s", "energy that one rod loses in impacts with others in a second"}},
+    {CollisionCount::kLostSurfaces,
+     {"power_lost_surfaces_pJ_s", "energy that it loses in impacts with plates and walls"}},
 }};
 
 std::unique_ptr<Measurement> measure_collisions(const MeasureContext&) {
@@ -33,9 +41,9 @@ std::unique_ptr<Measurement> measure_collisions(const MeasureContext&) {
       return all;
     });
     result.arrays["/collisions/time_s"] = series.times();
-    for (const auto& [count, name] : kCollisionNames) {
-      result.arrays[std::string("/collisions/") + name] = series.of(count);
-      result.scalars[name] = numbers[static_cast<std::size_t>(count)];
+    for (const auto& [count, output] : kRates) {
+      result.arrays["/collisions/" + std::string(output.name)] = series.of(count);
+      result.scalars[std::string(output.name)] = numbers[static_cast<std::size_t>(count)];
     }
     result.scalars["mean_free_time_s"] = numbers.back();
   };
@@ -45,39 +53,24 @@ std::unique_ptr<Measurement> measure_collisions(const MeasureContext&) {
 }  // namespace
 
 MeasurementKind collisions_kind() {
-  return {
+  MeasurementKind kind{
       .name = "collisions",
       .sources = "collision_rates",
       .make = measure_collisions,
-      .arrays =
-          {
-              called("time", "t",
-                     {"time_s", "ends of the times from one sample to the next, over which the following are means"}),
-              {"impacts_rods_Hz", "impacts of one rod with others in a second"},
-              {"impacts_base_Hz", "with the base"},
-              {"impacts_lid_Hz", "with the lid"},
-              {"impacts_walls_Hz", "with side walls"},
-              called("power given to a rod", "P",
-                     {"power_given_pJ_s", "energy that plates, walls and noise give to one rod in a second"}),
-              {"power_lost_rods_pJ_s", "energy that one rod loses in impacts with others in a second"},
-              {"power_lost_surfaces_pJ_s", "energy that it loses in impacts with plates and walls"},
-          },
-      .numbers =
-          {
-              {"impacts_rods_Hz", "impacts of one rod with others in a second"},
-              {"impacts_base_Hz", "with the base"},
-              {"impacts_lid_Hz", "with the lid"},
-              {"impacts_walls_Hz", "with side walls"},
-              called("power given to a rod", "P",
-                     {"power_given_pJ_s", "energy that plates, walls and noise give to one rod in a second"}),
-              {"power_lost_rods_pJ_s", "energy that one rod loses in impacts with others in a second"},
-              {"power_lost_surfaces_pJ_s", "energy that it loses in impacts with plates and walls"},
-              called("mean free time", R"(τ_\mathrm{f})",
-                     {"mean_free_time_s", "mean time of a rod between impacts with others: 1 / `impacts_rods_Hz`",
-                      false, "no impacts of rods with each other"}),
-          },
+      .arrays = {called(
+          "time", "t",
+          {"time_s", "ends of the times from one sample to the next, over which the following are means"})},
       .needs = {Needs::kImpacts},
   };
+  for (const Rate& rate : kRates) {
+    kind.arrays.push_back(rate.output);
+    kind.numbers.push_back(rate.output);
+  }
+  kind.numbers.push_back(
+      called("mean free time", R"(τ_\mathrm{f})",
+             {"mean_free_time_s", "mean time of a rod between impacts with others: 1 / `impacts_rods_Hz`", false,
+              "no impacts of rods with each other"}));
+  return kind;
 }
 
 }  // namespace shaken::run
