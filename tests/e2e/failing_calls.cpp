@@ -98,7 +98,7 @@ class Unsynced {
  public:
   /// Is to be called before a change of its content.
   void change(const std::string& path) {
-    if (is_kept()) on_disk_.try_emplace(path, content_of(path).value_or(""));
+    if (is_kept() && !on_disk_.contains(path)) on_disk_.emplace(path, content_of(path).value_or(""));
   }
   /// Before `from` is renamed.
   void rename(const std::string& from, const std::string& to) {
