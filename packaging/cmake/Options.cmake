@@ -41,6 +41,8 @@ endif()
 # computes (a library says target_compile_options(NAME PRIVATE ${SHAKEN_COMPUTES})) is, or its tests would take too long.
 set(CMAKE_CXX_FLAGS_SANITIZE "-O0 -g1")
 set(SHAKEN_COMPUTES $<$<CONFIG:Sanitize>:-O2>)
+# What waits for sockets and files is fast enough if it is compiled soon.
+set(SHAKEN_WAITS $<$<CONFIG:Release>:-O1>)
 # Link-time optimisation makes the worker 3 % faster. The simulator's objects hold both kinds of code, so that only the
 # programs that step for long (shaken_links_the_simulator(NAME)) wait for it when they are linked. g++ does it wherever
 # it finds such objects, 6 to 27 CPU-seconds for each program, unless it is told not to.
