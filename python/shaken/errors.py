@@ -14,6 +14,12 @@ class ShakenError(Exception):
     exit_code = 2
 
 
+class Failed(ShakenError):
+    """What could not be done, although it was asked for rightly: a file is damaged, or a disk is full."""
+
+    exit_code = 1
+
+
 class NumericalTrouble(ShakenError):
     """What a simulation met that it must not go on from.
 
@@ -41,10 +47,8 @@ class NotFound(ShakenError):
     """The daemon has nothing of that name."""
 
 
-class DaemonFailed(ShakenError):
+class DaemonFailed(Failed):
     """A daemon whose answer is none, or which could not do what it was asked for."""
-
-    exit_code = 1
 
 
 def imported(module: str, otherwise: str = "") -> Any:

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .errors import ShakenError
-from .hdf5 import open_file
 from .notebook import picture
+from .recorded import recorded
 from .units import seconds
 
 
@@ -99,13 +99,16 @@ class Frame:
 
 
 def directors_of(quaternions: NDArray[Any]) -> NDArray[Any]:
-    """(..., 3) axes of rods from their quaternions (..., 4), (w, x, y, z), which turn the z axis into them."""
+    """(..., 3) unit vectors along rods from their quaternions (..., 4), (w, x, y, z), of any length but 0, which turn
+    the z axis into them."""
     w, x, y, z = np.moveaxis(np.asarray(quaternions, dtype=float), -1, 0)
-    return np.stack([2 * (x * z + w * y), 2 * (y * z - w * x), w**2 - x**2 - y**2 + z**2], axis=-1)
+    axes = np.stack([2 * (x * z + w * y), 2 * (y * z - w * x), w**2 - x**2 - y**2 + z**2], axis=-1)
+    return np.asarray(axes / np.linalg.norm(axes, axis=-1, keepdims=True))
 
 
 class Trajectory:
-    """The frames of a trajectory.h5, each read from the file when it is asked for.
+    """The frames of a trajectory.h5, each read from the file when it is asked for; or of a trajectory.part, in which a
+    run that has not ended keeps its frames, as far as it went when it was opened.
 
     times:   (frames,) [s]
     species: (n,) see Frame
@@ -115,36 +118,14 @@ class Trajectory:
 
     def __init__(self, path: str | Path) -> None:
         self.path = Path(path)
-        self._file = open_file(self.path)
-        try:
-            self._rods = self._file["particles/trajectory"]
-            self.times = np.asarray(self._rods["position/time"][()])
-        except (OSError, KeyError) as error:
-            raise ShakenError(f"{self.path}: {error}") from None
-        n = self._rods["position/value"].shape[1]
-        self.species = np.asarray(self._rods["species"][()]) if "species" in self._rods else np.zeros(n, np.uint8)
-        beads, of_shape = self._beads(), self._parameters.get("species_of_shape", range(3))
-        self._spheres = tuple(sorted({int(of) for of, (offset, _) in zip(of_shape, beads) if len(offset) == 1}))
-        arena = self._parameters["walls"].attrs["arena"] if "walls" in self._parameters else None
-        arena = arena.decode() if isinstance(arena, bytes) else arena
-        self._periodic = (arena in (None, "channel"), arena is None)  # a channel's walls are along x
-
-    @property
-    def _parameters(self) -> Any:
-        return self._file["parameters"]
-
-    def _beads(self) -> list[tuple[NDArray[Any], NDArray[Any]]]:
-        """Offsets and radii of the beads of each species [mm]; of each shape where rods of one differ in size."""
-        name, groups = "shape" if "shape" in self._rods else "species", [self._parameters]
-        while f"{name}_{len(groups) + 1}" in self._parameters:
-            groups.append(self._parameters[f"{name}_{len(groups) + 1}"])
-        return [(group["bead_offset_mm"][()], group["bead_radius_mm"][()]) for group in groups]
+        self._recorded = recorded(self.path)
+        self.times, self.species = self._recorded.times, self._recorded.species
 
     @property
     def lengths(self) -> NDArray[Any]:
         """(n,) of the rods, tip to tip [mm]."""
-        lengths = np.array([(offset + radius).max() - (offset - radius).min() for offset, radius in self._beads()])
-        return lengths[self._rods["shape"][()] if "shape" in self._rods else self.species]
+        lengths = [(offset + radius).max() - (offset - radius).min() for offset, radius in self._recorded.beads]
+        return np.array(lengths)[self._recorded.shapes]
 
     def __len__(self) -> int:
         return len(self.times)
@@ -158,19 +139,13 @@ class Trajectory:
         if isinstance(k, slice):
             raise ShakenError("a trajectory gives one frame at a time; frames() gives many")
         k = range(len(self))[k]
-        rods = self._rods
-        return Frame(float(self.times[k]), int(rods["position/step"][k]), rods["position/value"][k].astype(float),
-                     directors_of(rods["orientation/value"][k]), self._velocities(k),
-                     rods["image/value"][k], self.species, rods["box/edges/value"][k].diagonal().copy(),
-                     self._spheres, self._periodic, functools.partial(picture, self.path, k), self._lacking)
-
-    @property
-    def _lacking(self) -> str:
-        return str(self._parameters["lacking"].asstr()[()]) if "lacking" in self._parameters else ""
-
-    def _velocities(self, k: int) -> NDArray[Any]:
-        velocities: NDArray[Any] = self._rods["velocity/value"][k].astype(float)
-        return np.full_like(velocities, np.nan) if "velocities" in self._lacking.split(", ") else velocities
+        of, rods = self._recorded, self._recorded.read(k)
+        velocities, lacking = rods["velocity"].astype(float), str(of.header.get("lacking", ""))
+        if "velocities" in lacking.split(", "):
+            velocities[:] = np.nan
+        return Frame(float(rods["time"]), int(rods["tick"]), rods["position"].astype(float),
+                     directors_of(rods["orientation"]), velocities, rods["image"], self.species, of.box.copy(),
+                     of.spheres, of.periodic, functools.partial(picture, self.path, k), lacking)
 
     def frames(self, every: float | str | None = None) -> Iterator[Frame]:
         """The frames one by one. With `every` ([s], or "0.1 s"), those nearest to its multiples, each once. Raises

@@ -4,10 +4,11 @@ from __future__ import annotations
 import ctypes
 import functools
 import json
+import subprocess
 from pathlib import Path
 from typing import Any
 
-from .errors import ShakenError
+from .errors import Failed, ShakenError
 
 
 def h5py_module() -> Any:
@@ -41,7 +42,13 @@ def _xxhash() -> Any:
     library.XXH3_64bits_reset.argtypes = library.XXH3_freeState.argtypes = [ctypes.c_void_p]
     library.XXH3_64bits_update.argtypes = [ctypes.c_void_p, ctypes.c_char_p, ctypes.c_size_t]
     library.XXH3_64bits_digest.argtypes, library.XXH3_64bits_digest.restype = [ctypes.c_void_p], ctypes.c_uint64
+    library.XXH3_64bits.argtypes, library.XXH3_64bits.restype = [ctypes.c_char_p, ctypes.c_size_t], ctypes.c_uint64
     return library
+
+
+def hash_of(content: bytes) -> int:
+    """XXH3, 64 bits."""
+    return int(_xxhash().XXH3_64bits(content, len(content)))
 
 
 @functools.lru_cache(maxsize=10_000)
@@ -67,18 +74,37 @@ def _json_beside(path: Path, name: str) -> dict[str, Any]:
     return found if isinstance(found, dict) else {}
 
 
+def _promised(path: Path) -> dict[str, Any] | None:
+    """Size and hash of a file, if the summary.json beside it has them."""
+    files = _json_beside(path, "summary.json").get("files")
+    promised = files.get(path.name) if isinstance(files, dict) else None
+    return promised if isinstance(promised, dict) else None
+
+
+def try_to_read(path: Path, reader: Path) -> None:
+    """As try_to_read of run/files/foreign_file.h: where no hash vouches for the file, the program shaken-worker at
+    `reader` tries it. Raises Failed where that is ended or kept by it, as HDF5 is by damaged metadata."""
+    if _promised(path) or path.suffix != ".h5":
+        return
+    try:
+        code = subprocess.run([reader, "read", path], capture_output=True, timeout=60, check=False).returncode
+    except subprocess.TimeoutExpired:
+        raise Failed(f"{path} cannot be read: it kept its reader for over 60 s, as damaged files do") from None
+    if code < 0:
+        raise Failed(f"{path} cannot be read: it ended its reader (signal {-code}), as damaged files do")
+
+
 def _check_content(path: Path) -> None:
     """As check_content of run/files/content_hash.h: refuses a file that is not what the summary.json beside it says."""
     for _ in range(2):  # both may be replaced between the look at the one and at the other
-        files = _json_beside(path, "summary.json").get("files")
-        promised = files.get(path.name) if isinstance(files, dict) else None
-        if not isinstance(promised, dict) or not path.exists():
+        promised = _promised(path)
+        if promised is None or not path.exists():
             return
         now = path.stat()
         if now.st_size == promised.get("bytes") and promised.get("xxh3") == _xxh3(
                 path, now.st_dev, now.st_ino, now.st_size, now.st_mtime_ns):
             return
     if _json_beside(path, "progress.json").get("state") != "running":  # which replaces its files one by one
-        raise ShakenError(f"{path} is damaged: it is not the file that the run has written, as its hash in "
-                          "summary.json tells. Put a copy of it back; or remove summary.json beside it and submit the "
-                          "scene again, which makes the run's files anew")
+        raise Failed(f"{path} is damaged: it is not the file that the run has written, as its hash in "
+                      "summary.json tells. Put a copy of it back; or remove summary.json beside it and submit the "
+                      "scene again, which makes the run's files anew")

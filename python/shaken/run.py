@@ -25,12 +25,17 @@ _SPECIES = re.compile("rods_[0-9]+")
 _TABLE = "/van_hove/displacement_mm"  # a row for each lag
 
 
+def described(array: str) -> str:
+    """The name under which the catalogue describes an array of the first species."""
+    for part, name in _DESCRIBED:
+        array = part.sub(name, array)
+    return array
+
+
 def axes_of(array: str) -> list[str]:
     """The names of the axes of an array of the first species, the slowest first: ["/msd/lag_s"] of
     "/msd/total_mm2"."""
-    for part, described in _DESCRIBED:
-        array = part.sub(described, array)
-    return ARRAYS.get(array, {}).get("axes", [])
+    return ARRAYS.get(described(array), {}).get("axes", [])
 
 
 class Array(np.ndarray[Any, Any]):
@@ -267,6 +272,8 @@ class Run:
         return numbers_html(self.numbers, repr(self).strip("<>"))
 
     def __repr__(self) -> str:
+        if not self.summary:
+            return f"<run in {self.where}, which has not ended>"
         time = self.summary.get("sim_seconds")
         return f"<run {self.id[:8]}: {self.summary.get('n_rods')} rods, {time:g} s, S = {self.numbers.get('S', '-')}>"
 
@@ -283,15 +290,42 @@ def _present_state(directory: Path) -> str:
     return "the run was stopped before its end" if word == "stopped" else "the run has not ended yet"
 
 
+def arrays_in(directory: Path) -> Arrays:
+    """Those of the observables.h5 of a run; none where there is no such file."""
+    path, names = directory / "observables.h5", list[str]()
+
+    def read(name: str) -> tuple[NDArray[Any], str]:
+        with open_file(path) as file:
+            data = file[name]
+            unit = data.attrs.get("unit", "1")
+            return data[()], unit.decode() if isinstance(unit, bytes) else str(unit)
+
+    if path.exists():
+        h5py = h5py_module()
+        with open_file(path) as file:
+            file.visititems(lambda name, item: names.append("/" + name) if isinstance(item, h5py.Dataset) else None)
+    return Arrays(names, read)
+
+
+def frames_in(directory: Path) -> Path:
+    """Where all frames are that there are so far."""
+    log = directory / "trajectory.part"
+    return log if log.exists() else directory / "trajectory.h5"
+
+
 class DirectoryRun(Run):
     """A run in its directory. Nothing but scene.json and summary.json is read until it is asked for. Raises ShakenError
-    where the directory is none of a run, or the run has not ended."""
+    where the directory is none of a run, or the run has not ended; with `so_far` one that has recorded frames may be at
+    work: it has these only, and its summary is empty."""
 
-    def __init__(self, directory: str | Path, parameters: Mapping[str, Any] | None = None) -> None:
+    def __init__(self, directory: str | Path, parameters: Mapping[str, Any] | None = None,
+                 so_far: bool = False) -> None:
         self.directory = Path(directory)
         try:
             scene = json.loads((self.directory / "scene.json").read_text())
-            summary = json.loads((self.directory / "summary.json").read_text())
+            so_far = so_far and (self.directory / "trajectory.part").exists()
+            summary = {} if so_far and not (self.directory / "summary.json").exists() else json.loads(
+                (self.directory / "summary.json").read_text())
         except FileNotFoundError as error:
             missing = Path(error.filename).name
             raise ShakenError(f"{self.directory} has no {missing}: " + (
@@ -301,34 +335,18 @@ class DirectoryRun(Run):
                 "it is no directory of a run")) from None
         except (OSError, ValueError, RecursionError) as error:
             raise ShakenError(f"{self.directory}: {error}") from None
-        super().__init__(scene, summary, Arrays(self._names(), self._read), parameters, str(self.directory))
+        super().__init__(scene, summary, arrays_in(self.directory), parameters, str(self.directory))
 
-    def _file(self) -> Any:
-        return open_file(self.directory / "observables.h5")
-
-    def _names(self) -> list[str]:
-        if not (self.directory / "observables.h5").exists():
-            return []
-        h5py = h5py_module()
-        names: list[str] = []
-        with self._file() as file:
-            file.visititems(lambda name, item: names.append("/" + name) if isinstance(item, h5py.Dataset) else None)
-        return names
-
-    def _read(self, name: str) -> tuple[NDArray[Any], str]:
-        with self._file() as file:
-            data = file[name]
-            unit = data.attrs.get("unit", "1")
-            return data[()], unit.decode() if isinstance(unit, bytes) else str(unit)
+    def __getitem__(self, name: str) -> Any:
+        if not self.summary:
+            raise ShakenError(f"{self.directory} has no '{name}' yet: {_present_state(self.directory)}")
+        return super().__getitem__(name)
 
     @functools.cached_property
     def trajectory(self) -> Trajectory:
-        """The frames of trajectory.h5. Raises ShakenError where the scene has no `trajectory`, or the run has not
-        ended."""
-        path = self.directory / "trajectory.h5"
+        """The frames so far. Raises ShakenError where the scene has no `trajectory`."""
+        path = frames_in(self.directory)
         if not path.exists():
-            raise ShakenError(f"{self.directory} has no trajectory.h5: " + (
-                f"{_present_state(self.directory)}, and its frames lie in trajectory.part until it ends"
-                if (self.directory / "trajectory.part").exists() else
-                "the scene has no `trajectory`, which records frames"))
+            raise ShakenError(f"{self.directory} has no trajectory.h5: the scene has no `trajectory`, which records "
+                              "frames")
         return Trajectory(path)

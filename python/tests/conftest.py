@@ -2,6 +2,7 @@
 import json
 import os
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
@@ -15,6 +16,7 @@ import pytest
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 import shaken  # noqa: E402  (the package of this tree, whatever is installed)
+from shaken.hdf5 import hash_of  # noqa: E402
 
 #: Where the programs are; tests that need them are skipped where there are none.
 PROGRAMS = Path(os.environ.get("SHAKEN_PROGRAMS", Path(__file__).resolve().parents[2] / "build" / "release" / "bin"))
@@ -73,8 +75,31 @@ def _write_frames(path, n_frames, aspect, n_rods=50, side=20.0):
         rods["image/value"] = np.zeros((n_frames, n_rods, 3), dtype="i4")
         file["parameters/bead_offset_mm"] = np.linspace(-2, 2, 5)
         file["parameters/bead_radius_mm"] = np.full(5, 0.25)
+        file["parameters"].attrs.update(n_rods=n_rods, box_side_mm=side, box_side_y_mm=side * aspect, gap_mm=1.2,
+                                        dt_s=5e-4)
         rods["box/edges/value"] = np.tile(np.diag([side, side * aspect, 1.2]), (n_frames, 1, 1))
     np.save(path.with_suffix(".npy"), theta)
+
+
+#: The header of a trajectory.part: rods of three beads and of two, which has no middle.
+FRAMES = {"n_rods": 2, "box_side_mm": 10.0, "box_side_y_mm": 5.0, "gap_mm": 1.5, "dt_s": 0.0625,
+          "species_of_rod": [0, 1], "scene": '{"plates": {"amplitude": 0.25}}', "run_id": "0123456789abcdef", "seed": 7,
+          "beads": [{"offset_mm": [-1, 0, 1], "radius_mm": [0.25, 0.5, 0.25]},
+                    {"offset_mm": [-0.5, 0.75], "radius_mm": [0.5, 0.25]}]}
+
+
+def log_at(path, n_frames=21, orientation=((0.5**0.5, 0, 0.5**0.5, 0), (1, 0, 0, 0)), **header):
+    """A trajectory.part: of the rods, the first lies along x and the second stands."""
+    text = json.dumps({**FRAMES, **header}).encode()
+    content = b"SHKNFRAM" + struct.pack("<II", 1, len(text)) + text + struct.pack("<Q", hash_of(text))
+    for k in range(n_frames):
+        frame = struct.pack("<qd", 4 * k, 0.25 * k)
+        for values, kind in (([1, 2, 0.5, 9.5, 0.25, 1], "<f4"), ([1.5, -2, 0, 0, 0, 4], "<f4"), (orientation, "<f4"),
+                             ([0, -1, 0, 3, 0, k], "<i4")):
+            frame += np.array(values, kind).tobytes()
+        content += frame + struct.pack("<Q", hash_of(frame))
+    path.write_bytes(content)
+    return path
 
 
 @pytest.fixture
