@@ -37,9 +37,6 @@ ALLOWED = {
     # S of a frame is that of the measurement
     "run/files/order_curve.cpp": ["run/files", "base", "analysis/order.h"],
     "run/files": ["base", "sim/cell.h", "sim/snapshot.h"],
-    # the arrays of a group are in the order of their records
-    "run/export/columns.cpp": ["base", "run/export", "run/files", "run/measure/measurement_kinds.h"],
-    "run/export": ["base", "run/files", "sim/system.h"],
     # whether rods of another run are those of a scene, and how fast rods are at a start, the simulation itself says
     "run/import": ["run/files", "run/loop", "base", "scene", "sim/motion/start_motion.h",
                    "sim/start/from_another_run.h", "sim/close_up.h", "sim/overlaps.h", "sim/simulation.h",
@@ -80,7 +77,7 @@ ALLOWED = {
     "client/catalogue.cpp": ["client/catalogue.h", "client/live/json.h", "base", "scene", "render/style_keys.h",
                              "run/files/unit_of_name.h", "run/loop/summary.h", "run/measure/measurement_kinds.h",
                              "sim/effects/registry.h"],
-    "client": ["proto", "base", "scene", "run/files", "run/export", "sim/rod", "sim/cell.h", "sim/system.h"],
+    "client": ["proto", "base", "scene", "run/files", "sim/rod", "sim/cell.h", "sim/system.h"],
     # the page in a browser: what the terminal's live view makes of messages, the daemon's way of HTTP, a run's files
     "web": ["proto", "base", "client/live", "client/starter_scene.h", "base/http", "run/files", "analysis/order.h",
             "sim/system.h"],
@@ -93,7 +90,7 @@ ALLOWED = {
 }
 # Rooms of a folder: each may use what the folder may, and the rooms before it.
 ROOMS = {"analysis": ["errors", "geometry", "lags"], "scene": ["keys", "resolve"],
-         "run": ["files", "measure", "export", "live", "loop", "import", "recorded", "cost", "worker"]}
+         "run": ["files", "measure", "live", "loop", "import", "recorded", "cost", "worker"]}
 for folder, rooms in ROOMS.items():
     for floor, room in enumerate(rooms):
         before = [f"{folder}/{below}" for below in rooms[:floor]]

@@ -96,7 +96,7 @@ if(NOT SHAKEN_ONLY_SIM)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
       "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), python3-numpy, python3-scipy, python3-matplotlib, \
 python3-h5py, libxxhash0")
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-pandas")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-gsd, python3-pandas")
   set(CPACK_COMPONENT_PYTHON_DESCRIPTION
     "Results of Shaken in Python: runs with their errors, sweeps, recorded frames, live\nstate of running jobs, plots, and the figures of the paper.")
   set(CPACK_DEBIAN_DOCS_PACKAGE_NAME shaken-doc)

@@ -2,11 +2,12 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import re
 import sys
 from dataclasses import dataclass
-from typing import Any, Sequence
+from typing import Any, Iterable, Sequence
 
 #: Control characters, those that turn the direction of writing, and bytes that were no UTF-8.
 _OBEYED = re.compile("[\x00-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069\ud800-\udfff]")
@@ -40,6 +41,21 @@ def number_text(value: float) -> str:
     if value != value:
         return "-"
     return f"{value:.0f}" if value == round(value) and abs(value) < 1e6 else f"{value:.4g}"
+
+
+def shortest(value: Any) -> str:
+    """A number with as many digits as tell it apart; of whole ones no point."""
+    return repr(float(value)).removesuffix(".0")
+
+
+def csv_line(texts: Iterable[str]) -> str:
+    return ",".join('"' + text.replace('"', '""') + '"' if set(text) & set(',"\r\n') else text for text in texts) + "\n"
+
+
+def bytes_text(n: float) -> str:
+    """"62.6 MB"."""
+    power = min(4, int(math.log10(max(n, 1) * 1.0005) / 3))
+    return f"{n / 1000**power:.3g} {('B', 'kB', 'MB', 'GB', 'TB')[power]}"
 
 
 def terminal_width() -> int:

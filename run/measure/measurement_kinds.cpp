@@ -7,7 +7,6 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <regex>
 #include <sstream>
 
 #include "scene/keys/fields.h"
@@ -91,20 +90,6 @@ std::vector<std::string> MeasurementKind::axes_of(std::string_view array) const 
     if (std::ranges::find(its_axes, array) != its_axes.end()) return {};
   }
   return listed_axes(*this, array);
-}
-
-std::optional<ArrayRecord> array_record(const std::string& path) {
-  static const std::regex kParts("((?:/rods_[0-9]+)?/([^/]+)/)(.+)"), kRod("^trace/[0-9]+/"), kSem("_sem(?=_|$)");
-  std::smatch parts;
-  if (!std::regex_match(path, parts, kParts)) return std::nullopt;
-  const std::string name = std::regex_replace(parts[3].str(), kRod, "trace/K/");
-  const std::string own = std::regex_replace(name, kSem, "");
-  for (const MeasurementKind& kind : measurement_kinds()) {
-    const auto output = std::ranges::find(kind.arrays, own, &Output::name);
-    if (kind.name == parts[2].str() && output != kind.arrays.end())
-      return ArrayRecord{&kind, &*output, own != name, parts[1]};
-  }
-  return std::nullopt;
 }
 
 std::string MeasurementKind::meaning(const Output& output) const {

@@ -94,16 +94,6 @@ struct MeasurementKind {
 /// All of them, in the order in which they sample and are saved.
 std::span<const MeasurementKind> measurement_kinds();
 
-/// What an array of observables.h5 is.
-struct ArrayRecord {
-  const MeasurementKind* kind;
-  const Output* output;
-  bool is_error = false;  ///< whether it has the standard errors of `output`
-  std::string block;      ///< "/rods_2/msd/"
-};
-/// Of an array by its path; none if no kind has such a one.
-std::optional<ArrayRecord> array_record(const std::string& path);
-
 /// The plan with `kind` as all that is measured, from its start on.
 scene::RunPlan only(scene::RunPlan plan, const MeasurementKind& kind);
 

@@ -1,8 +1,8 @@
-"""What the client hands on to be tabulated, drawn or packed:
-python3 -m shaken.tables results|plot|pack|unpack|fields|inset OPTION...
+"""What the client hands on to be tabulated, drawn, exported or packed:
+python3 -m shaken.tables results|plot|export|pack|unpack|fields|inset OPTION...
 
-The options of users are described where the client declares them (client/verbs/results.cpp, plot.cpp, pack.cpp). Names
-for the shell and the inset of pictures have no help."""
+The options of users are described where the client declares them (client/verbs/results.cpp and so on). Names for the
+shell and the inset of pictures have no help."""
 from __future__ import annotations
 
 import argparse
@@ -22,11 +22,11 @@ def _options(words: Sequence[str]) -> argparse.Namespace:
     parser = Options()
     parser.add_argument("ids", nargs="*")
     parser.add_argument("--root")
-    for name in ("where", "job"):
+    for name in ("where", "job", "observable"):
         parser.add_argument(f"--{name}", action="append", default=[])
-    for flag in ("aggregate", "csv", "frames", "json", "map"):
+    for flag in ("aggregate", "csv", "frames", "json", "last", "list", "map"):
         parser.add_argument(f"--{flag}", action="store_true")
-    for name in ("columns", "x", "y", "out", "format", "width"):
+    for name in ("columns", "x", "y", "out", "format", "width", "run", "from", "to", "every"):
         parser.add_argument(f"--{name}", default="")
     options = parser.parse_args(words[1:])
     options.id = options.ids[0] if options.ids else ""
@@ -40,11 +40,11 @@ def _run(verb: str, options: argparse.Namespace) -> None:
         from .plot import plot
         plot(options)
         return
-    if verb in ("pack", "unpack"):
+    if verb in ("export", "pack", "unpack"):
         if missing := not_installed("numpy", "h5py"):
             raise ShakenError(missing)
-        from . import pack
-        getattr(pack, verb)(options)
+        from . import export, pack
+        getattr(export if verb == "export" else pack, verb)(options)
         return
     from . import results
     verbs = {"results": results.results, "fields": results.fields, "inset": results.inset}

@@ -11,7 +11,7 @@ from ..daemon import Daemon
 from ..errors import ShakenError
 from ..estimate import MARKS
 from ..rows import Row, aggregated, axes_of, field_names, has_several_versions, resolved, short_name, swept, target_of
-from ..text import Column, in_yellow, json_text, number_text, printable, table, terminal_width, value_text
+from ..text import Column, csv_line, in_yellow, json_text, number_text, printable, table, terminal_width, value_text
 from ..units import unit_of
 from .conditions import read, selected
 
@@ -89,10 +89,6 @@ def _print_table(rows: Sequence[Row], options: argparse.Namespace) -> None:
         print(f"no room for {', '.join(left_out)} (--columns FIELD,... chooses, --csv has all)", file=sys.stderr)
 
 
-def _csv_line(texts: Sequence[str]) -> str:
-    return ",".join('"' + text.replace('"', '""') + '"' if set(text) & set(',"') else text for text in texts)
-
-
 def results(options: argparse.Namespace) -> None:
     if options.csv and options.json:
         raise ShakenError("--csv and --json exclude each other")
@@ -107,7 +103,7 @@ def results(options: argparse.Namespace) -> None:
     elif options.csv:
         names = _chosen(rows, options.columns) or field_names(rows)
         lines = [list(map(printable, names)), *([value_text(row.fields.get(name)) for name in names] for row in rows)]
-        print("".join(_csv_line(line) + "\n" for line in lines if names), end="")
+        print("".join(csv_line(line) for line in lines if names), end="")
     else:
         if not options.id:
             print(printable(target.title), file=sys.stderr)
