@@ -28,8 +28,7 @@ class Export : public InPython {
     arguments.option("--to", "TIME", "Frames: none later");
     arguments.option("--every", "N", "Frames: of those, the first and every Nth after it");
     arguments.flag("--last", "Frames: of those, the last one only");
-    arguments.repeatable("--observable", "NAME",
-                         "csv: a group or an array of observables.h5, or summary; repeatable");
+    arguments.repeatable("--observable", "NAME", "csv: a group or an array of observables.h5, or summary; repeatable");
     arguments.flag("--list", "Print the names for --observable");
   }
 
