@@ -40,7 +40,7 @@ Result<void> check(const Snapshot& frame, std::size_t number, const Box& box) {
 }  // namespace
 
 Result<Measured> measure_arrays(const Scene& scene, std::vector<Snapshot> frames, double interval, run::Lacking lacking,
-                                const GoOn& go_on) {
+                                bool is_tracked, const GoOn& go_on) {
   const std::string started = utc_now();
   Result<scene::RunPlan> asked = resolved(scene);
   if (!asked) return asked.error();
@@ -69,8 +69,10 @@ Result<Measured> measure_arrays(const Scene& scene, std::vector<Snapshot> frames
     before = &frame;
   }
   std::vector<std::string> remarks;
-  if (is_followed && frames.size() > 1 && lacking.erase(run::Needs::kVelocities) > 0)
-    remarks.push_back(run::set_velocities(frames, interval));
+  const bool is_without = is_followed && frames.size() > 1 && lacking.erase(run::Needs::kVelocities) > 0;
+  if (is_without) run::set_velocities(frames, interval);
+  if (is_without || (is_tracked && !lacking.contains(run::Needs::kVelocities)))
+    remarks.push_back(run::remark_on_velocities(frames.size(), interval));
   std::vector<run::RecordedFrame> recorded;
   recorded.reserve(frames.size());
   for (const Snapshot& frame : frames) recorded.push_back(run::record(frame));

@@ -3,6 +3,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <limits>
 #include <mutex>
 #include <optional>
@@ -270,8 +271,10 @@ struct Told {
     if (!is_followed) found.insert(run::Needs::kIdentities);
     if (lacking_words) {
       found.merge(run::lacking_of(*lacking_words));
-    } else if (!run::heads_are_told(frames)) {
-      found.insert(run::Needs::kHeads);
+    } else {
+      run::HeadsSeen heads;
+      for (const Snapshot& frame : frames) std::ranges::for_each(frame.director, [&](const Vec3& n) { heads.see(n); });
+      if (!heads.are_told()) found.insert(run::Needs::kHeads);
     }
     return found;
   }
@@ -280,6 +283,7 @@ struct Told {
 /// `frames`: (positions, directors, velocities, images or None) of each, (n, 3), and the sides of its box, or None.
 py::tuple measure(const std::string& scene, std::vector<std::string> settings, const py::list& frames, double interval,
                   bool has_velocities, bool has_tilts, bool is_followed, std::optional<std::string> lacking_words) {
+  const bool is_tracked = lacking_words && !lacking_words->empty();
   const Told told{has_velocities, has_tilts, is_followed, std::move(lacking_words)};
   std::vector<Snapshot> snapshots;
   for (const py::handle each : frames) {
@@ -298,7 +302,8 @@ py::tuple measure(const std::string& scene, std::vector<std::string> settings, c
   }
   Result<Measured> found = without_python([&] {
     run::Lacking lacking = told.lacking(snapshots);
-    return measure_arrays({scene, std::move(settings)}, std::move(snapshots), interval, std::move(lacking), goes_on);
+    return measure_arrays({scene, std::move(settings)}, std::move(snapshots), interval, std::move(lacking), is_tracked,
+                          goes_on);
   });
   const Measured measured = value_unless_interrupted(std::move(found));
   return py::make_tuple(measured.scene, measured.summary, dict_of(measured.arrays));

@@ -140,12 +140,10 @@ class Trajectory:
             raise ShakenError("a trajectory gives one frame at a time; frames() gives many")
         k = range(len(self))[k]
         of, rods = self._recorded, self._recorded.read(k)
-        velocities, lacking = rods["velocity"].astype(float), str(of.header.get("lacking", ""))
-        if "velocities" in lacking.split(", "):
-            velocities[:] = np.nan
         return Frame(float(rods["time"]), int(rods["tick"]), rods["position"].astype(float),
-                     directors_of(rods["orientation"]), velocities, rods["image"], self.species, of.box.copy(),
-                     of.spheres, of.periodic, functools.partial(picture, self.path, k), lacking)
+                     directors_of(rods["orientation"]), rods["velocity"].astype(float), rods["image"].copy(),
+                     self.species, of.box.copy(), of.spheres, of.periodic, functools.partial(picture, self.path, k),
+                     of.lacking)
 
     def frames(self, every: float | str | None = None) -> Iterator[Frame]:
         """The frames one by one. With `every` ([s], or "0.1 s"), those nearest to its multiples, each once. Raises

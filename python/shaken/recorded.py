@@ -11,7 +11,7 @@ from typing import Any, Callable, Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from .errors import Failed
+from .errors import Failed, ShakenError
 from .hdf5 import hash_of, open_file
 
 _WIDTHS = {"position": 3, "velocity": 3, "orientation": 4, "image": 3}
@@ -27,14 +27,15 @@ class Recorded:
     shapes:       (n,) of the rods, from 0; species: (n,) theirs; species_of_shape: (shapes,); has_sizes: whether a
                   species may have several shapes
     spheres:      the species that are spheres
-    header:       what else does not change: walls, scene (as text), run_id, seed, lacking
-    read:         reads a frame, with the fields tick, time, position (n, 3), velocity (n, 3), orientation (n, 4), which
-                  is (w, x, y, z), and image (n, 3); raises Failed
+    header:       what else does not change: walls, scene (as text), run_id, seed
+    lacking:      what nobody knows of tracked rods, in words
     """
 
     def __init__(self, path: Path, header: Mapping[str, Any], ticks: NDArray[Any], times: NDArray[Any],
                  read: Callable[[int], Any]) -> None:
-        self.path, self.header, self.ticks, self.times, self.read = path, header, ticks, times, read
+        self.path, self.header, self.ticks, self.times, self._read = path, header, ticks, times, read
+        self.lacking = str(header.get("lacking", ""))
+        self._has_velocities = "velocities" not in self.lacking.split(", ")
         self.dt, side = float(header["dt_s"]), header["box_side_mm"]
         self.box = np.array([side, header.get("box_side_y_mm", side), header["gap_mm"]])
         self.beads = [(np.asarray(row["offset_mm"], float), np.asarray(row["radius_mm"], float))
@@ -50,9 +51,18 @@ class Recorded:
         arena = header.get("walls", {}).get("arena")
         self.periodic = (arena in (None, "channel"), arena is None)  # a channel's walls are along x
 
+    def read(self, k: int) -> Any:
+        """A frame, with the fields tick, time, position (n, 3), velocity (n, 3), NaN where it is lacking, orientation
+        (n, 4), which is (w, x, y, z), and image (n, 3). Raises Failed."""
+        frame = self._read(k)
+        if not self._has_velocities:
+            frame = frame.copy()
+            frame["velocity"] = np.nan
+        return frame
+
     def checked(self, k: int) -> Any:
         """As `read`. Raises Failed where a number is none that a rod in the box can have, too."""
-        frame = self.read(k)
+        frame = self._read(k)
         square = (frame["orientation"].astype(float) ** 2).sum(axis=1)
         # a box to either side leaves room for rounding, and for files that count from its middle; false for NaN
         for what, values, middle, most in (("squared length of the orientation", square, 1, 1e-3),
@@ -62,7 +72,7 @@ class Recorded:
             for at in np.argwhere(~(np.abs(values - middle) <= most))[:1]:
                 raise Failed(f"{self.path}: frame {k}: the {what} of rod {at[0]} is {values[tuple(at)]:g}: the file "
                               "is damaged")
-        return frame
+        return self.read(k)
 
 
 def recorded(path: Path) -> Recorded:
@@ -71,6 +81,8 @@ def recorded(path: Path) -> Recorded:
         with path.open("rb") as file:
             is_log = file.read(8) == b"SHKNFRAM"
         return _of_log(path) if is_log else _of_hdf5(path)
+    except (FileNotFoundError, IsADirectoryError, PermissionError) as error:
+        raise ShakenError(f"{path}: {error.strerror}") from None
     except (OSError, KeyError, TypeError, ValueError, IndexError, struct.error) as error:
         raise Failed(f"{path} is damaged: {error}") from None
 
@@ -103,8 +115,13 @@ def _of_hdf5(path: Path) -> Recorded:
     if "walls" in parameters:
         header["walls"] = {name: text(value) for name, value in parameters["walls"].attrs.items()}
 
+    n = int(header["n_rods"])
+    if any(arrays[name].shape[1:] != (n, width) for name, width in _WIDTHS.items()) or (
+            len(groups) > 1 and len(header["species_of_rod"]) != n):
+        raise ValueError(f"arrays are not of {n} rods")
+
     def read(k: int) -> Any:
-        frame = np.zeros((), _record_of(header["n_rods"]))
+        frame = np.zeros((), _record_of(n))
         try:
             for name, array in arrays.items():
                 frame[name] = array[k]

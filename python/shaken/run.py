@@ -1,6 +1,7 @@
 """A run that has been done: its scene, its numbers with their errors, its curves, and its recorded frames."""
 from __future__ import annotations
 
+import contextlib
 import difflib
 import functools
 import json
@@ -290,19 +291,20 @@ def _present_state(directory: Path) -> str:
     return "the run was stopped before its end" if word == "stopped" else "the run has not ended yet"
 
 
-def arrays_in(directory: Path) -> Arrays:
-    """Those of the observables.h5 of a run; none where there is no such file."""
+def arrays_in(directory: Path, opened: Any = None) -> Arrays:
+    """Those of the observables.h5 of a run; none where there is no such file. All are of one checkpoint if `opened` is
+    that file, which stays open: a run at work replaces it."""
     path, names = directory / "observables.h5", list[str]()
 
     def read(name: str) -> tuple[NDArray[Any], str]:
-        with open_file(path) as file:
+        with contextlib.nullcontext(opened) if opened else open_file(path) as file:
             data = file[name]
             unit = data.attrs.get("unit", "1")
             return data[()], unit.decode() if isinstance(unit, bytes) else str(unit)
 
     if path.exists():
         h5py = h5py_module()
-        with open_file(path) as file:
+        with contextlib.nullcontext(opened) if opened else open_file(path) as file:
             file.visititems(lambda name, item: names.append("/" + name) if isinstance(item, h5py.Dataset) else None)
     return Arrays(names, read)
 
@@ -314,9 +316,10 @@ def frames_in(directory: Path) -> Path:
 
 
 class DirectoryRun(Run):
-    """A run in its directory. Nothing but scene.json and summary.json is read until it is asked for. Raises ShakenError
-    where the directory is none of a run, or the run has not ended; with `so_far` one that has recorded frames may be at
-    work: it has these only, and its summary is empty."""
+    """A run in its directory. Nothing but scene.json and summary.json is read until it is asked for.
+
+    With `so_far` the run may be at work if it has recorded frames: it has these only, and its summary is empty. Raises
+    ShakenError where the directory is none of a run, or else the run has not ended."""
 
     def __init__(self, directory: str | Path, parameters: Mapping[str, Any] | None = None,
                  so_far: bool = False) -> None:

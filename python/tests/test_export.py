@@ -10,9 +10,10 @@ import pytest
 
 from conftest import FRAMES, log_at
 from shaken import recorded
+from shaken import run as run_module
 from shaken.frame_formats import angles_to_director, beads_xyz, extended_xyz, swept_height
 from shaken.frames import directors_of
-from shaken.tables import app
+from shaken.tables import app, columns
 
 COMMENT = ' pbc="T T F" Time=2 Step=32 units="mm s" source="Shaken run 0123456789abcdef seed 7"'
 
@@ -194,3 +195,33 @@ def test_damage_and_interruption_leave_the_former_file(export, tmp_path, monkeyp
     assert code == 130 and "interrupted after 3 of 21 frames: no file is written" in err
     assert os.listdir(".") == [name] and open(name).read() == "old"
     assert export("--out=no/such/a.xyz")[::2] == (1, "shaken: cannot write no/such/a.xyz: No such file or directory\n")
+
+
+def test_a_table_is_of_one_checkpoint_though_the_run_writes_another(export, tmp_path, monkeypatch):
+    class Replaced(columns.Arrays):
+        def __getitem__(self, name):
+            with h5py.File(tmp_path / "next.h5", "w") as file:
+                file["msd/total_mm2"] = file["msd/lag_s"] = np.full(2, 1000.0)
+            os.replace(tmp_path / "next.h5", tmp_path / "first/observables.h5")
+            return super().__getitem__(name)
+
+    monkeypatch.setattr(run_module, "Arrays", Replaced)
+    assert export("--format=csv", "--observable=msd", "--out=-")[1].splitlines()[1:] == ["1,0.5", "2,0.75"]
+    assert export("--format=csv", "--observable=msd", "--out=-")[1].splitlines()[1:] == ["1000,1000"] * 2
+
+
+def test_what_is_no_run_is_said_in_its_own_words(export, tmp_path):
+    for path, words in ((tmp_path / "none.h5", "No such file"), (tmp_path, "Is a directory")):
+        with pytest.raises(recorded.ShakenError, match=words):
+            recorded.recorded(path)
+    (tmp_path / "first/summary.json").write_text('{"measured": {"x": 3}, "order": 5, "n_rods": 2}')
+    assert export("--format=csv", "--observable=summary", "--out=-")[1].splitlines()[1:] == ["n_rods,2,,,,"]
+    with pytest.raises(recorded.Failed, match="are not of 2 rods"):
+        with h5py.File(tmp_path / "one.h5", "w") as file:
+            parameters, rods = file.create_group("parameters"), file.create_group("particles/trajectory")
+            parameters.attrs.update(n_rods=2, box_side_mm=9.0, gap_mm=1.0, dt_s=1e-5)
+            parameters["bead_offset_mm"] = parameters["bead_radius_mm"] = [0.5]
+            rods["position/step"] = rods["position/time"] = [0]
+            for name, width in (("position", 3), ("velocity", 3), ("orientation", 4), ("image", 3)):
+                rods[name + "/value"] = np.zeros((1, 1, width))
+        recorded.recorded(tmp_path / "one.h5")

@@ -99,6 +99,15 @@ def test_a_folder_of_tracks_that_is_measured_anew_knows_what_they_lack(folder):
     for name in ("polar is left out: it needs velocities", "layers is left out: it needs tilts", "msd is left out"):
         assert name in tracks
     assert np.isnan(next(iter(shaken.open(once["directory"]).frames())).velocities).all()
+    said(PROGRAMS / "shaken", "export", once["directory"], "-o", folder / "few.extxyz", "--last")
+    assert (folder / "few.extxyz").read_text().splitlines()[2].split()[15:18] == ["nan"] * 3, "nothing is made up"
+
+    rows = [f"{frame},{rod},{2 + 3 * rod + frame},{4 + rod},{95 * rod}" for frame in range(3) for rod in range(4)]
+    (folder / "few.csv").write_text("\n".join(["frame,id,x,y,angle", *rows]))
+    for again in (folder / "few.csv", folder / "out"):
+        answer = said(PROGRAMS / "shaken", "measure", again, "-o", folder / "out", *["--json"][:again.is_dir()],
+                      *(["--scene", folder / "lab.json", "--interval", "10ms"] if again.is_file() else []))
+        assert "velocities are displacements from the frame before to the one after, over 0.02 s" in answer
 
 
 def test_heads_of_a_run_are_known_where_all_point_one_way_and_those_of_arrays_are_not(folder):

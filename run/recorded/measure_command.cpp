@@ -25,6 +25,7 @@
 #include "run/loop/summary.h"
 #include "run/recorded/measure_frames.h"
 #include "run/recorded/track_table.h"
+#include "run/recorded/tracks.h"
 #include "scene/canonical.h"
 #include "scene/load.h"
 
@@ -76,6 +77,11 @@ keys::Loaded<Task> task_of(const MeasureOptions& asked, const TrajectoryReader& 
   auto made = plan_for_frames({own, name}, {given, asked.scene.empty() ? name : asked.scene}, asked.settings, *spacing,
                               lacking);
   if (!made) return made.error();
+  const bool is_tracked = !frames.header().lacking.empty();
+  if (is_tracked && !lacking.contains(Needs::kVelocities)) {
+    const double interval = static_cast<double>(*spacing) * frames.header().dt;
+    made->remarks.insert(made->remarks.begin(), remark_on_velocities(frames.recorded().n_frames(), interval));
+  }
   return Task{*std::move(made), &frames.recorded()};
 }
 

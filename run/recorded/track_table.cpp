@@ -72,6 +72,10 @@ class TrackTable {
   TrackTable(const std::string& file, const scene::RunPlan& plan, const TrackConventions& conventions,
              std::vector<Problem>& problems)
       : file_(file), plan_(plan), conventions_(conventions), problems_(problems) {
+    has_axis_.push_back(plan.system.rod.has_axis());
+    for (const auto& added : plan.system.added) {
+      if (added) has_axis_.push_back(added->rod.has_axis());
+    }
     for (const Eigen::Index k : {0, 1}) {
       view_[k] = period_[k] > 0 ? plan.system.box()[k] : plan.system.walls->extent()[k];
     }
@@ -190,6 +194,15 @@ class TrackTable {
     rod.position = {conventions_.scale * value("x", 0), conventions_.scale * value("y", 0),
                     has("z") ? conventions_.scale * value("z", 0) : plan_.system.gap / 2};
     if (flips) rod.position.y() = view_.y() - rod.position.y();
+    if (species_.size() > 1) {
+      const CsvField& field = fields[place_.at("species")];
+      const Result<std::uint8_t> species = species_in(field.text, species_);
+      if (!species) report(species.error().message, line, field.column);
+      rod.species = species ? *species : std::uint8_t{0};
+      if (has("id") && species_of_.emplace(rod.id, rod.species).first->second != rod.species)
+        report(fmt::format("rod {:g} is of another species than before", rod.id), line, field.column);
+    }
+    const bool was_missed = is_missed;
     if (has("angle")) {
       const double unit = in_radians() ? 1 : kRadian;
       const double angle = value("angle", 0), tilt = value("tilt", 0);
@@ -206,15 +219,11 @@ class TrackTable {
       is_missed = is_missed || length == 0;
       if (length > 0) rod.director /= length;
     }
-    if (flips && called_["angle"] != kCountedUpwards) rod.director.y() = -rod.director.y();
-    if (species_.size() > 1) {
-      const CsvField& field = fields[place_.at("species")];
-      const Result<std::uint8_t> species = species_in(field.text, species_);
-      if (!species) report(species.error().message, line, field.column);
-      rod.species = species ? *species : std::uint8_t{0};
-      if (has("id") && species_of_.emplace(rod.id, rod.species).first->second != rod.species)
-        report(fmt::format("rod {:g} is of another species than before", rod.id), line, field.column);
+    if (!has_axis_[rod.species]) {  // whatever stands there
+      rod.director = Vec3::UnitX();
+      is_missed = was_missed;
     }
+    if (flips && called_["angle"] != kCountedUpwards) rod.director.y() = -rod.director.y();
     const double frame = has("frame") ? value("frame", 0) : value("t", 0);
     if (has("t")) time_of_.emplace(frame, value("t", 0));
     if (is_missed) {
@@ -283,8 +292,19 @@ class TrackTable {
     return {before.id, before.position + part * step, turned.normalized(), before.species};
   }
 
+  /// Whether heads are told, of every species that has axes.
+  void note_heads() {
+    std::vector<HeadsSeen> heads(species_.size());
+    for (const auto& [number, rods] : frames_) {
+      for (const Sighting& rod : rods) heads[rod.species].see(rod.director);
+    }
+    for (std::size_t k = 0; k < heads.size(); ++k)
+      heads_are_told_ = heads_are_told_ && (heads[k].are_told() || !has_axis_[k]);
+  }
+
   /// Which rods can be followed.
   void note_identities() {
+    note_heads();  // of what was seen: a rod that is filled in may turn by the other side
     if (conventions_.filled > 0 && has("id")) fill_gaps();
     const std::size_t n = frames_.size();
     if (has("id")) {
@@ -349,6 +369,10 @@ class TrackTable {
     std::vector<std::size_t> n_rods{std::max<std::size_t>(mean, 1)};
     if (species_.size() > 1) {
       n_rods = n_of_species(frames_.begin()->second);
+      for (std::size_t k = 0; k < n_rods.size(); ++k) {
+        if (n_rods[k] == 0) report(fmt::format("the first frame has no rod of the species {}", species_[k]));
+      }
+      if (std::ranges::find(n_rods, 0U) != n_rods.end()) return std::nullopt;
       for (const auto& [number, rods] : frames_) {
         if (n_of_species(rods) == n_rods) continue;
         report(
@@ -377,11 +401,12 @@ class TrackTable {
       frames.push_back(snapshot_of(rods, spacing * static_cast<Tick>(frames.size()), *plan, before));
     }
     if (is_followed_ && frames.size() > 1) {
-      remarks_.push_back(set_velocities(frames, interval));
+      set_velocities(frames, interval);
+      remarks_.push_back(remark_on_velocities(frames.size(), interval));
     } else {
       found.lacking.insert(Needs::kVelocities);
     }
-    if (!heads_are_told(frames)) found.lacking.insert(Needs::kHeads);
+    if (!heads_are_told_) found.lacking.insert(Needs::kHeads);
     std::vector<RecordedFrame> recorded;
     recorded.reserve(frames.size());
     for (const Snapshot& frame : frames) recorded.push_back(record(frame));
@@ -425,6 +450,7 @@ class TrackTable {
   const TrackConventions& conventions_;
   std::vector<Problem>& problems_;
   const std::vector<std::string> species_ = species_names(plan_.system);
+  std::vector<bool> has_axis_;  ///< of each species; spheres need no angle
   const Vec2 period_ = period_of(plan_.system.box(), plan_.system.walls);
   Vec2 view_;  ///< sides of what the table is of: the box, or the rectangle around the arena [mm]
   std::vector<std::string> remarks_;
@@ -438,6 +464,7 @@ class TrackTable {
   std::map<double, std::set<double>> seen_;         ///< in which frames a rod is
   std::map<double, std::uint8_t> species_of_;       ///< of rods that are followed
   bool is_followed_ = false;
+  bool heads_are_told_ = true;
   std::size_t n_missed_ = 0;
   double largest_angle_ = 0;
 };

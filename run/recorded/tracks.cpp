@@ -49,7 +49,7 @@ void fold_into_box(Snapshot& frame, const Vec2& period, const Snapshot* before) 
   }
 }
 
-std::string set_velocities(std::span<Snapshot> frames, double interval) {
+void set_velocities(std::span<Snapshot> frames, double interval) {
   for (std::size_t k = 0; k < frames.size(); ++k) {
     const std::size_t before = k > 0 ? k - 1 : 0, after = std::min(k + 1, frames.size() - 1);
     const double span = interval * static_cast<double>(after - before);
@@ -58,21 +58,11 @@ std::string set_velocities(std::span<Snapshot> frames, double interval) {
       frames[k].velocity.emplace_back((frames[after].unwrapped(i) - frames[before].unwrapped(i)) / span);
     }
   }
-  return fmt::format("velocities are displacements from the frame before to the one after, over {:.6g} s",
-                     std::min<double>(2, static_cast<double>(frames.size() - 1)) * interval);
 }
 
-bool heads_are_told(std::span<const Snapshot> frames) {
-  // of -90 to 90 degrees all x are positive, of 0 to 180 all y, or, turned over with an image, none
-  Vec2 least = Vec2::Zero(), most = Vec2::Zero();
-  for (const Snapshot& frame : frames) {
-    for (const Vec3& director : frame.director) {
-      least = least.cwiseMin(director.head<2>());
-      most = most.cwiseMax(director.head<2>());
-    }
-  }
-  constexpr double kRounding = 1e-9;
-  return least.maxCoeff() < -kRounding && most.minCoeff() > kRounding;
+std::string remark_on_velocities(std::size_t n_frames, double interval) {
+  return fmt::format("velocities are displacements from the frame before to the one after, over {:.6g} s",
+                     (n_frames > 2 ? 2 : 1) * interval);
 }
 
 }  // namespace shaken::run

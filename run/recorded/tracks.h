@@ -35,10 +35,25 @@ inline constexpr double kMostBoxes = 1e6;
 void fold_into_box(Snapshot& frame, const Vec2& period, const Snapshot* before);
 
 /// Sets the velocities of rods that are the same in all frames, two or more that are `interval` [s] apart: from the
-/// frame before to the one after, and at both ends from or to the next. What is to be said of that.
-std::string set_velocities(std::span<Snapshot> frames, double interval);
+/// frame before to the one after, and at both ends from or to the next.
+void set_velocities(std::span<Snapshot> frames, double interval);
+/// What is to be said of that.
+std::string remark_on_velocities(std::size_t n_frames, double interval);
 
-/// Whether rods point to all sides. Trackers that know no heads give angles of one half turn.
-bool heads_are_told(std::span<const Snapshot> frames);
+/// Whether rods of one species point to all sides, as far as seen. Trackers that know no heads give angles of one half
+/// turn; of one that gives either end at random that cannot be told.
+class HeadsSeen {
+ public:
+  void see(const Vec3& director) {
+    least_ = least_.cwiseMin(director.head<2>());
+    most_ = most_.cwiseMax(director.head<2>());
+  }
+  bool are_told() const { return least_.maxCoeff() < -kRounding && most_.minCoeff() > kRounding; }
+
+ private:
+  static constexpr double kRounding = 1e-9;
+  // of -90 to 90 degrees all x are positive, of 0 to 180 all y, or, turned over with an image, none
+  Vec2 least_ = Vec2::Zero(), most_ = Vec2::Zero();
+};
 
 }  // namespace shaken::run

@@ -64,8 +64,10 @@ void describe(CLI::App& app, run::WorkerOptions& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // A frame's buffers come and go. Given back to the system each time, they cost a short run half of its CPU time.
+  // A frame's buffers come and go. Given back to the system each time, they cost a short run half of its CPU time. With
+  // a threshold for the heap's end that for blocks of their own is 128 kB for ever, unless it is said, too.
   mallopt(M_TRIM_THRESHOLD, 64 << 20);
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);
   if (argc > 1 && std::string_view(argv[1]) == "replay") return run::replay_command(argc - 1, argv + 1);
   if (argc > 1 && std::string_view(argv[1]) == "read") return run::read_command(argc - 1, argv + 1);
   if (argc > 1 && std::string_view(argv[1]) == "import") return run::import_command(argc - 1, argv + 1);

@@ -8,7 +8,7 @@ from __future__ import annotations
 import argparse
 from typing import Sequence
 
-from ..errors import ShakenError
+from ..errors import Failed, ShakenError
 from ..program import FAILED, Options, not_installed, run
 
 
@@ -56,6 +56,8 @@ def main(words: Sequence[str]) -> int:
         try:
             _run(words[0], options)
         except (AttributeError, KeyError, TypeError) as error:
+            if words[0] == "export":
+                raise Failed(f"a file of the run is not as expected ({error!r})") from None
             raise _Misunderstood(f"an answer of the daemon is not as expected ({error!r}): is it of another version?"
                                  ) from None
 

@@ -114,8 +114,10 @@ def summary_csv(summary: Mapping[str, Any]) -> str:
     def rows() -> Iterator[list[str]]:
         for key, value in summary.items():
             if key == "measured":
-                yield from (row(name, number.get("value"), number) for name, number in value.items())
+                yield from (row(name, number.get("value"), number) for name, number in value.items()
+                            if isinstance(number, dict))
                 continue
+            value = None if key == "order" and not isinstance(value, dict) else value
             below = {"order." + name: value[name] for name in ("std", "tau_s", "t_steady_s") if name in value} if (
                 key == "order" and value) else {key: value}
             if key == "order" and value:

@@ -18,7 +18,7 @@ import numpy as np
 from ..daemon import Daemon
 from ..errors import Failed, ShakenError, imported
 from ..frame_formats import beads_xyz, extended_xyz, gsd_snapshots
-from ..hdf5 import try_to_read
+from ..hdf5 import open_file, try_to_read
 from ..program import INTERRUPTED
 from ..recorded import Recorded, recorded
 from ..rows import target_of
@@ -78,6 +78,8 @@ def _settle(options: argparse.Namespace) -> None:
 def _directory_of(options: argparse.Namespace) -> tuple[Path, str]:
     """That of the run, and a name for what is made of it."""
     path = Path(options.run)
+    if path.is_file():
+        raise ShakenError(f"{options.run} is a file: name the directory of the run, {path.parent}")
     if (path / "scene.json").exists():
         return path, path.resolve().name
     jobs = target_of(Daemon(options.root), options.run).jobs
@@ -101,15 +103,28 @@ def _table(directory: Path, options: argparse.Namespace) -> str:
         path = _required(directory / "summary.json", "the run has not ended")
         try:
             return summary_csv(json.loads(path.read_text()))
-        except (ValueError, AttributeError) as error:
+        except (ValueError, AttributeError, TypeError) as error:
             raise Failed(f"{path} is damaged: {error}") from None
     if options.list and has_summary and not (directory / "observables.h5").exists():
         return "summary\n"
     _required(directory / "observables.h5", "the run has measured nothing yet, or its scene asks for nothing")
-    arrays = arrays_in(directory)
-    if options.list:
-        return "".join(line + "\n" for line in (*["summary"] * has_summary, *observables_list(arrays)))
-    return observables_csv(arrays, options.observable)
+    with open_file(directory / "observables.h5") as opened:
+        arrays = arrays_in(directory, opened)
+        if options.list:
+            return "".join(line + "\n" for line in (*["summary"] * has_summary, *observables_list(arrays)))
+        return observables_csv(arrays, options.observable)
+
+
+def _frames(directory: Path) -> Recorded:
+    """Of a run that may end meanwhile, when trajectory.part becomes trajectory.h5."""
+    remedy = 'the run records no frames: its scene needs a "trajectory" or "movie" block'
+    path = frames_in(directory)
+    try:
+        return recorded(_required(path, remedy))
+    except ShakenError:
+        if path.exists() or not frames_in(directory).exists():
+            raise
+        return recorded(_required(frames_in(directory), remedy))
 
 
 def _chosen(of: Recorded, options: argparse.Namespace) -> range:
@@ -140,6 +155,8 @@ def _write_frames(of: Recorded, chosen: range, form: str, file: BinaryIO) -> Non
                           flush=True)
     except KeyboardInterrupt:
         raise _Interrupted(f"interrupted after {n} of {len(chosen)} frames: no file is written") from None
+    except RuntimeError as error:  # of gsd
+        raise Failed(f"{form} cannot be written: {error}") from None
     finally:
         if shown:
             print("\r\x1b[K", end="", file=sys.stderr, flush=True)
@@ -168,8 +185,7 @@ def export(options: argparse.Namespace) -> None:
         out, said = "-" if options.list else options.out or f"{name}-{named}.csv", ""
         _put(out, lambda file: file.write(text))
     else:
-        of = recorded(_required(frames_in(directory),
-                                'the run records no frames: its scene needs a "trajectory" or "movie" block'))
+        of = _frames(directory)
         chosen, out = _chosen(of, options), options.out or f"{name}.{options.format}"
         _put(out, lambda file: _write_frames(of, chosen, options.format, file))
         n, rods = len(chosen), len(of.shapes)

@@ -261,6 +261,23 @@ TEST(TrackTable, HeadsAreNotToldByAnglesOfHalfATurn) {
   EXPECT_FALSE(are_told("-90 -30 0 60 90"));
   EXPECT_FALSE(are_told("0 30 90 120 180"));
   EXPECT_TRUE(are_told("0 30 90 120 180 -20"));
+  TrackConventions filling = at_intervals();
+  filling.filled = 1;  // of an axis that turns from 179 to 1 degree, by way of 180
+  const std::string turning = "frame,id,x,y,angle\n0,1,1,2,179\n2,1,1,2,1\n0,2,5,5,20\n1,2,5,5,30\n2,2,5,5,80\n";
+  EXPECT_TRUE(tracks_in(turning, filling).lacking.contains(Needs::kHeads));
+}
+
+TEST(TrackTable, SpheresNeedNoAngleAndTellNothingOfTheHeadsOfOthers) {
+  scene::RunPlan mixed = dish();
+  auto& balls = mixed.system.added[0].emplace().rod;
+  balls.n_beads = 1;
+  balls.length = balls.mid_diameter;
+  const TrackedRods tracks = tracks_in(
+      "frame,id,x,y,angle,species\n0,1,1,2,10,0\n0,2,5,5,,1\n0,3,9,9,-100,1\n0,4,9,2,170,0\n", at_intervals(), mixed);
+  EXPECT_EQ(tracks.plan.system.n_all_rods(), 4);
+  EXPECT_TRUE(tracks.lacking.contains(Needs::kHeads));
+  EXPECT_THAT(refusal_of("frame,x,y,angle,species\n0,1,2,3,0\n", at_intervals(), mixed),
+              HasSubstr("the first frame has no rod of the species rods_2"));
 }
 
 TEST(TrackTable, OfTwoSpeciesIsMeasuredSpeciesBySpecies) {
