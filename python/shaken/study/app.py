@@ -85,8 +85,8 @@ def problems_of(options: argparse.Namespace) -> list[str]:
         found.append(f"--width takes 89mm, 120mm, 183mm or another, not '{options.width}'")
     if options.draw_only and options.dry_run:
         found.append("--draw-only and --dry-run exclude each other")
-    if options.draw_only and options.plan:
-        found.append("--draw-only and --plan exclude each other")
+    found += [f"--draw-only and --{name} exclude each other" for name in ("plan", "collect")
+              if options.draw_only and getattr(options, name)]
     if options.executor not in (None, "local", "slurm"):
         found.append(f"--executor takes local or slurm, not '{options.executor}'")
     if options.executor != "slurm":
