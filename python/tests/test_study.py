@@ -104,6 +104,7 @@ def test_a_plan_for_a_computing_centre(programs, tmp_path):
     (["99"], "no such figure: 99"), (["--format", "jpg"], "png, pdf or svg"), (["--width", "wide"], "--width takes"),
     (["--budget", "3q"], "is no time"), (["--plan", "p.md"], "--plan is for Slurm"), (["--memory", "2G"], "for Slurm"),
     (["--report", "nowhere.md"], "no such file"), (["--draw-only", "--dry-run"], "exclude each other"),
+    (["--draw-only", "--collect"], "exclude each other"),
     (["--scale", "huge"], "tiny, desk, paper"), (["--width", "5mm"], "from 40mm"),
     (["--configs", "nowhere", "--dry-run"], "nowhere has no sweeps of the figures"),
     (["--archive", "nowhere", "--draw-only"], "nowhere is none")])
