@@ -4,6 +4,7 @@ import math
 import os
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -122,6 +123,14 @@ def test_heads_of_a_run_are_known_where_all_point_one_way_and_those_of_arrays_ar
                    for k, (x, a) in enumerate(frames)]
     polar = shaken.measure(as_of_a_run, box=20, polar=True).numbers["P"].value
     assert polar == pytest.approx(math.sin(math.radians(20)) / (4 * math.sin(math.radians(5))), abs=1e-6)
+
+
+def test_a_measurement_in_a_parcel_is_not_said_to_run_again(folder):
+    measured = json.loads(measure(folder, folder / "sim"))["directory"]
+    for run, words in ((measured, "measured, not simulated"), (folder / "sim", "with the same bits")):
+        said(PROGRAMS / "shaken", "pack", run, "-o", folder / "one.tar.xz")
+        unpacked = folder / f"unpacked-{Path(run).name}"
+        assert words in said(PROGRAMS / "shaken", "unpack", folder / "one.tar.xz", "-o", unpacked)
 
 
 def test_what_is_wrong_is_said_with_code_2(folder):

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import argparse
+import json
 from pathlib import Path
 
 from .. import packed
@@ -53,5 +54,7 @@ def unpack(options: argparse.Namespace) -> None:
         print(json_text({"folder": folder, "directories": list(map(str, directories))}))
         return
     shown = printable(folder.rstrip("/"))
-    print(f"{_counted(len(directories))} in {shown}/: `shaken results {shown}/`; once more, with the same bits, by "
-          f"`shaken run {printable(str(directories[0]))}/scene.json`")
+    simulated = [each for each in directories if not json.loads((each / "summary.json").read_text()).get("frames")]
+    again = (f"; once more, with the same bits, by `shaken run {printable(str(simulated[0]))}/scene.json`" if simulated
+             else "; measured, not simulated: no run gives that again")
+    print(f"{_counted(len(directories))} in {shown}/: `shaken results {shown}/`{again}")
