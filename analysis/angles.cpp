@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "analysis/geometry/periodic.h"
@@ -10,11 +9,6 @@
 #include "base/core/check.h"
 
 namespace shaken::analysis {
-
-double angle_to_axis(const Vec3& director, double axis) {
-  if (director.x() == 0.0 && director.y() == 0.0) return std::numeric_limits<double>::quiet_NaN();
-  return fold_half_turn(std::atan2(director.y(), director.x()) - axis);
-}
 
 AngleDistribution::AngleDistribution(int bins) : counts_(static_cast<std::size_t>(std::max(bins, 0))) {
   SHAKEN_CHECK(bins >= 1, "a histogram needs a bin");
@@ -24,8 +18,8 @@ void AngleDistribution::accumulate(std::span<const Vec3> directors) {
   const double mean_axis = nematic_order(directors).director;
   const double bins_per_radian = static_cast<double>(counts_.size()) / kPi;
   for (const Vec3& director : directors) {
-    const double theta = angle_to_axis(director, mean_axis);
-    if (std::isnan(theta)) continue;
+    if (director.x() == 0.0 && director.y() == 0.0) continue;
+    const double theta = fold_half_turn(std::atan2(director.y(), director.x()) - mean_axis);
     const auto bin = static_cast<std::size_t>((theta + kPi / 2) * bins_per_radian);
     ++counts_[std::min(bin, counts_.size() - 1)];  // rounding may reach the end just below pi/2
   }

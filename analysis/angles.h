@@ -15,9 +15,6 @@ struct AnglePdf {
   std::vector<double> density;  ///< (bins) [1/rad]; integral 1, or 0 everywhere without samples
 };
 
-/// In-plane angle of a rod to an axis at `axis` [rad], folded into [-pi/2, pi/2); NaN of a rod exactly upright.
-double angle_to_axis(const Vec3& director, double axis);
-
 /// Histogram of the in-plane angles of the rods, measured from the director of the same instant and folded into
 /// [-pi/2, pi/2). Two peaks at +-theta_m are the mark of the layered phase. Rods exactly upright are left out.
 class AngleDistribution : public Summed<AngleDistribution> {
