@@ -106,5 +106,5 @@ def _check_content(path: Path) -> None:
             return
     if _json_beside(path, "progress.json").get("state") != "running":  # which replaces its files one by one
         raise Failed(f"{path} is damaged: it is not the file that the run has written, as its hash in "
-                      "summary.json tells. Put a copy of it back; or remove summary.json beside it and submit the "
-                      "scene again, which makes the run's files anew")
+                     "summary.json tells. Put a copy of it back; or remove summary.json beside it and submit the "
+                     "scene again, which makes the run's files anew")
