@@ -44,6 +44,8 @@ std::size_t unit_begin(std::string_view name) {
 
 std::span<const std::string_view> unit_symbols() { return kSymbols; }
 
+std::string with_sem(std::string_view name) { return std::string(name).insert(unit_begin(name), "_sem"); }
+
 std::string unit_of_name(std::string_view name) {
   std::string_view words = name.substr(unit_begin(name));
   const bool is_inverse = words.starts_with("_per");

@@ -14,4 +14,7 @@ std::span<const std::string_view> unit_symbols();
 /// below, as do all after "per".
 std::string unit_of_name(std::string_view name);
 
+/// What the standard error of an array is called: "/msd/total_sem_mm2" of "/msd/total_mm2".
+std::string with_sem(std::string_view name);
+
 }  // namespace shaken::run

@@ -1,14 +1,11 @@
 #include "analysis/defect_maps.h"
 
 #include <algorithm>
-#include <string>
-#include <vector>
 
 #include "analysis/geometry/region.h"
-#include "run/measure/estimates.h"
 #include "run/measure/measure_defects.h"
 #include "run/measure/measured.h"
-#include "run/measure/measurement_kinds.h"
+#include "run/measure/rows.h"
 
 namespace shaken::run {
 namespace {
@@ -16,34 +13,63 @@ namespace {
 using analysis::DefectMap;
 using analysis::DefectMapSums;
 
-struct MapArray {
-  const char *name, *unit;
-  std::vector<double> DefectMap::*values;
-};
-constexpr MapArray kMapArrays[] = {
-    {"density", "", &DefectMap::density},        {"cos_2theta", "", &DefectMap::cos2},
-    {"sin_2theta", "", &DefectMap::sin2},        {"v_along", "_mm_s", &DefectMap::v_along},
-    {"v_across", "_mm_s", &DefectMap::v_across}, {"tilt_squared", "", &DefectMap::tilt2},
+struct MapsOfBoth {
+  DefectMap plus, minus;
+  double samples;
 };
 
-/// What sums say about the defects of one charge.
-using MapOf = DefectMap (DefectMapSums::*)() const;
-
-void put_maps(const std::string& charge, MapOf map_of, const analysis::Blocked<DefectMapSums>& sums,
-              Reduction& result) {
-  const DefectMap map = (sums.after(result.t_steady).*map_of)();
-  const auto errors = block_errors(sums, result.t_steady, [map_of](const DefectMapSums& part) {
-    const DefectMap found = (part.*map_of)();
-    std::vector<std::vector<double>> curves;
-    for (const MapArray& array : kMapArrays) curves.push_back(found.*array.values);
-    return curves;
-  });
-  std::size_t k = 0;
-  for (const MapArray& array : kMapArrays) {
-    put(result, "/defect_maps/" + charge + "/" + array.name, array.unit,
-        analysis::EstimateCurve{map.*array.values, errors[k++]});
-  }
-}
+constexpr std::array kMapAxes{
+    from<&DefectMapSums::centres>(
+        called("along the defect", "x′",
+               {"along_mm", "(bins) bin centres along x′: of +1/2 defects from the head to the tail"})),
+    from<&DefectMapSums::centres>(
+        called("across the defect", "y′", {"across_mm", "(bins) bin centres along y′, to the left of x′"})),
+};
+constexpr std::array kMapPlus{
+    from<&DefectMap::density>(
+        called("density of rods over its mean", "",
+               {"plus/density",
+                "(bins · bins) number density of rods about +1/2 defects over its mean, row by row: "
+                "`density.reshape(bins, bins)[across, along]`",
+                kWithError})),
+    from<&DefectMap::cos2>(
+        {"plus/cos_2theta", "mean of cos 2θ′, θ′ being the angle of a rod to x′; in the same order", kWithError}),
+    from<&DefectMap::sin2>({"plus/sin_2theta", "mean of sin 2θ′", kWithError}),
+    from<&DefectMap::v_along>(over(
+        "every",
+        called("velocity of rods along $x′$", "", {"plus/v_along_mm_s", "mean velocity of rods along x′", kWithError}),
+        2)),
+    from<&DefectMap::v_across>(over(
+        "every", called("velocity of rods along $y′$", "", {"plus/v_across_mm_s", "that along y′", kWithError}), 2)),
+    from<&DefectMap::tilt2>({"plus/tilt_squared", "mean of n_z²", kWithError}),
+};
+constexpr std::array kMapMinus{
+    from<&DefectMap::density>({"minus/density", "the same about -1/2 defects, mean over their three rays", kWithError}),
+    from<&DefectMap::cos2>({"minus/cos_2theta", "the same about -1/2 defects", kWithError}),
+    from<&DefectMap::sin2>({"minus/sin_2theta", "the same about -1/2 defects", kWithError}),
+    from<&DefectMap::v_along>(over("every", {"minus/v_along_mm_s", "the same about -1/2 defects", kWithError}, 2)),
+    from<&DefectMap::v_across>(over("every", {"minus/v_across_mm_s", "the same about -1/2 defects", kWithError}, 2)),
+    from<&DefectMap::tilt2>({"minus/tilt_squared", "the same about -1/2 defects", kWithError}),
+};
+constexpr std::array kMapNumbers{
+    from<[](const MapsOfBoth& both) { return both.plus.defects / both.samples; }>(
+        {"mapped_defects_plus", "number of +1/2 defects that are mapped, of a sample"}),
+    from<[](const MapsOfBoth& both) { return both.minus.defects / both.samples; }>(
+        {"mapped_defects_minus", "number of -1/2 defects that are mapped"}),
+    from<[](const MapsOfBoth& both) { return both.plus.core_density; }>(
+        {"core_density_plus", "density of rods nearer to a +1/2 defect than the smoothing, over its mean", false,
+         "no defects"}),
+    from<[](const MapsOfBoth& both) { return both.minus.core_density; }>(
+        {"core_density_minus", "the same about -1/2 defects", false, "no defects"}),
+    from<[](const MapsOfBoth& both) { return both.plus.core_along; }>(
+        over("every",
+             {"core_flow_along_mm_s",
+              "mean velocity of rods there along the tail of a +1/2 defect; negative: towards the head", false,
+              "no defects"},
+             2)),
+    from<[](const MapsOfBoth& both) { return both.plus.core_across; }>(
+        over("every", {"core_flow_across_mm_s", "that across the tail, to the left", false, "no defects"}, 2)),
+};
 
 std::unique_ptr<Measurement> measure_defect_maps(const MeasureContext& context) {
   const System& system = context.plan.system;
@@ -58,21 +84,12 @@ std::unique_ptr<Measurement> measure_defect_maps(const MeasureContext& context) 
                     analysis::lone_defects(defects, separation, region), region);
   };
   const auto reduce = [](Reduction& result, const auto& maps) {
-    result.arrays["/defect_maps/along_mm"] = result.arrays["/defect_maps/across_mm"] = maps.sums().empty().centres();
-    put_maps("plus", &DefectMapSums::plus, maps.sums(), result);
-    put_maps("minus", &DefectMapSums::minus, maps.sums(), result);
-    const auto numbers = block_estimates(maps.sums(), result.t_steady, [](const DefectMapSums& part) {
-      const DefectMap plus = part.plus(), minus = part.minus();
-      const auto samples = static_cast<double>(part.samples());
-      return std::vector<double>{plus.defects / samples, minus.defects / samples, plus.core_density,
-                                 minus.core_density,     plus.core_along,         plus.core_across};
+    put(result, "/defect_maps/", kMapAxes, maps.sums().empty());
+    put(result, "/defect_maps/", kMapPlus, maps.sums(), &DefectMapSums::plus);
+    put(result, "/defect_maps/", kMapMinus, maps.sums(), &DefectMapSums::minus);
+    put(result, "", kMapNumbers, maps.sums(), [](const DefectMapSums& part) {
+      return MapsOfBoth{part.plus(), part.minus(), static_cast<double>(part.samples())};
     });
-    result.scalars["mapped_defects_plus"] = numbers[0];
-    result.scalars["mapped_defects_minus"] = numbers[1];
-    result.scalars["core_density_plus"] = numbers[2];
-    result.scalars["core_density_minus"] = numbers[3];
-    result.scalars["core_flow_along_mm_s"] = numbers[4];
-    result.scalars["core_flow_across_mm_s"] = numbers[5];
   };
   return measured(sample, reduce, analysis::DefectMaps({settings.bins, range, std::min(smoothing, range)}));
 }
@@ -84,47 +101,9 @@ MeasurementKind defect_maps_kind() {
       .name = "defect_maps",
       .sources = "defect_maps, defects, geometry/director_field, geometry/region",
       .make = measure_defect_maps,
-      .arrays =
-          {
-              called("along the defect", "x′",
-                     {"along_mm", "(bins) bin centres along x′: of +1/2 defects from the head to the tail"}),
-              called("across the defect", "y′", {"across_mm", "(bins) bin centres along y′, to the left of x′"}),
-              called("density of rods over its mean", "",
-                     {"plus/density",
-                      "(bins · bins) number density of rods about +1/2 defects over its mean, row by row: "
-                      "`density.reshape(bins, bins)[across, along]`",
-                      kWithError}),
-              {"plus/cos_2theta", "mean of cos 2θ′, θ′ being the angle of a rod to x′; in the same order", kWithError},
-              {"plus/sin_2theta", "mean of sin 2θ′", kWithError},
-              over("every",
-                   called("velocity of rods along $x′$", "",
-                          {"plus/v_along_mm_s", "mean velocity of rods along x′", kWithError}),
-                   2),
-              over("every",
-                   called("velocity of rods along $y′$", "", {"plus/v_across_mm_s", "that along y′", kWithError}), 2),
-              {"plus/tilt_squared", "mean of n_z²", kWithError},
-              {"minus/density", "the same about -1/2 defects, mean over their three rays", kWithError},
-              {"minus/cos_2theta", "the same about -1/2 defects", kWithError},
-              {"minus/sin_2theta", "the same about -1/2 defects", kWithError},
-              over("every", {"minus/v_along_mm_s", "the same about -1/2 defects", kWithError}, 2),
-              over("every", {"minus/v_across_mm_s", "the same about -1/2 defects", kWithError}, 2),
-              {"minus/tilt_squared", "the same about -1/2 defects", kWithError},
-          },
+      .arrays = outputs_of(kMapAxes, kMapPlus, kMapMinus),
       .axes = {{"plus/", "across_mm along_mm"}, {"minus/", "across_mm along_mm"}},
-      .numbers =
-          {
-              {"mapped_defects_plus", "number of +1/2 defects that are mapped, of a sample"},
-              {"mapped_defects_minus", "number of -1/2 defects that are mapped"},
-              {"core_density_plus", "density of rods nearer to a +1/2 defect than the smoothing, over its mean", false,
-               "no defects"},
-              {"core_density_minus", "the same about -1/2 defects", false, "no defects"},
-              over("every",
-                   {"core_flow_along_mm_s",
-                    "mean velocity of rods there along the tail of a +1/2 defect; negative: towards the head", false,
-                    "no defects"},
-                   2),
-              over("every", {"core_flow_across_mm_s", "that across the tail, to the left", false, "no defects"}, 2),
-          },
+      .numbers = outputs_of(kMapNumbers),
       .needs = {Needs::kIdentities},
   };
 }

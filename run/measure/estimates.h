@@ -7,31 +7,20 @@
 #include "analysis/errors/blocked.h"
 #include "analysis/errors/estimate_curve.h"
 #include "analysis/errors/jackknife.h"
+#include "run/files/unit_of_name.h"
 #include "run/measure/reduction.h"
 
 namespace shaken::run {
 
-inline Scalar scalar(const Estimate& estimate) { return {estimate}; }
-
-/// The same, and why it has no value if it has none.
+/// The estimate, and why it has no value if it has none.
 inline Scalar scalar_or(const analysis::Estimate& estimate, const char* reason) {
-  Scalar result = scalar(estimate);
-  if (std::isnan(result.value)) result.reason = reason;
-  return result;
+  return {estimate, std::isnan(estimate.value) ? reason : ""};
 }
 
-/// Two arrays, `path``unit` and `path`_sem`unit`.
-inline void put(Reduction& result, const std::string& path, const std::string& unit,
-                const analysis::EstimateCurve& curve) {
-  result.arrays[path + unit] = curve.value;
-  result.arrays[path + "_sem" + unit] = curve.sem;
-}
-
-inline void put(Reduction& result, const std::string& path, const std::string& unit,
-                const std::vector<analysis::Estimate>& points) {
-  analysis::EstimateCurve curve;
-  for (const analysis::Estimate& point : points) curve.push_back(point);
-  put(result, path, unit, curve);
+/// An array, and that of its errors.
+inline void put(Reduction& result, const std::string& path, const analysis::EstimateCurve& curve) {
+  result.arrays[path] = curve.value;
+  result.arrays[with_sem(path)] = curve.sem;
 }
 
 /// The numbers that `numbers`(accumulator) gives of the samples from t_steady [s] on, with errors by the jackknife over
@@ -41,7 +30,7 @@ std::vector<Scalar> block_estimates(const analysis::Blocked<Accumulator>& sample
   std::vector<Scalar> scalars;
   for (const analysis::Estimate& estimate :
        analysis::jackknife(samples.empty(), samples.parts_after(t_steady, analysis::kMostParts), numbers)) {
-    scalars.push_back(scalar(estimate));
+    scalars.push_back({estimate});
   }
   return scalars;
 }

@@ -1,13 +1,28 @@
 #include <algorithm>
 
 #include "analysis/director_fluctuations.h"
-#include "analysis/errors/blocked.h"
-#include "run/measure/estimates.h"
 #include "run/measure/measured.h"
-#include "run/measure/measurement_kinds.h"
+#include "run/measure/rows.h"
 
 namespace shaken::run {
 namespace {
+
+using analysis::DirectorSpectrum;
+
+constexpr std::array kFrankSpectrum{
+    from<&DirectorSpectrum::q_along>({"q_along_per_mm", "wave vectors, one entry each: component along the director"}),
+    from<&DirectorSpectrum::q_across>({"q_across_per_mm", "component across it"}),
+    from<&DirectorSpectrum::power>({"power_mm2", "power of the director fluctuations"}),
+    from<&DirectorSpectrum::fit>({"fit_mm2", "the same from the fitted Frank constants"}),
+};
+constexpr std::array kFrankNumbers{
+    from<&DirectorSpectrum::ratio>({"frank_ratio", "K₃/K₁, bend over splay"}),
+    from<&DirectorSpectrum::splay>({"frank_splay", "K₁, in units of the effective temperature"}),
+    from<&DirectorSpectrum::bend>({"frank_bend", "K₃, in the same units"}),
+    from<&DirectorSpectrum::chi2>({"frank_chi2", "χ² per degree of freedom of the fit: about 1 where the law holds"}),
+    from<&DirectorSpectrum::floor>(
+        {"frank_floor_mm2", "noise level: power of rods without correlation, which has been subtracted"}),
+};
 
 std::unique_ptr<Measurement> measure_frank(const MeasureContext& context) {
   const System& system = context.plan.system;
@@ -16,16 +31,9 @@ std::unique_ptr<Measurement> measure_frank(const MeasureContext& context) {
   const double longest = 2 * kPi / system.box_side * 1.5;
   const auto sample = [](const Sample& now, auto& waves) { waves.accumulate(now->time, now->position, now->director); };
   const auto reduce = [](Reduction& result, const auto& waves) {
-    const analysis::DirectorSpectrum spectrum = analysis::DirectorFluctuations::reduce(waves, result.t_steady);
-    result.arrays["/frank/q_along_per_mm"] = spectrum.q_along;
-    result.arrays["/frank/q_across_per_mm"] = spectrum.q_across;
-    result.arrays["/frank/fit_mm2"] = spectrum.fit;
-    put(result, "/frank/power", "_mm2", spectrum.power);
-    result.scalars["frank_ratio"] = scalar(spectrum.ratio);
-    result.scalars["frank_splay"] = scalar(spectrum.splay);
-    result.scalars["frank_bend"] = scalar(spectrum.bend);
-    result.scalars["frank_chi2"].value = spectrum.chi2;
-    result.scalars["frank_floor_mm2"].value = spectrum.floor;
+    const DirectorSpectrum spectrum = analysis::DirectorFluctuations::reduce(waves, result.t_steady);
+    put(result, "/frank/", kFrankSpectrum, spectrum);
+    put(result, "", kFrankNumbers, spectrum);
   };
   return measured(sample, reduce,
                   analysis::Blocked(analysis::DirectorFluctuations(system.box_side, std::max(three_rods, longest))));
@@ -38,22 +46,9 @@ MeasurementKind frank_kind() {
       .name = "frank",
       .sources = "director_fluctuations, geometry/wave_sums",
       .make = measure_frank,
-      .arrays =
-          {
-              {"q_along_per_mm", "wave vectors, one entry each: component along the director"},
-              {"q_across_per_mm", "component across it"},
-              {"power_mm2", "power of the director fluctuations", kWithError},
-              {"fit_mm2", "the same from the fitted Frank constants"},
-          },
+      .arrays = outputs_of(kFrankSpectrum),
       .axes = {{"", ""}},
-      .numbers =
-          {
-              {"frank_ratio", "K₃/K₁, bend over splay"},
-              {"frank_splay", "K₁, in units of the effective temperature"},
-              {"frank_bend", "K₃, in the same units"},
-              {"frank_chi2", "χ² per degree of freedom of the fit: about 1 where the law holds"},
-              {"frank_floor_mm2", "noise level: power of rods without correlation, which has been subtracted"},
-          },
+      .numbers = outputs_of(kFrankNumbers),
   };
 }
 

@@ -1,13 +1,19 @@
 #include "analysis/g2.h"
 
-#include "analysis/errors/blocked.h"
 #include "analysis/geometry/region.h"
-#include "run/measure/estimates.h"
 #include "run/measure/measured.h"
-#include "run/measure/measurement_kinds.h"
+#include "run/measure/rows.h"
 
 namespace shaken::run {
 namespace {
+
+using analysis::OrientationCurve;
+
+constexpr std::array kG2Curves{
+    from<&OrientationCurve::r>(called("distance", "r", {"r_mm", "bin centres"})),
+    from<&OrientationCurve::g2>(called("orientational correlation", "G_2(r)", of_axis({"g2", "G₂(r)", kWithError}))),
+    from<&OrientationCurve::g>(called("pair correlation", "g(r)", {"g", "g(r)", kWithError})),
+};
 
 std::unique_ptr<Measurement> measure_g2(const MeasureContext& context) {
   const System& system = context.plan.system;
@@ -15,21 +21,7 @@ std::unique_ptr<Measurement> measure_g2(const MeasureContext& context) {
   const auto sample = [region](const Sample& now, auto& pairs) {
     pairs.accumulate(now->time, now->position, now->director, region);
   };
-  const auto reduce = [](Reduction& result, const auto& pairs) {
-    result.arrays["/g2/r_mm"] = pairs.empty().reduce().r;
-    // Both curves one behind the other.
-    const auto numbers = block_estimates(pairs, result.t_steady, [](const analysis::OrientationCorrelation& part) {
-      analysis::OrientationCurve curve = part.reduce();
-      curve.g2.insert(curve.g2.end(), curve.g.begin(), curve.g.end());
-      return curve.g2;
-    });
-    analysis::EstimateCurve g2, g;
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-      (i < numbers.size() / 2 ? g2 : g).push_back({numbers[i].value, numbers[i].sem});
-    }
-    put(result, "/g2/g2", "", g2);
-    put(result, "/g2/g", "", g);
-  };
+  const auto reduce = [](Reduction& result, const auto& pairs) { put(result, "/g2/", kG2Curves, pairs); };
   return measured(
       sample, reduce,
       analysis::Blocked(analysis::OrientationCorrelation(context.plan.g2->bins, system.box().shorter() / 2)));
@@ -42,13 +34,8 @@ MeasurementKind g2_kind() {
       .name = "g2",
       .sources = "g2, geometry/region",
       .make = measure_g2,
-      .arrays =
-          {
-              called("distance", "r", {"r_mm", "bin centres"}),
-              called("orientational correlation", "G_2(r)", {"g2", "G₂(r)", kWithError}),
-              called("pair correlation", "g(r)", {"g", "g(r)", kWithError}),
-          },
-      .of_axis = {"g2"},
+      .arrays = outputs_of(kG2Curves),
+
   };
 }
 

@@ -2,12 +2,32 @@
 
 #include <cmath>
 
-#include "run/measure/estimates.h"
 #include "run/measure/measured.h"
-#include "run/measure/measurement_kinds.h"
+#include "run/measure/rows.h"
 
 namespace shaken::run {
 namespace {
+
+using analysis::LayerSpectrum;
+struct LayerWave {
+  Scalar length, per_box, order;
+};
+
+constexpr std::array kLayerSpectrum{
+    from<&LayerSpectrum::q>(called("wave number across the director", "q_⊥",
+                                   {"q_per_mm", "wave numbers 2πk/L, L being the longer side of the box"})),
+    from<&LayerSpectrum::across>(
+        called("spectrum of the layers", R"(\langle|s(q_⊥)|^2\rangle)",
+               {"spectrum_across", "power of sin 2(θ - director), wave vectors across the director"})),
+    from<&LayerSpectrum::along>({"spectrum_along", "wave vectors along it"}),
+};
+constexpr std::array kLayerNumbers{
+    from<&LayerWave::length>(called("wavelength of the layers", "λ",
+                                    {"wavelength_mm", "wavelength of the layers; null where there are none"})),
+    from<&LayerWave::per_box>({"layers_per_box", "side of the box across the layers, over that wavelength"}),
+    from<&LayerWave::order>(called("order of the layers", "",
+                                   {"layer_order", "amplitude of the wave of sin 2(θ − θ_N) with the most power"})),
+};
 
 /// Layers: their spectrum, wavelength and order.
 std::unique_ptr<Measurement> measure_layers(const MeasureContext& context) {
@@ -17,10 +37,7 @@ std::unique_ptr<Measurement> measure_layers(const MeasureContext& context) {
   };
   const auto reduce = [](Reduction& result, const auto& blocks) {
     const analysis::LayerOrder layers = blocks.after(result.t_steady);
-    const analysis::LayerSpectrum spectrum = layers.reduce();
-    result.arrays["/layers/q_per_mm"] = spectrum.q;
-    result.arrays["/layers/spectrum_across"] = spectrum.across;
-    result.arrays["/layers/spectrum_along"] = spectrum.along;
+    put(result, "/layers/", kLayerSpectrum, layers.reduce());
     const std::optional<analysis::LayerPeak> peak = layers.peak();
     if (!peak) return;
     // The errors are those of the one peak, not of which is the highest; and of the steps in which waves fit the box.
@@ -34,9 +51,9 @@ std::unique_ptr<Measurement> measure_layers(const MeasureContext& context) {
       scalar.sem = std::hypot(of_blocks.sem, step / std::sqrt(12.0));
       return scalar;
     };
-    result.scalars["wavelength_mm"] = with_steps(found[0], peak->wavelength * peak->wavelength / peak->side);
-    result.scalars["layers_per_box"] = with_steps(found[1], 1);
-    result.scalars["layer_order"] = found[2];
+    put(result, "", kLayerNumbers,
+        LayerWave{with_steps(found[0], peak->wavelength * peak->wavelength / peak->side), with_steps(found[1], 1),
+                  found[2]});
   };
   return measured(sample, reduce, analysis::Blocked(analysis::LayerOrder(system.box(), system.rod.length / 2)));
 }
@@ -48,22 +65,8 @@ MeasurementKind layers_kind() {
       .name = "layers",
       .sources = "layers, geometry/wave_sums",
       .make = measure_layers,
-      .arrays =
-          {
-              called("wave number across the director", "q_⊥",
-                     {"q_per_mm", "wave numbers 2πk/L, L being the longer side of the box"}),
-              called("spectrum of the layers", R"(\langle|s(q_⊥)|^2\rangle)",
-                     {"spectrum_across", "power of sin 2(θ - director), wave vectors across the director"}),
-              {"spectrum_along", "wave vectors along it"},
-          },
-      .numbers =
-          {
-              called("wavelength of the layers", "λ",
-                     {"wavelength_mm", "wavelength of the layers; null where there are none"}),
-              {"layers_per_box", "side of the box across the layers, over that wavelength"},
-              called("order of the layers", "",
-                     {"layer_order", "amplitude of the wave of sin 2(θ − θ_N) with the most power"}),
-          },
+      .arrays = outputs_of(kLayerSpectrum),
+      .numbers = outputs_of(kLayerNumbers),
       .needs = {Needs::kTilts},
   };
 }

@@ -1,14 +1,15 @@
 #include "run/measure/measure_defects.h"
 
-#include <string>
-
 #include "analysis/geometry/director_field.h"
-#include "run/measure/estimates.h"
-#include "run/measure/measurement_kinds.h"
+#include "run/measure/rows.h"
 
 namespace shaken::run {
-
 namespace {
+
+using analysis::DefectList;
+using analysis::DefectSeries;
+using analysis::TrackSummary;
+using Tracks = TrackSummary::Tracks;
 
 /// Samples over which speeds are those of numbers.
 constexpr int kSpan = analysis::kTrackSpans[analysis::kTrackSpan];
@@ -19,26 +20,79 @@ analysis::DefectTracks::Settings track_settings(const MeasureContext& context) {
   return {region.period(), region.area(), context.interval, system.rod.length, context.plan.defects->min_lifetime};
 }
 
-void put_tracks(const analysis::TrackSummary::Tracks& tracks, const std::string& folder, const std::string& prefix,
-                Reduction& result) {
-  put(result, folder + "speed_plus", "_mm_s", tracks.speed_plus);
-  put(result, folder + "speed_minus", "_mm_s", tracks.speed_minus);
-  put(result, folder + "speed_plus_along", "_mm_s", tracks.along);
-  put(result, folder + "speed_plus_across", "_mm_s", tracks.across);
-  const auto number = [&](const char* name, const analysis::Estimate& estimate) {
-    result.scalars[prefix + name] = scalar(estimate);
-  };
-  number("density_per_mm2", tracks.density);
-  number("creation_rate_per_mm2_s", tracks.creation_rate);
-  number("annihilation_rate_per_mm2_s", tracks.annihilation_rate);
-  number("lone_birth_rate_per_mm2_s", tracks.lone_birth_rate);
-  number("lone_death_rate_per_mm2_s", tracks.lone_death_rate);
-  number("lifetime_s", tracks.lifetime);
-  number("speed_plus_mm_s", tracks.speed_plus[analysis::kTrackSpan]);
-  number("speed_minus_mm_s", tracks.speed_minus[analysis::kTrackSpan]);
-  number("speed_plus_along_mm_s", tracks.along[analysis::kTrackSpan]);
-  number("speed_plus_across_mm_s", tracks.across[analysis::kTrackSpan]);
+template <auto kSpeeds>
+Estimate at_span(const Tracks& tracks) {
+  return (tracks.*kSpeeds)[analysis::kTrackSpan];
 }
+
+constexpr std::array kDefectCounts{
+    from<&DefectSeries::times>(called("time", "t", {"time_s", "times of the samples"})),
+    from<&DefectSeries::n_plus>(
+        called("number of +1/2 defects", "N_+", {"n_plus", "number of defects of charge +1/2"})),
+    from<&DefectSeries::n_minus>(
+        called("number of −1/2 defects", "N_-", {"n_minus", "number of defects of charge -1/2"})),
+};
+constexpr std::array kDefectSpans{
+    from<&TrackSummary::span>({"tracks/span_s", "time over which a speed is measured"}),
+};
+constexpr std::array kDefectAll{
+    from<&Tracks::speed_plus>({"tracks/speed_plus_mm_s", "mean speed of +1/2 defects"}),
+    from<&Tracks::speed_minus>({"tracks/speed_minus_mm_s", "mean speed of -1/2 defects"}),
+    from<&Tracks::along>({"tracks/speed_plus_along_mm_s", "velocity of +1/2 defects along their tail, see above"}),
+    from<&Tracks::across>({"tracks/speed_plus_across_mm_s", "velocity across the tail, to the left"}),
+};
+constexpr std::array kDefectLasting{
+    from<&Tracks::speed_plus>(
+        {"tracks/lasting/speed_plus_mm_s", "the same of tracks that last `measure.defects.min_lifetime`"}),
+    from<&Tracks::speed_minus>({"tracks/lasting/speed_minus_mm_s", "the same of lasting tracks"}),
+    from<&Tracks::along>({"tracks/lasting/speed_plus_along_mm_s", "the same of lasting tracks"}),
+    from<&Tracks::across>({"tracks/lasting/speed_plus_across_mm_s", "the same of lasting tracks"}),
+};
+constexpr std::array kDefectList{
+    from<&DefectList::time>(
+        {"list/time_s", "when it was found: one entry for every defect; with `measure.defects.list`"}),
+    from<&DefectList::x>({"list/x_mm", "its place"}),
+    from<&DefectList::y>({"list/y_mm", "its place"}),
+    from<&DefectList::charge>({"list/charge", "+1/2 or -1/2"}),
+    from<&DefectList::direction>({"list/direction_rad", "of the ray on which the director is radial"}),
+    from<&DefectList::track>({"list/track", "number of its track"}),
+};
+constexpr std::array kDefectNumbersOfAll{
+    from<&Tracks::density>(
+        called("defects per area", "", {"defect_density_per_mm2", "number per area, of both signs"})),
+    from<&Tracks::creation_rate>({"defect_creation_rate_per_mm2_s", "pairs that appear, per area and time"}),
+    from<&Tracks::annihilation_rate>({"defect_annihilation_rate_per_mm2_s", "pairs that vanish"}),
+    from<&Tracks::lone_birth_rate>({"defect_lone_birth_rate_per_mm2_s", "defects that appear without a partner"}),
+    from<&Tracks::lone_death_rate>({"defect_lone_death_rate_per_mm2_s", "defects that vanish without a partner"}),
+    from<&Tracks::lifetime>({"defect_lifetime_s", "time lived by all defects over the number that vanished"}),
+    from<at_span<&Tracks::speed_plus>>(over("every", {"defect_speed_plus_mm_s", "mean speed of +1/2 defects"}, kSpan)),
+    from<at_span<&Tracks::speed_minus>>(
+        over("every", {"defect_speed_minus_mm_s", "mean speed of -1/2 defects"}, kSpan)),
+    from<at_span<&Tracks::along>>(
+        over("every", {"defect_speed_plus_along_mm_s", "velocity of +1/2 defects along their tail"}, kSpan)),
+    from<at_span<&Tracks::across>>(
+        over("every", {"defect_speed_plus_across_mm_s", "velocity across the tail, to the left"}, kSpan)),
+};
+constexpr std::array kDefectNumbersOfLasting{
+    from<&Tracks::density>(
+        {"lasting_defect_density_per_mm2", "number per area, of tracks that last `measure.defects.min_lifetime`"}),
+    from<&Tracks::creation_rate>({"lasting_defect_creation_rate_per_mm2_s", "the same of lasting tracks"}),
+    from<&Tracks::annihilation_rate>({"lasting_defect_annihilation_rate_per_mm2_s", "the same of lasting tracks"}),
+    from<&Tracks::lone_birth_rate>({"lasting_defect_lone_birth_rate_per_mm2_s", "the same of lasting tracks"}),
+    from<&Tracks::lone_death_rate>({"lasting_defect_lone_death_rate_per_mm2_s", "the same of lasting tracks"}),
+    from<&Tracks::lifetime>({"lasting_defect_lifetime_s", "the same of lasting tracks"}),
+    from<at_span<&Tracks::speed_plus>>(
+        over("every", {"lasting_defect_speed_plus_mm_s", "the same of lasting tracks"}, kSpan)),
+    from<at_span<&Tracks::speed_minus>>(
+        over("every", {"lasting_defect_speed_minus_mm_s", "the same of lasting tracks"}, kSpan)),
+    from<at_span<&Tracks::along>>(
+        over("every", {"lasting_defect_speed_plus_along_mm_s", "the same of lasting tracks"}, kSpan)),
+    from<at_span<&Tracks::across>>(
+        over("every", {"lasting_defect_speed_plus_across_mm_s", "the same of lasting tracks"}, kSpan)),
+};
+constexpr std::array kDefectCharge{
+    from<&TrackSummary::charge>({"defect_charge", "mean total charge; 0 in a periodic box that is full of rods"}),
+};
 
 }  // namespace
 
@@ -63,21 +117,15 @@ void MeasuredDefects::sample(const Sample& sample) {
 
 void MeasuredDefects::reduce(Reduction& result) const {
   result.defects = series_.reduce(result.t_steady);
-  result.arrays["/defects/time_s"] = series_.times();
-  result.arrays["/defects/n_plus"] = series_.n_plus();
-  result.arrays["/defects/n_minus"] = series_.n_minus();
-  const analysis::TrackSummary tracks = tracks_.reduce(result.t_steady);
-  result.arrays["/defects/tracks/span_s"] = tracks.span;
-  put_tracks(tracks.all, "/defects/tracks/", "defect_", result);
-  put_tracks(tracks.lasting, "/defects/tracks/lasting/", "lasting_defect_", result);
-  result.scalars["defect_charge"] = scalar(tracks.charge);
-  if (!series_.keeps_list()) return;
-  result.arrays["/defects/list/time_s"] = series_.list().time;
-  result.arrays["/defects/list/x_mm"] = series_.list().x;
-  result.arrays["/defects/list/y_mm"] = series_.list().y;
-  result.arrays["/defects/list/charge"] = series_.list().charge;
-  result.arrays["/defects/list/direction_rad"] = series_.list().direction;
-  result.arrays["/defects/list/track"] = series_.list().track;
+  put(result, "/defects/", kDefectCounts, series_);
+  const TrackSummary tracks = tracks_.reduce(result.t_steady);
+  put(result, "/defects/", kDefectSpans, tracks);
+  put(result, "/defects/", kDefectAll, tracks.all);
+  put(result, "/defects/", kDefectLasting, tracks.lasting);
+  put(result, "", kDefectNumbersOfAll, tracks.all);
+  put(result, "", kDefectNumbersOfLasting, tracks.lasting);
+  put(result, "", kDefectCharge, tracks);
+  if (series_.keeps_list()) put(result, "/defects/", kDefectList, series_.list());
 }
 
 void MeasuredDefects::save(StateWriter& writer) const {
@@ -97,53 +145,9 @@ MeasurementKind defects_kind() {
       .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
         return std::make_unique<MeasuredDefects>(context);
       },
-      .arrays =
-          {
-              called("time", "t", {"time_s", "times of the samples"}),
-              called("number of +1/2 defects", "N_+", {"n_plus", "number of defects of charge +1/2"}),
-              called("number of −1/2 defects", "N_-", {"n_minus", "number of defects of charge -1/2"}),
-              {"tracks/span_s", "time over which a speed is measured"},
-              {"tracks/speed_plus_mm_s", "mean speed of +1/2 defects", kWithError},
-              {"tracks/speed_minus_mm_s", "mean speed of -1/2 defects", kWithError},
-              {"tracks/speed_plus_along_mm_s", "velocity of +1/2 defects along their tail, see above", kWithError},
-              {"tracks/speed_plus_across_mm_s", "velocity across the tail, to the left", kWithError},
-              {"tracks/lasting/speed_plus_mm_s", "the same of tracks that last `measure.defects.min_lifetime`",
-               kWithError},
-              {"tracks/lasting/speed_minus_mm_s", "the same of lasting tracks", kWithError},
-              {"tracks/lasting/speed_plus_along_mm_s", "the same of lasting tracks", kWithError},
-              {"tracks/lasting/speed_plus_across_mm_s", "the same of lasting tracks", kWithError},
-              {"list/time_s", "when it was found: one entry for every defect; with `measure.defects.list`"},
-              {"list/x_mm", "its place"},
-              {"list/y_mm", "its place"},
-              {"list/charge", "+1/2 or -1/2"},
-              {"list/direction_rad", "of the ray on which the director is radial"},
-              {"list/track", "number of its track"},
-          },
+      .arrays = outputs_of(kDefectCounts, kDefectSpans, kDefectAll, kDefectLasting, kDefectList),
       .axes = {{"tracks/lasting/", "tracks/span_s"}, {"list/", ""}},
-      .numbers =
-          {
-              called("defects per area", "", {"defect_density_per_mm2", "number per area, of both signs"}),
-              {"defect_creation_rate_per_mm2_s", "pairs that appear, per area and time"},
-              {"defect_annihilation_rate_per_mm2_s", "pairs that vanish"},
-              {"defect_lone_birth_rate_per_mm2_s", "defects that appear without a partner"},
-              {"defect_lone_death_rate_per_mm2_s", "defects that vanish without a partner"},
-              {"defect_lifetime_s", "time lived by all defects over the number that vanished"},
-              over("every", {"defect_speed_plus_mm_s", "mean speed of +1/2 defects"}, kSpan),
-              over("every", {"defect_speed_minus_mm_s", "mean speed of -1/2 defects"}, kSpan),
-              over("every", {"defect_speed_plus_along_mm_s", "velocity of +1/2 defects along their tail"}, kSpan),
-              over("every", {"defect_speed_plus_across_mm_s", "velocity across the tail, to the left"}, kSpan),
-              {"lasting_defect_density_per_mm2", "number per area, of tracks that last `measure.defects.min_lifetime`"},
-              {"lasting_defect_creation_rate_per_mm2_s", "the same of lasting tracks"},
-              {"lasting_defect_annihilation_rate_per_mm2_s", "the same of lasting tracks"},
-              {"lasting_defect_lone_birth_rate_per_mm2_s", "the same of lasting tracks"},
-              {"lasting_defect_lone_death_rate_per_mm2_s", "the same of lasting tracks"},
-              {"lasting_defect_lifetime_s", "the same of lasting tracks"},
-              over("every", {"lasting_defect_speed_plus_mm_s", "the same of lasting tracks"}, kSpan),
-              over("every", {"lasting_defect_speed_minus_mm_s", "the same of lasting tracks"}, kSpan),
-              over("every", {"lasting_defect_speed_plus_along_mm_s", "the same of lasting tracks"}, kSpan),
-              over("every", {"lasting_defect_speed_plus_across_mm_s", "the same of lasting tracks"}, kSpan),
-              {"defect_charge", "mean total charge; 0 in a periodic box that is full of rods"},
-          },
+      .numbers = outputs_of(kDefectNumbersOfAll, kDefectNumbersOfLasting, kDefectCharge),
   };
 }
 

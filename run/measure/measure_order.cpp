@@ -1,9 +1,30 @@
 #include "run/measure/measure_order.h"
 
-#include "run/measure/estimates.h"
-#include "run/measure/measurement_kinds.h"
+#include "run/measure/rows.h"
 
 namespace shaken::run {
+namespace {
+
+using analysis::OrderDistribution;
+using analysis::OrderSeries;
+
+constexpr std::array kOrderSeries{
+    from<&OrderSeries::times>(
+        called("time", "t", {"time_s", "times of S(t); of more than 65,536 samples, each point is a mean of several"})),
+    from<&OrderSeries::orders>(called("nematic order", "S", {"order", "S(t)"})),
+    from<&OrderSeries::directors>({"director_rad", "angle of the director to the x axis"}),
+};
+constexpr std::array kOrderPdf{
+    from<&OrderDistribution::order>(called("nematic order", "S", {"pdf/order", "bin centres"})),
+    from<&OrderDistribution::density>(called("probability density", "P(S)", {"pdf/density", "P[S], of integral 1"})),
+};
+constexpr std::array kOrderNumbers{
+    from<&OrderDistribution::binder>(
+        called("Binder cumulant", "U_2", {"binder", "Binder cumulant U₂ = 2 − ⟨S⁴⟩/⟨S²⟩²: 0 in disorder, 1 in order"})),
+    from<&OrderDistribution::variance>({"susceptibility", "N · var S"}),
+};
+
+}  // namespace
 
 void MeasuredOrder::sample(const Sample& sample) {
   series_.accumulate(sample->time, sample.order());
@@ -11,18 +32,13 @@ void MeasuredOrder::sample(const Sample& sample) {
 }
 
 void MeasuredOrder::reduce(Reduction& result) const {
-  result.arrays["/order/time_s"] = series_.times();
-  result.arrays["/order/order"] = series_.orders();
-  result.arrays["/order/director_rad"] = series_.directors();
-  const analysis::OrderDistribution pdf = statistics_.after(result.t_steady).reduce();
-  result.arrays["/order/pdf/order"] = pdf.order;
-  result.arrays["/order/pdf/density"] = pdf.density;
-  const auto moments = block_estimates(statistics_, result.t_steady, [&](const analysis::OrderStatistics& statistics) {
-    const analysis::OrderDistribution found = statistics.reduce();
-    return std::vector<double>{found.binder, n_rods_ * found.variance};
+  put(result, "/order/", kOrderSeries, series_);
+  put(result, "/order/", kOrderPdf, statistics_.after(result.t_steady).reduce());
+  put(result, "", kOrderNumbers, statistics_, [&](const analysis::OrderStatistics& statistics) {
+    OrderDistribution found = statistics.reduce();
+    found.variance *= n_rods_;
+    return found;
   });
-  result.scalars["binder"] = moments[0];
-  result.scalars["susceptibility"] = moments[1];
 }
 
 void MeasuredOrder::save(StateWriter& writer) const {
@@ -42,21 +58,8 @@ MeasurementKind order_kind() {
       .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
         return std::make_unique<MeasuredOrder>(context.plan.system.n_rods);
       },
-      .arrays =
-          {
-              called("time", "t",
-                     {"time_s", "times of S(t); of more than 65,536 samples, each point is a mean of several"}),
-              called("nematic order", "S", {"order", "S(t)"}),
-              {"director_rad", "angle of the director to the x axis"},
-              called("nematic order", "S", {"pdf/order", "bin centres"}),
-              called("probability density", "P(S)", {"pdf/density", "P[S], of integral 1"}),
-          },
-      .numbers =
-          {
-              called("Binder cumulant", "U_2",
-                     {"binder", "Binder cumulant U₂ = 2 − ⟨S⁴⟩/⟨S²⟩²: 0 in disorder, 1 in order"}),
-              {"susceptibility", "N · var S"},
-          },
+      .arrays = outputs_of(kOrderSeries, kOrderPdf),
+      .numbers = outputs_of(kOrderNumbers),
   };
 }
 

@@ -28,6 +28,7 @@ struct Output {
   int times = 1;
   std::string_view title = {};   ///< in figures, in few words: "wavelength of the layers"
   std::string_view symbol = {};  ///< in LaTeX's mathematics
+  bool needs_axis = false;       ///< where others of the same measurement do not: spheres lack it
 };
 inline constexpr bool kWithError = true;
 
@@ -42,6 +43,12 @@ constexpr Output called(std::string_view title, std::string_view symbol, Output 
 constexpr Output over(std::string_view key, Output output, int times = 1) {
   output.over = key;
   output.times = times;
+  return output;
+}
+
+/// `output` of rods that have axes (Output::needs_axis).
+constexpr Output of_axis(Output output) {
+  output.needs_axis = true;
   return output;
 }
 
@@ -72,8 +79,6 @@ struct MeasurementKind {
   /// "time_s y_mm x_mm"}. All others are measured at the first array of their group.
   std::vector<std::pair<std::string_view, std::string_view>> axes = {};
   std::vector<Output> numbers = {};
-  /// Names of arrays and numbers that need an axis, where others of the same measurement do not: spheres lack them.
-  std::vector<std::string_view> of_axis = {};
   /// What it needs of its rods besides their places and their directions in the plane.
   std::vector<Needs> needs = {};
 

@@ -4,27 +4,28 @@
 
 #include <algorithm>
 #include <limits>
-#include <regex>
 #include <string>
 #include <utility>
 
 #include "analysis/errors/steady.h"
+#include "run/files/unit_of_name.h"
 #include "scene/keys/derived.h"
 #include "scene/keys/measured_species.h"
 
 namespace shaken::run {
 namespace {
 
-/// Takes out what measurements of spheres say of axes (MeasurementKind::of_axis), with its errors.
+/// Takes out what measurements of spheres say of axes, with its errors.
 void leave_out_axes(Reduction& result) {
-  static const std::regex kError("_sem");
   for (const MeasurementKind& kind : measurement_kinds()) {
-    for (const std::string_view name : kind.of_axis) {
-      result.scalars.erase(std::string(name));
-      std::string path("/");
-      path.append(kind.name).append("/").append(name);
-      std::erase_if(result.arrays,
-                    [&](const auto& array) { return std::regex_replace(array.first, kError, "") == path; });
+    for (const Output& number : kind.numbers) {
+      if (number.needs_axis) result.scalars.erase(std::string(number.name));
+    }
+    for (const Output& array : kind.arrays) {
+      const std::string path = fmt::format("/{}/{}", kind.name, array.name);
+      if (!array.needs_axis) continue;
+      result.arrays.erase(path);
+      result.arrays.erase(with_sem(path));
     }
   }
 }

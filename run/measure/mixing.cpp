@@ -43,7 +43,7 @@ std::unique_ptr<Measurement> measure_mixing(const MeasureContext& context) {
       for (std::size_t b = a; b < species.size(); ++b) {
         const std::size_t kind = PairMixing::pair_kind(species.size(), a, b);
         const std::string pair = std::to_string(species[a]) + std::to_string(species[b]);
-        put(result, "/mixing/g_" + pair, "", analysis::EstimateCurve{curves.g[kind], errors[kind]});
+        put(result, "/mixing/g_" + pair, analysis::EstimateCurve{curves.g[kind], errors[kind]});
         if (a != b) result.scalars["segregation_" + pair] = numbers[kind];
       }
     }

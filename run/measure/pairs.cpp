@@ -1,14 +1,39 @@
 #include <algorithm>
-#include <limits>
 
 #include "analysis/oscillation.h"
 #include "analysis/pair_map.h"
-#include "run/measure/estimates.h"
 #include "run/measure/measured.h"
-#include "run/measure/measurement_kinds.h"
+#include "run/measure/rows.h"
 
 namespace shaken::run {
 namespace {
+
+using analysis::PairCurves;
+
+constexpr std::array kPairCurves{
+    from<&PairCurves::along>({"along_mm", "(bins) bin centres along the director"}),
+    from<&PairCurves::across>({"across_mm", "(bins) bin centres across it"}),
+    from<&PairCurves::g>(called("pair correlation", "g",
+                                {"g", "(bins · bins) g(x, y), row by row: `g.reshape(bins, bins)[across, along]`"})),
+    from<&PairCurves::g2>(
+        called("orientational correlation", "G_2", {"g2", "(bins · bins) G₂(x, y), in the same order"})),
+    from<&PairCurves::r>(
+        called("distance across the director", "r_⊥",
+               {"cut/r_mm",
+                "bin centres of cuts through the maps, up to half the longer side of the box; NaN stands where "
+                "images "
+                "end"})),
+    from<&PairCurves::g_along>({"cut/g_along", "g along the director", kWithError}),
+    from<&PairCurves::g_across>({"cut/g_across", "g across it", kWithError}),
+    from<&PairCurves::g2_along>({"cut/g2_along", "G₂ along the director", kWithError}),
+    from<&PairCurves::g2_across>(
+        called("orientational correlation", "G_2(r_⊥)", {"cut/g2_across", "G₂ across it", kWithError})),
+};
+constexpr std::array kPairNumbers{
+    from<[](const std::optional<double>& period) { return period.value_or(analysis::kNaN); }>(
+        {"wavelength_g2_mm",
+         "wavelength of layers: first period of G₂ across the director of at least two rod lengths"}),
+};
 
 /// g and G2 in the frame of the director, and the wavelength of layers as G2 across it tells.
 std::unique_ptr<Measurement> measure_pairs(const MeasureContext& context) {
@@ -20,32 +45,13 @@ std::unique_ptr<Measurement> measure_pairs(const MeasureContext& context) {
                                        std::min(width, box.shorter() / 2), box};
   const auto sample = [](const Sample& now, auto& pairs) { pairs.accumulate(now->time, now->position, now->director); };
   const auto reduce = [rod_length](Reduction& result, const auto& pairs) {
-    const analysis::PairCurves curves = pairs.after(result.t_steady).reduce();
-    result.arrays["/pairs/along_mm"] = curves.along;
-    result.arrays["/pairs/across_mm"] = curves.across;
-    result.arrays["/pairs/g"] = curves.g;
-    result.arrays["/pairs/g2"] = curves.g2;
-    result.arrays["/pairs/cut/r_mm"] = curves.r;
-    result.arrays["/pairs/cut/g_along"] = curves.g_along;
-    result.arrays["/pairs/cut/g_across"] = curves.g_across;
-    result.arrays["/pairs/cut/g2_along"] = curves.g2_along;
-    result.arrays["/pairs/cut/g2_across"] = curves.g2_across;
-    const auto errors = block_errors(pairs, result.t_steady, [](const analysis::PairMap& part) {
-      const analysis::PairCurves cut = part.reduce();
-      return std::vector{cut.g_along, cut.g_across, cut.g2_along, cut.g2_across};
-    });
-    const char* const cuts[] = {"g_along", "g_across", "g2_along", "g2_across"};
-    for (std::size_t k = 0; k < std::size(cuts); ++k) {
-      result.arrays[std::string("/pairs/cut/") + cuts[k] + "_sem"] = errors[k];
-    }
+    put(result, "/pairs/", kPairCurves, pairs);
     // Rods side by side make ripples of their distances, and of multiples of these where they are crystalline. A layer
     // is half a period: it is taken for one only where it is as wide as its rods are long.
-    const auto wavelength = block_estimates(pairs, result.t_steady, [&](const analysis::PairMap& part) {
-      constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-      const analysis::PairCurves cut = part.reduce();
-      return std::vector<double>{analysis::first_period(cut.r, cut.g2_across, rod_length).value_or(kNone)};
+    put(result, "", kPairNumbers, pairs, [&](const analysis::PairMap& part) {
+      const PairCurves cut = part.reduce();
+      return analysis::first_period(cut.r, cut.g2_across, rod_length);
     });
-    result.scalars["wavelength_g2_mm"] = wavelength[0];
   };
   return measured(sample, reduce, analysis::Blocked(analysis::PairMap(shape)));
 }
@@ -57,29 +63,9 @@ MeasurementKind pairs_kind() {
       .name = "pairs",
       .sources = "pair_map, oscillation",
       .make = measure_pairs,
-      .arrays =
-          {
-              {"along_mm", "(bins) bin centres along the director"},
-              {"across_mm", "(bins) bin centres across it"},
-              called("pair correlation", "g",
-                     {"g", "(bins · bins) g(x, y), row by row: `g.reshape(bins, bins)[across, along]`"}),
-              called("orientational correlation", "G_2", {"g2", "(bins · bins) G₂(x, y), in the same order"}),
-              called("distance across the director", "r_⊥",
-                     {"cut/r_mm",
-                      "bin centres of cuts through the maps, up to half the longer side of the box; NaN stands where "
-                      "images "
-                      "end"}),
-              {"cut/g_along", "g along the director", kWithError},
-              {"cut/g_across", "g across it", kWithError},
-              {"cut/g2_along", "G₂ along the director", kWithError},
-              called("orientational correlation", "G_2(r_⊥)", {"cut/g2_across", "G₂ across it", kWithError}),
-          },
+      .arrays = outputs_of(kPairCurves),
       .axes = {{"g", "across_mm along_mm"}, {"g2", "across_mm along_mm"}},
-      .numbers =
-          {
-              {"wavelength_g2_mm",
-               "wavelength of layers: first period of G₂ across the director of at least two rod lengths"},
-          },
+      .numbers = outputs_of(kPairNumbers),
   };
 }
 

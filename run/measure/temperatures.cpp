@@ -1,29 +1,63 @@
 #include "analysis/temperatures.h"
 
-#include <array>
-#include <string>
-#include <utility>
-
-#include "analysis/errors/blocked.h"
-#include "run/measure/estimates.h"
 #include "run/measure/measured.h"
-#include "run/measure/measurement_kinds.h"
+#include "run/measure/rows.h"
 
 namespace shaken::run {
 namespace {
 
 using analysis::Freedom;
+using analysis::TemperatureSeries;
 
-constexpr std::array<std::pair<Freedom, const char*>, analysis::kFreedoms> kFreedomNames{{
-    {Freedom::kHorizontal, "horizontal"},
-    {Freedom::kVertical, "vertical"},
-    {Freedom::kAlong, "along"},
-    {Freedom::kAcross, "across"},
-    {Freedom::kTurning, "turning"},
-    {Freedom::kTipping, "tipping"},
-    {Freedom::kSpinning, "spinning"},
-    {Freedom::kRotation, "rotation"},
-}};
+struct TemperatureMeans {
+  analysis::Temperatures temperatures;
+  analysis::Speeds speeds;
+};
+
+template <Freedom kFreedom>
+std::vector<double> series_of(const TemperatureSeries& series) {
+  return series.of(kFreedom);
+}
+template <Freedom kFreedom>
+double mean_of(const TemperatureMeans& means) {
+  return means.temperatures[static_cast<std::size_t>(kFreedom)];
+}
+
+constexpr std::array kTemperatureSeries{
+    from<&TemperatureSeries::times>(
+        called("time", "t", {"time_s", "times of T(t); of more than 65,536 samples, each point is a mean of several"})),
+    from<series_of<Freedom::kHorizontal>>(
+        called("temperature in the plane", R"(T_\mathrm{h})", {"horizontal_pJ", "T(t) of translation in the plane"})),
+    from<series_of<Freedom::kVertical>>({"vertical_pJ", "of vertical translation"}),
+    from<series_of<Freedom::kAlong>>(of_axis({"along_pJ", "of translation along the rod, in the plane"})),
+    from<series_of<Freedom::kAcross>>(of_axis({"across_pJ", "of that across it"})),
+    from<series_of<Freedom::kTurning>>(of_axis({"turning_pJ", "of rotation in the plane"})),
+    from<series_of<Freedom::kTipping>>(of_axis({"tipping_pJ", "of rotation out of the plane"})),
+    from<series_of<Freedom::kSpinning>>(of_axis({"spinning_pJ", "of rotation about the rod's own axis"})),
+    from<series_of<Freedom::kRotation>>(
+        called("temperature of rotation", R"(T_\mathrm{r})", {"rotation_pJ", "of rotation, mean over three axes"})),
+};
+constexpr std::array kTemperatureNumbers{
+    from<mean_of<Freedom::kHorizontal>>(
+        called("temperature in the plane", R"(T_\mathrm{h})",
+               {"temperature_horizontal_pJ", "granular temperature of translation in the plane, m⟨δv²⟩/2"})),
+    from<mean_of<Freedom::kVertical>>(
+        called("vertical temperature", "T_z", {"temperature_vertical_pJ", "of vertical translation"})),
+    from<mean_of<Freedom::kAlong>>(
+        called("temperature along the rods", "T_∥",
+               of_axis({"temperature_along_pJ", "of translation along the rod, in the plane"}))),
+    from<mean_of<Freedom::kAcross>>(
+        called("temperature across the rods", "T_⊥", of_axis({"temperature_across_pJ", "of that across it"}))),
+    from<mean_of<Freedom::kTurning>>(of_axis({"temperature_turning_pJ", "of rotation in the plane"})),
+    from<mean_of<Freedom::kTipping>>(of_axis({"temperature_tipping_pJ", "of rotation out of the plane"})),
+    from<mean_of<Freedom::kSpinning>>(of_axis({"temperature_spinning_pJ", "of rotation about the rod's own axis"})),
+    from<mean_of<Freedom::kRotation>>(called("temperature of rotation", R"(T_\mathrm{r})",
+                                             {"temperature_rotation_pJ", "of rotation, mean over three axes"})),
+    from<[](const TemperatureMeans& means) { return means.speeds.rms; }>(
+        called("rms speed", R"(v_\mathrm{rms})", {"speed_rms_mm_s", "√⟨v²⟩ in the plane, of velocities of instants"})),
+    from<[](const TemperatureMeans& means) { return means.speeds.mean; }>(called(
+        "mean speed", R"(\langle|v|\rangle)", {"speed_mean_mm_s", "⟨|v|⟩ in the plane, of velocities of instants"})),
+};
 
 std::unique_ptr<Measurement> measure_temperatures(const MeasureContext& context) {
   const std::vector inertias = context.of_rods([](const Species& rod) {
@@ -36,20 +70,10 @@ std::unique_ptr<Measurement> measure_temperatures(const MeasureContext& context)
     statistics.accumulate(now->time, found, now->velocity);
   };
   const auto reduce = [](Reduction& result, const auto& series, const auto& statistics) {
-    const auto means = block_estimates(statistics, result.t_steady, [](const analysis::TemperatureStatistics& part) {
-      const analysis::Temperatures found = part.reduce();
-      std::vector<double> numbers(found.begin(), found.end());
-      const analysis::Speeds speeds = part.speeds();
-      numbers.insert(numbers.end(), {speeds.rms, speeds.mean});
-      return numbers;
+    put(result, "/temperatures/", kTemperatureSeries, series);
+    put(result, "", kTemperatureNumbers, statistics, [](const analysis::TemperatureStatistics& part) {
+      return TemperatureMeans{part.reduce(), part.speeds()};
     });
-    result.scalars["speed_rms_mm_s"] = means[analysis::kFreedoms];
-    result.scalars["speed_mean_mm_s"] = means[analysis::kFreedoms + 1];
-    result.arrays["/temperatures/time_s"] = series.times();
-    for (const auto& [freedom, name] : kFreedomNames) {
-      result.arrays[std::string("/temperatures/") + name + "_pJ"] = series.of(freedom);
-      result.scalars[std::string("temperature_") + name + "_pJ"] = means[static_cast<std::size_t>(freedom)];
-    }
   };
   return measured(sample, reduce, analysis::TemperatureSeries(), analysis::Blocked(analysis::TemperatureStatistics()));
 }
@@ -61,42 +85,9 @@ MeasurementKind temperatures_kind() {
       .name = "temperatures",
       .sources = "temperatures",
       .make = measure_temperatures,
-      .arrays =
-          {
-              called("time", "t",
-                     {"time_s", "times of T(t); of more than 65,536 samples, each point is a mean of several"}),
-              called("temperature in the plane", R"(T_\mathrm{h})",
-                     {"horizontal_pJ", "T(t) of translation in the plane"}),
-              {"vertical_pJ", "of vertical translation"},
-              {"along_pJ", "of translation along the rod, in the plane"},
-              {"across_pJ", "of that across it"},
-              {"turning_pJ", "of rotation in the plane"},
-              {"tipping_pJ", "of rotation out of the plane"},
-              {"spinning_pJ", "of rotation about the rod's own axis"},
-              called("temperature of rotation", R"(T_\mathrm{r})",
-                     {"rotation_pJ", "of rotation, mean over three axes"}),
-          },
-      .numbers =
-          {
-              called("temperature in the plane", R"(T_\mathrm{h})",
-                     {"temperature_horizontal_pJ", "granular temperature of translation in the plane, m⟨δv²⟩/2"}),
-              called("vertical temperature", "T_z", {"temperature_vertical_pJ", "of vertical translation"}),
-              called("temperature along the rods", "T_∥",
-                     {"temperature_along_pJ", "of translation along the rod, in the plane"}),
-              called("temperature across the rods", "T_⊥", {"temperature_across_pJ", "of that across it"}),
-              {"temperature_turning_pJ", "of rotation in the plane"},
-              {"temperature_tipping_pJ", "of rotation out of the plane"},
-              {"temperature_spinning_pJ", "of rotation about the rod's own axis"},
-              called("temperature of rotation", R"(T_\mathrm{r})",
-                     {"temperature_rotation_pJ", "of rotation, mean over three axes"}),
-              called("rms speed", R"(v_\mathrm{rms})",
-                     {"speed_rms_mm_s", "√⟨v²⟩ in the plane, of velocities of instants"}),
-              called("mean speed", R"(\langle|v|\rangle)",
-                     {"speed_mean_mm_s", "⟨|v|⟩ in the plane, of velocities of instants"}),
-          },
-      .of_axis = {"along_pJ", "across_pJ", "turning_pJ", "tipping_pJ", "spinning_pJ", "temperature_along_pJ",
-                  "temperature_across_pJ", "temperature_turning_pJ", "temperature_tipping_pJ",
-                  "temperature_spinning_pJ"},
+      .arrays = outputs_of(kTemperatureSeries),
+      .numbers = outputs_of(kTemperatureNumbers),
+
       .needs = {Needs::kSpins, Needs::kVelocities},
   };
 }

@@ -38,9 +38,9 @@ std::unique_ptr<Measurement> measure_van_hove(const MeasureContext& context) {
     }
     result.arrays["/van_hove/lag_s"] = lags;
     result.arrays["/van_hove/displacement_mm"] = displacements;
-    put(result, "/van_hove/along", "_per_mm", along);
-    put(result, "/van_hove/across", "_per_mm", across);
-    put(result, "/van_hove/distance", "_per_mm", distance);
+    put(result, "/van_hove/along_per_mm", along);
+    put(result, "/van_hove/across_per_mm", across);
+    put(result, "/van_hove/distance_per_mm", distance);
   };
   return measured(sample, reduce, analysis::VanHove(context.interval, settings.lag, settings.bins, range));
 }
@@ -59,8 +59,9 @@ MeasurementKind van_hove_kind() {
               called("displacement along the director", "x",
                      {"displacement_mm", "(lags · bins) bin centres of x, whose sign does not count, row by row"}),
               called("van Hove function", "G_s(x, t)",
-                     {"along_per_mm", "(lags · bins) G_s(x, t) of displacements x along the director", kWithError}),
-              {"across_per_mm", "(lags · bins) of those across it", kWithError},
+                     of_axis({"along_per_mm", "(lags · bins) G_s(x, t) of displacements x along the director",
+                              kWithError})),
+              of_axis({"across_per_mm", "(lags · bins) of those across it", kWithError}),
               {"distance_per_mm", "(lags · bins) density 2πr G_s(r, t) of the distance r in the plane", kWithError},
           },
       .axes = {{"", "lag_s displacement_mm"}},
@@ -68,7 +69,7 @@ MeasurementKind van_hove_kind() {
           {
               over("lag", {"van_hove_beyond", "share of the displacements that lie beyond the range"}),
           },
-      .of_axis = {"along_per_mm", "across_per_mm"},
+
       .needs = {Needs::kIdentities},
   };
 }

@@ -13,7 +13,7 @@ namespace shaken::scene {
 /// What an observable takes of a body's axis, which a sphere does not have.
 enum class AxisUse {
   kNone,    ///< nothing
-  kPartly,  ///< some of its numbers need it: MeasurementKind::of_axis
+  kPartly,  ///< some of its numbers need it: Output::needs_axis
   kNeeded,  ///< all of it is about axes: it is not measured of spheres
 };
 
