@@ -6,10 +6,9 @@
 #include <cmath>
 #include <map>
 
-#include "base/core/sincos.h"
 #include "base/keys/nearest.h"
 #include "base/text.h"
-#include "run/import/csv_fields.h"
+#include "run/import/csv_table.h"
 #include "run/import/imported_rods.h"
 
 namespace shaken::run {
@@ -32,78 +31,35 @@ class CsvRods {
       : file_(file), species_(species), problems_(problems), remarks_(remarks) {}
 
   std::vector<ImportedRod> read(std::string_view text) {
-    if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
-      report(0, "the file is UTF-16: save it as UTF-8, or as plain CSV");
-      return {};
-    }
-    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // a mark that spreadsheets set
-    const char line_end = text.find('\n') == std::string_view::npos && text.find('\r') < text.size() ? '\r' : '\n';
     std::vector<ImportedRod> rods;
-    std::string_view comment;  // the last one before the first row that names columns
-    bool has_header = false, is_usable = false;
-    for (std::size_t begin = 0; begin < text.size();) {
-      const std::size_t end = std::min(text.find(line_end, begin), text.size());
-      std::string_view line = text.substr(begin, end - begin);
-      begin = end + 1;
-      ++line_;
-      if (line.ends_with('\r')) line.remove_suffix(1);
-      if (line.find_first_not_of(" \t") == std::string_view::npos) continue;
-      if (line.starts_with('#')) {
-        if (!has_header && names_columns(line.substr(1))) comment = line.substr(1);
-      } else if (line_ == 1 && line.size() == 5 && (line.starts_with("sep=") || line.starts_with("SEP="))) {
-        separator_ = line.back();  // as Excel takes it
-      } else if (!has_header) {
-        has_header = true;
-        if (!has_numbers_only(line)) {
-          is_usable = read_header(line);
-        } else if (!comment.empty()) {  // as numpy.savetxt writes it
-          is_usable = read_header(comment);
-          if (fields_of(line, *separator_).size() != n_columns_) separator_ = separator_of(line);
-          if (is_usable) add_rod(line, rods);
-        } else {
-          report(1, fmt::format("the first line has numbers where the names of the columns should stand: put a line "
-                                "before it, such as {}",
-                                kExample));
-        }
-      } else if (is_usable) {
-        add_rod(line, rods);
-      }
-    }
-    if (!has_header) report(0, fmt::format("the file is empty: its first line names the columns, as {}", kExample));
+    read_csv(text, {.is_column = is_column,
+                    .begin = [&](const auto& names, int line) { return read_header(names, line); },
+                    .add =
+                        [&](const auto& fields, int line) {
+                          line_ = line;
+                          if (const auto rod = read_rod(fields)) rods.push_back(*rod);
+                        },
+                    .report =
+                        [&](const std::string& message, int line, int column) {
+                          line_ = line;
+                          report(column, message);
+                        },
+                    .example = "x,y,nx,ny or x,y,angle"});
     const auto remark = remark_on_angles(largest_angle_, "multiply them by 180/pi");
     if (has("angle") && rods.size() > 1 && remark) remarks_.push_back(*remark);
     return rods;
   }
 
  private:
-  static constexpr const char* kExample = "x,y,nx,ny or x,y,angle";
-
   void report(int column, const std::string& message) {
     problems_.push_back({file_, column > 0 ? line_ : 0, column, "", message});
   }
 
   bool has(const std::string& name) const { return place_.contains(name); }
 
-  std::vector<CsvField> fields(std::string_view line) const { return fields_of(line, *separator_); }
-
-  bool has_numbers_only(std::string_view line) const {
-    const std::vector<CsvField> all = fields_of(line, separator_.value_or(separator_of(line)));
-    return std::all_of(all.begin(), all.end(), [](const CsvField& field) { return number_in(field.text).has_value(); });
-  }
-  static bool names_columns(std::string_view comment) {
-    const std::vector<CsvField> names = fields_of(comment, separator_of(comment));
-    return std::all_of(names.begin(), names.end(), [](const CsvField& name) { return is_column(name.text); });
-  }
-
-  void add_rod(std::string_view line, std::vector<ImportedRod>& rods) {
-    if (const auto rod = read_rod(line)) rods.push_back(*rod);
-  }
-
-  bool read_header(std::string_view line) {
+  bool read_header(const std::vector<CsvField>& names, int line) {
     const std::size_t n_before = problems_.size();
-    if (!separator_) separator_ = separator_of(line);
-    const std::vector<CsvField> names = fields(line);
-    n_columns_ = names.size();
+    line_ = line;
     std::vector<std::string> unknown;
     int first_unknown = 0;
     for (std::size_t k = 0; k < names.size(); ++k) {
@@ -148,16 +104,8 @@ class CsvRods {
     return problems_.size() == n_before;
   }
 
-  std::optional<ImportedRod> read_rod(std::string_view line) {
+  std::optional<ImportedRod> read_rod(const std::vector<CsvField>& fields) {
     const std::size_t n_before = problems_.size();
-    std::vector<CsvField> fields = this->fields(line);
-    // names of rows without one of their column, as R writes them
-    if (fields.size() == n_columns_ + 1 && fields.front().is_quoted) fields.erase(fields.begin());
-    if (fields.size() != n_columns_) {
-      report(1, fmt::format("{} for {}: each has its own", counted(fields.size(), "field"),
-                            counted(n_columns_, "column")));
-      return std::nullopt;
-    }
     const auto value = [&](const char* name, double otherwise) {
       const auto at = place_.find(name);
       if (at == place_.end()) return otherwise;
@@ -178,8 +126,8 @@ class CsvRods {
                fmt::format("{}: {} is outside of [-{}, {}] degrees", name, angle, most, most));
         return 0.0;
       };
-      const SinCos in_plane = sincos(degrees("angle", kMostAngle)), out_of_plane = sincos(degrees("tilt", kUpright));
-      rod.director = {out_of_plane.cos * in_plane.cos, out_of_plane.cos * in_plane.sin, out_of_plane.sin};
+      const double in_plane = degrees("angle", kMostAngle);
+      rod.director = director_at(in_plane, degrees("tilt", kUpright));
     } else {
       rod.director = {value("nx", 0), value("ny", 0), value("nz", 0)};
     }
@@ -206,10 +154,8 @@ class CsvRods {
   std::span<const std::string> species_;
   std::vector<Problem>& problems_;
   std::vector<std::string>& remarks_;
-  std::optional<char> separator_;
   double largest_angle_ = 0;                  ///< of all, in the plane and out of it
   int line_ = 0;                              ///< that is being read, from 1
-  std::size_t n_columns_ = 0;                 ///< of the first line
   std::map<std::string, std::size_t> place_;  ///< of each column
 };
 

@@ -9,10 +9,9 @@
 #include <set>
 #include <utility>
 
-#include "base/core/sincos.h"
 #include "base/text.h"
 #include "run/files/frames_in_memory.h"
-#include "run/import/csv_fields.h"
+#include "run/import/csv_table.h"
 #include "run/import/place_rods.h"
 #include "run/loop/open_run.h"
 #include "run/recorded/tracks.h"
@@ -103,59 +102,55 @@ class TrackTable {
   bool has(const std::string& name) const { return place_.contains(name); }
 
   void read_rows(std::string_view text) {
-    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // a mark that spreadsheets set
-    int line = 0, first = 0;
-    for (std::size_t begin = 0; begin < text.size();) {
-      const std::size_t end = std::min(text.find('\n', begin), text.size());
-      std::string_view row = text.substr(begin, end - begin);
-      begin = end + 1;
-      ++line;
-      if (row.ends_with('\r')) row.remove_suffix(1);
-      if (row.find_first_not_of(" \t") == std::string_view::npos || row.starts_with('#')) continue;
-      if (first == 0) {
-        first = line;
-        if (!read_names(row)) return;
-        continue;
-      }
-      const std::vector<CsvField> fields = fields_of(row, separator_);
-      if (fields.size() != n_columns_) {
-        report(
-            fmt::format("{} for {}: each has its own", counted(fields.size(), "field"), counted(n_columns_, "column")),
-            line);
-        continue;
-      }
-      const bool is_title = line <= first + 3 && has_titles_ && !number_in(fields[place_.at("x")].text);
-      if (!is_title) add(fields, line);
-    }
-    if (first == 0) report("the file is empty: its first line names the columns");
+    int first = 0;
+    read_csv(text, {.is_column = [&](const std::string& name) { return is_column(name); },
+                    .begin =
+                        [&](const auto& names, int line) {
+                          first = line;
+                          return read_names(names, line);
+                        },
+                    .add =
+                        [&](const auto& fields, int line) {
+                          const bool may_be_title = line <= first + 3 && has_titles_;
+                          if (!may_be_title || number_in(fields[place_.at("x")].text)) add(fields, line);
+                        },
+                    .report = [&](const auto&... problem) { report(problem...); },
+                    .example = "frame,id,x,y,angle"});
   }
 
-  bool read_names(std::string_view row) {
-    separator_ = separator_of(row);
-    const std::vector<CsvField> names = fields_of(row, separator_);
-    n_columns_ = names.size();
+  bool is_column(const std::string& name) const {
+    return std::ranges::any_of(columns(),
+                               [&](const Column& column) { return std::ranges::count(names_of(column), name) > 0; });
+  }
+
+  /// What a column may be called here.
+  std::vector<std::string> names_of(const Column& column) const {
+    const auto given = conventions_.columns.find(column.name);
+    if (given != conventions_.columns.end()) return {given->second};
+    return {column.known_as.begin(), column.known_as.end()};
+  }
+
+  bool read_names(const std::vector<CsvField>& names, int line) {
     const std::size_t n_before = problems_.size();
     for (const auto& [name, given] : conventions_.columns) {
       if (std::ranges::find(columns(), name, &Column::name) == columns().end())
         report(fmt::format("--columns {}={}: a table has {}", printable(name), printable(given), known_columns()));
     }
     for (const Column& column : columns()) {
-      std::vector<std::string> wanted(column.known_as.begin(), column.known_as.end());
-      const auto given = conventions_.columns.find(column.name);
-      if (given != conventions_.columns.end()) wanted = {given->second};
+      const std::vector<std::string> wanted = names_of(column);
       for (std::size_t k = 0; k < names.size(); ++k) {
         if (std::ranges::find(wanted, names[k].text) == wanted.end()) continue;
         if (!place_.emplace(column.name, k).second) {
           report(fmt::format("{} and {} are both {}: choose one by --columns {}=NAME",
                              printable(names[place_[column.name]].text), printable(names[k].text), column.name,
                              column.name),
-                 1, names[k].column);
+                 line, names[k].column);
         }
         called_[column.name] = names[k].text;
         has_titles_ = has_titles_ || names[k].text == kHeadsAreFour;
       }
-      if (given != conventions_.columns.end() && !has(column.name))
-        report(fmt::format("there is no column '{}', which --columns names", printable(given->second)), 1);
+      if (conventions_.columns.contains(column.name) && !has(column.name))
+        report(fmt::format("there is no column '{}', which --columns names", printable(wanted.front())), line);
     }
     std::vector<std::string> missing;
     for (const char* name : {"x", "y"}) {
@@ -166,11 +161,11 @@ class TrackTable {
     if (!missing.empty()) {
       report(fmt::format("no column is {}: name {} by --columns {}=NAME", fmt::join(missing, ", or "),
                          missing.size() > 1 ? "them" : "it", fmt::join(missing, "=NAME,")),
-             1);
+             line);
     }
-    if (const auto lack = lack_of_species(species_); lack && !has("species")) report(*lack, 1);
+    if (const auto lack = lack_of_species(species_); lack && !has("species")) report(*lack, line);
     if (has("frame") && !has("t") && !conventions_.interval)
-      report("the table has numbers of frames and no times: --interval says the time from one to the next", 1);
+      report("the table has numbers of frames and no times: --interval says the time from one to the next", line);
     return problems_.size() == n_before;
   }
 
@@ -211,8 +206,7 @@ class TrackTable {
         report(fmt::format("an angle is larger than {:g}", kLargestAngle), line);
         return;
       }
-      const SinCos in_plane = sincos(unit * angle), out_of_plane = sincos(unit * tilt);
-      rod.director = {out_of_plane.cos * in_plane.cos, out_of_plane.cos * in_plane.sin, out_of_plane.sin};
+      rod.director = director_at(unit * angle, unit * tilt);
     } else {
       rod.director = {value("nx", 0), value("ny", 0), value("nz", 0)};
       const double length = rod.director.norm();
@@ -454,8 +448,6 @@ class TrackTable {
   const Vec2 period_ = period_of(plan_.system.box(), plan_.system.walls);
   Vec2 view_;  ///< sides of what the table is of: the box, or the rectangle around the arena [mm]
   std::vector<std::string> remarks_;
-  char separator_ = ',';
-  std::size_t n_columns_ = 0;
   std::map<std::string, std::size_t> place_;        ///< of each column
   std::map<std::string, std::string> called_;       ///< by the table
   bool has_titles_ = false;                         ///< more lines of them may follow the names

@@ -84,6 +84,23 @@ TEST(TrackTable, OfTrackpyIsReadInAnyOrderOfItsRows) {
               ElementsAre("velocities are displacements from the frame before to the one after, over 0.02 s"));
 }
 
+TEST(TrackTable, OfOtherProgramsFormsIsReadAsTheirTablesOfRodsAre) {
+  const auto as_savetxt = "# of the camera\n# frame id x y angle\n0 1 2.5 3 30\n1 1 2.5 4 30\n";  // numpy
+  const auto as_excel = "sep=;\r\nframe;id;x;y;angle\r\n0;1;2,5;3;30\r\n1;1;2,5;4;30\r\n";
+  const auto as_r = "\"frame\" \"id\" \"x\" \"y\" \"angle\"\n\"1\" 0 1 2.5 3 30\n\"2\" 1 1 2.5 4 30\n";
+  const auto of_old_macs = "frame,id,x,y,angle\r0,1,2.5,3,30\r1,1,2.5,4,30\r";
+  for (const char* text : {as_savetxt, as_excel, as_r, of_old_macs}) {
+    const TrackedRods tracks = tracks_in(text);
+    ASSERT_EQ(tracks.frames->n_frames(), 2U) << text;
+    expect_rod(frame_of(tracks, 1), 0, {2.5, 4}, 30);
+  }
+  EXPECT_THAT(refusal_of("\xff\xfe"
+                         "f\0r"),
+              HasSubstr("the file is UTF-16: save it as UTF-8"));
+  EXPECT_THAT(refusal_of("0,1,2,3,30\n"),
+              HasSubstr("tracks.csv:1:1: the first line has numbers where the names of the columns"));
+}
+
 TEST(TrackTable, OfTrackMateHasThreeMoreTitlesAndRadians) {
   TrackConventions conventions;
   conventions.scale = 0.1;

@@ -1,7 +1,8 @@
-// The fields of tables in CSV, as R, pandas, numpy, ImageJ and spreadsheets write them.
+// Tables in CSV, as R, pandas, numpy, ImageJ and spreadsheets write them.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "base/core/result.h"
+#include "base/core/types.h"
 
 namespace shaken::run {
 
@@ -19,14 +21,24 @@ struct CsvField {
   bool is_quoted = false;  ///< separators in it are none
 };
 
-/// What separates the fields of a line: a tab, a semicolon or a comma, which it has, or blanks.
-char separator_of(std::string_view line);
+/// Who reads a table. Lines and columns are counted from 1; a problem with 0 is one of the whole file.
+struct CsvReader {
+  std::function<bool(const std::string& name)> is_column;
+  std::function<bool(const std::vector<CsvField>& names, int line)> begin;  ///< whether rows can be read then
+  std::function<void(std::vector<CsvField>& row, int line)> add;  ///< each of as many fields as there are names
+  std::function<void(const std::string& message, int line, int column)> report;
+  const char* example;  ///< of the names: "x,y,angle"
+};
 
-/// The fields of a line. A quote within quotes is doubled.
-std::vector<CsvField> fields_of(std::string_view line, char separator);
+/// Reads a table whose first line, or the comment before it, names the columns. Fields are separated by what that line
+/// has: a tab, a semicolon, a comma, or blanks. A quote within quotes is doubled.
+void read_csv(std::string_view text, const CsvReader& reader);
 
 /// None if `text` is no finite number. A decimal comma is one where it separates nothing else.
 std::optional<double> number_in(std::string text);
+
+/// A unit vector from its angle to the x axis in the plane, and that out of the plane [rad].
+Vec3 director_at(double angle, double tilt);
 
 /// The number of the species that a field names, or counts from 0; `names` are those of the scene's. Fails with both.
 Result<std::uint8_t> species_in(const std::string& text, std::span<const std::string> names);
