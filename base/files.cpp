@@ -168,19 +168,16 @@ Result<RegularFile> open_regular(const std::filesystem::path& file) {
 }  // namespace
 
 Result<std::string> read_file(const std::filesystem::path& file) {
-  const Result<RegularFile> opened = open_regular(file);
-  if (!opened) return opened.error();
-  return read_all(opened->in.value(), file, std::numeric_limits<std::size_t>::max());
+  return read_all(SHAKEN_TRY(open_regular(file)).in.value(), file, std::numeric_limits<std::size_t>::max());
 }
 
 Result<std::string> read_part(const std::filesystem::path& file, std::int64_t offset, std::size_t size) {
-  const Result<RegularFile> opened = open_regular(file);
-  if (!opened) return opened.error();
-  if (offset < 0) offset = std::max<std::int64_t>(0, opened->size + offset);
+  const RegularFile opened = SHAKEN_TRY(open_regular(file));
+  if (offset < 0) offset = std::max<std::int64_t>(0, opened.size + offset);
   std::string part(size, '\0');
   std::size_t n = 0;
   while (n < size) {
-    const ssize_t got = ::pread(opened->in.value(), part.data() + n, size - n, offset + static_cast<std::int64_t>(n));
+    const ssize_t got = ::pread(opened.in.value(), part.data() + n, size - n, offset + static_cast<std::int64_t>(n));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) return system_error("cannot read " + file.string());
     if (got == 0) break;

@@ -26,10 +26,9 @@ Result<FilmAxes> film_axes(std::size_t n_frames, const std::function<Result<RodP
   if (!style.legend && style.inset != Inset::kAngles) return axes;
   const std::size_t first = n_frames / 2, n_later = n_frames - first, n_looks = std::min(kLooks, n_later);
   for (std::size_t k = 0; k < n_looks; ++k) {
-    const Result<RodPicture> rods = picture(first + k * n_later / n_looks);
-    if (!rods) return rods.error();
-    reach(axes, *rods, style);
-    for (const RodPicture& beside : rods->beside) reach(axes, beside, style);
+    const RodPicture rods = SHAKEN_TRY(picture(first + k * n_later / n_looks));
+    reach(axes, rods, style);
+    for (const RodPicture& beside : rods.beside) reach(axes, beside, style);
   }
   return axes;
 }

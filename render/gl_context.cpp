@@ -54,7 +54,7 @@ Result<void> ask_for_threads() {
 
 Result<GlContext> GlContext::create() {
   [[maybe_unused]] static const bool once = (choose_rasteriser(), true);
-  if (auto done = ask_for_threads(); !done) return done.error();
+  SHAKEN_TRY(ask_for_threads());
   const int attributes[] = {OSMESA_FORMAT,
                             OSMESA_RGBA,
                             OSMESA_DEPTH_BITS,

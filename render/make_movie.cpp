@@ -154,16 +154,15 @@ Result<void> make_movie(const std::string& out, const PictureStyle& style, const
                         std::size_t n_frames, const std::function<Result<RodPicture>(std::size_t)>& picture,
                         const std::function<bool(std::size_t)>& on_frame) {
   if (n_frames == 0) return Error{"there are no frames to make " + out + " of"};
-  if (auto done = check_movie_name(out); !done) return done.error();
-  Result<Output> output = Output::open(out, style, options);
-  if (!output) return output.error();
+  SHAKEN_TRY(check_movie_name(out));
+  Output output = SHAKEN_TRY(Output::open(out, style, options));
   const int n_threads = std::max(1, options.n_threads);
   Workshop workshop(n_threads, style);
   std::size_t written = 0;
   const auto write_next = [&]() -> Result<void> {
     const Drawn drawn = workshop.take();
     if (!drawn.image) return drawn.image.error();
-    if (auto done = output->add(written, *drawn.image, drawn.texts); !done) return done.error();
+    SHAKEN_TRY(output.add(written, *drawn.image, drawn.texts));
     ++written;
     if (on_frame && !on_frame(written - 1)) return Error{"stopped after " + std::to_string(written) + " frames"};
     return {};
@@ -171,16 +170,14 @@ Result<void> make_movie(const std::string& out, const PictureStyle& style, const
   for (std::size_t i = 0; i < n_frames; ++i) {
     // One picture waits for each thread, so that none idles.
     while (workshop.n_inside() >= 2 * static_cast<std::size_t>(n_threads)) {
-      if (auto done = write_next(); !done) return done.error();
+      SHAKEN_TRY(write_next());
     }
-    Result<RodPicture> rods = picture(i);
-    if (!rods) return rods.error();
-    workshop.put(std::move(*rods));
+    workshop.put(SHAKEN_TRY(picture(i)));
   }
   while (written < n_frames) {
-    if (auto done = write_next(); !done) return done.error();
+    SHAKEN_TRY(write_next());
   }
-  return output->finish();
+  return output.finish();
 }
 
 }  // namespace shaken::render

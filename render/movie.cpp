@@ -134,7 +134,7 @@ Result<MovieWriter> MovieWriter::create(const std::filesystem::path& file, int w
                                         const std::string& title, const Notes& notes, bool small) {
   const Format* kind = format_of(file);
   if (kind == nullptr) return Error{"a film is written as " + movie_endings() + ", not as " + file.string()};
-  if (auto done = check_movie(file, width, height, fps); !done) return done.error();
+  SHAKEN_TRY(check_movie(file, width, height, fps));
   auto impl = std::make_unique<Impl>(file);
   impl->width = width;
   impl->height = height;
@@ -153,7 +153,7 @@ Result<MovieWriter> MovieWriter::create(const std::filesystem::path& file, int w
                                    "-metadata", "comment=" + notes_text(notes)});
   }
   command.push_back("file:" + impl->unfinished.path().string());  // a name alone may be taken for a protocol
-  if (auto done = impl->start(command); !done) return done.error();
+  SHAKEN_TRY(impl->start(command));
   return MovieWriter(std::move(impl));
 }
 

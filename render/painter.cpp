@@ -47,7 +47,7 @@ PictureStyle drawable(PictureStyle style, const RodPicture& picture) {
 }
 
 Result<void> check(const PictureStyle& style, const RodPicture& picture) {
-  if (auto done = render::check(style); !done) return done.error();
+  SHAKEN_TRY(render::check(style));
   if (!picture.beside.empty() && style.view != ViewPoint::kTop) {
     return Error{"several runs are drawn beside each other from above only, not in perspective"};
   }
@@ -60,15 +60,11 @@ Result<void> check(const PictureStyle& style, const RodPicture& picture) {
 
 }  // namespace
 
-Result<Painter> Painter::create() {
-  Result<RodsPass> rods = RodsPass::create();
-  if (!rods) return rods.error();
-  return Painter(std::move(*rods));
-}
+Result<Painter> Painter::create() { return Painter(SHAKEN_TRY(RodsPass::create())); }
 
 template <class Channel>
 Result<ImageOf<Channel>> Painter::paint(const RodPicture& picture, const PictureStyle& style) {
-  if (auto done = check(style, picture); !done) return done.error();
+  SHAKEN_TRY(check(style, picture));
   const PictureStyle drawn = drawable(style, picture);
   Sheet<Channel> sheet(drawn.width, drawn.height, ground_colours(drawn).page);
   const Result<void> done =
@@ -84,19 +80,17 @@ template Result<DeepImage> Painter::paint(const RodPicture& picture, const Pictu
 Result<ClearImage> Painter::paint_clear(const RodPicture& picture, PictureStyle style) {
   // What is seen of the ground where it is white, and not where it is black, is what shines through.
   style.ground = Colour{0, 0, 0};
-  const Result<Image> on_black = paint(picture, style);
-  if (!on_black) return on_black.error();
+  const Image on_black = SHAKEN_TRY(paint(picture, style));
   style.ground = Colour{1, 1, 1};
-  const Result<Image> on_white = paint(picture, style);
-  if (!on_white) return on_white.error();
-  ClearImage clear{on_black->width, on_black->height, {}};
-  clear.rgba.reserve(on_black->rgb.size() / 3 * 4);
-  for (std::size_t i = 0; i < on_black->rgb.size(); i += 3) {
+  const Image on_white = SHAKEN_TRY(paint(picture, style));
+  ClearImage clear{on_black.width, on_black.height, {}};
+  clear.rgba.reserve(on_black.rgb.size() / 3 * 4);
+  for (std::size_t i = 0; i < on_black.rgb.size(); i += 3) {
     int through = 0;  // of three times 255
-    for (std::size_t c = i; c < i + 3; ++c) through += on_white->rgb[c] - on_black->rgb[c];
+    for (std::size_t c = i; c < i + 3; ++c) through += on_white.rgb[c] - on_black.rgb[c];
     const int opacity = std::clamp(255 - (through + 1) / 3, 0, 255);
     for (std::size_t c = i; c < i + 3; ++c) {
-      const int colour = opacity > 0 ? (on_black->rgb[c] * 255 + opacity / 2) / opacity : 0;
+      const int colour = opacity > 0 ? (on_black.rgb[c] * 255 + opacity / 2) / opacity : 0;
       clear.rgba.push_back(static_cast<std::uint8_t>(std::min(colour, 255)));
     }
     clear.rgba.push_back(static_cast<std::uint8_t>(opacity));
@@ -108,9 +102,7 @@ template <class Channel>
 Result<void> Painter::paint_one(Sheet<Channel>& sheet, const RodPicture& picture, const PictureStyle& style) {
   const Layout layout = layout_for(picture, style);
   if (style.view != ViewPoint::kTop) {
-    Result<ImageOf<Channel>> stage = rods_.draw<Channel>(picture, style, layout.stage_width, layout.stage_height);
-    if (!stage) return stage.error();
-    sheet.paste(std::move(*stage), 0, 0, 1);
+    sheet.paste(SHAKEN_TRY(rods_.draw<Channel>(picture, style, layout.stage_width, layout.stage_height)), 0, 0, 1);
   } else if (auto done = paint_box(sheet, layout, picture, style); !done) {
     return done.error();
   }
@@ -123,9 +115,8 @@ Result<void> Painter::paint_box(Sheet<Channel>& sheet, const Layout& layout, con
                                 const PictureStyle& style) {
   if (style.rods < 1) draw_ground(sheet.under(), layout, picture, style);
   if (style.rods <= 0) return {};
-  Result<ImageOf<Channel>> rods = rods_.draw<Channel>(picture, style, layout.box_side, layout.box_side);
-  if (!rods) return rods.error();
-  sheet.paste(std::move(*rods), layout.box_x, layout.box_y, style.rods);
+  ImageOf<Channel> rods = SHAKEN_TRY(rods_.draw<Channel>(picture, style, layout.box_side, layout.box_side));
+  sheet.paste(std::move(rods), layout.box_x, layout.box_y, style.rods);
   return {};
 }
 
@@ -134,7 +125,7 @@ Result<void> Painter::paint_panels(Sheet<Channel>& sheet, const RodPicture& pict
   const PanelGrid grid = panel_grid(style, 1 + picture.beside.size());
   for (std::size_t i = 0; i < grid.panels.size(); ++i) {
     const RodPicture& one = panel_of(picture, i);
-    if (auto done = paint_box(sheet, grid.panels[i], one, style); !done) return done.error();
+    SHAKEN_TRY(paint_box(sheet, grid.panels[i], one, style));
     draw_panel_words(sheet.over(), grid.panels[i], one, style, !have_one_time(picture));
   }
   draw_footer(sheet.over(), grid, picture, style);
@@ -143,7 +134,7 @@ Result<void> Painter::paint_panels(Sheet<Channel>& sheet, const RodPicture& pict
 
 Result<void> write_vector(const std::filesystem::path& file, const RodPicture& picture, const PictureStyle& asked) {
   const PictureStyle style = drawable(asked, picture);
-  if (auto done = check(style, picture); !done) return done.error();
+  SHAKEN_TRY(check(style, picture));
   if (style.view != ViewPoint::kTop) return Error{"only views from above can be drawn as " + file.extension().string()};
   UnfinishedFile unfinished(file);
   const auto failed = [&](const std::string& why) { return Error{"cannot write " + file.string() + ": " + why}; };

@@ -170,17 +170,16 @@ RodsPass& RodsPass::operator=(RodsPass&&) noexcept = default;
 RodsPass::~RodsPass() = default;  // the GL objects go with their context
 
 Result<RodsPass> RodsPass::create() {
-  Result<GlContext> context = GlContext::create();
-  if (!context) return context.error();
-  if (auto done = context->bind(1, 1); !done) return done.error();
-  return RodsPass(std::move(*context), std::make_unique<Programs>());
+  GlContext context = SHAKEN_TRY(GlContext::create());
+  SHAKEN_TRY(context.bind(1, 1));
+  return RodsPass(std::move(context), std::make_unique<Programs>());
 }
 
 template <class Channel>
 Result<ImageOf<Channel>> RodsPass::draw(const RodPicture& picture, const PictureStyle& style, int width, int height) {
-  if (auto done = check_drawable(picture, style, width, height); !done) return done.error();
+  SHAKEN_TRY(check_drawable(picture, style, width, height));
   const Light& light = style.light;
-  if (auto done = context_.bind<Channel>(width * light.samples, height * light.samples); !done) return done.error();
+  SHAKEN_TRY(context_.bind<Channel>(width * light.samples, height * light.samples));
   const Camera camera = camera_of(picture, style, static_cast<double>(width) / height);
   std::string seen, lit;  // what has to be worked out of it
   if (camera.fades) seen += "#define FADES\n";

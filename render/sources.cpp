@@ -83,28 +83,24 @@ Result<TrajectorySource> TrajectorySource::open(const std::filesystem::path& run
     return Error{"there is no " + file.string() +
                  ": give a run directory or its trajectory.h5, of a scene with a \"trajectory\" or \"movie\" block"};
   }
-  if (auto done = run::try_to_read(file); !done) return done.error();
-  Result<run::TrajectoryReader> reader = run::TrajectoryReader::open(file);
-  if (!reader) return reader.error();
-  if (reader->n_frames() == 0) return Error{file.string() + " holds no complete frame yet"};
-  TrajectorySource source(file, std::move(*reader));
+  SHAKEN_TRY(run::try_to_read(file));
+  run::TrajectoryReader reader = SHAKEN_TRY(run::TrajectoryReader::open(file));
+  if (reader.n_frames() == 0) return Error{file.string() + " holds no complete frame yet"};
+  TrajectorySource source(file, std::move(reader));
   // Another version's scene may be none to this one; nothing is then known of the plates.
   if (auto plan = scene::load_scene(source.reader_.header().scene_json, file.string())) {
     source.plan_ = std::move(*plan);
     source.plates_ = PlateMotion(source.plan_->system);
   }
-  Result<Notes> notes = notes_of(file, source.reader_.header().provenance);
-  if (!notes) return notes.error();
-  source.notes_ = *std::move(notes);
+  source.notes_ = SHAKEN_TRY(notes_of(file, source.reader_.header().provenance));
   return source;
 }
 
 Result<double> TrajectorySource::time_of(std::size_t index) const {
   if (const auto known = times_.find(index); known != times_.end()) return known->second;
-  const Result<Snapshot> frame = reader_.frame(index);
-  if (!frame) return frame.error();
-  times_[index] = frame->time;
-  return frame->time;
+  const Snapshot frame = SHAKEN_TRY(reader_.frame(index));
+  times_[index] = frame.time;
+  return frame.time;
 }
 
 Result<std::size_t> TrajectorySource::nearest_frame(double time) const {
@@ -112,9 +108,8 @@ Result<std::size_t> TrajectorySource::nearest_frame(double time) const {
   std::size_t low = 0, high = n_frames();
   while (low < high) {
     const std::size_t middle = low + (high - low) / 2;
-    const Result<double> at = time_of(middle);
-    if (!at) return at.error();
-    if (*at < time) {
+    const double at = SHAKEN_TRY(time_of(middle));
+    if (at < time) {
       low = middle + 1;
     } else {
       high = middle;
@@ -122,31 +117,26 @@ Result<std::size_t> TrajectorySource::nearest_frame(double time) const {
   }
   if (low == n_frames()) return low - 1;
   if (low == 0) return low;
-  const Result<double> before = time_of(low - 1), after = time_of(low);
-  if (!before) return before.error();
-  if (!after) return after.error();
-  return time - *before <= *after - time ? low - 1 : low;
+  const double before = SHAKEN_TRY(time_of(low - 1)), after = SHAKEN_TRY(time_of(low));
+  return time - before <= after - time ? low - 1 : low;
 }
 
 Result<std::size_t> TrajectorySource::recorded_frame(double time) const {
-  const Result<double> first = time_of(0), last = time_of(n_frames() - 1);
-  if (!first) return first.error();
-  if (!last) return last.error();
-  const double apart = n_frames() > 1 ? (*last - *first) / static_cast<double>(n_frames() - 1) : 1e-3;
-  if (time >= *first - apart && time <= *last + apart) return nearest_frame(time);
+  const double first = SHAKEN_TRY(time_of(0)), last = SHAKEN_TRY(time_of(n_frames() - 1));
+  const double apart = n_frames() > 1 ? (last - first) / static_cast<double>(n_frames() - 1) : 1e-3;
+  if (time >= first - apart && time <= last + apart) return nearest_frame(time);
   return Error{fmt::format("{}: there is no frame at {:.6g} s: the {} frames are from {:.6g} s to {:.6g} s",
-                           file_.string(), time, n_frames(), *first, *last)};
+                           file_.string(), time, n_frames(), first, last)};
 }
 
 std::optional<scene::Movie> TrajectorySource::movie_request() const { return plan_ ? plan_->movie : std::nullopt; }
 
 Result<void> TrajectorySource::read_history() {
   constexpr std::size_t kMostPoints = 400;
-  Result<run::OrderCurve> curve = run::order_of_frames(reader_, kMostPoints);
-  if (!curve) return curve.error();
-  if (curve->times.empty()) return {};  // spheres have no S
-  const double start = curve->times.front(), end = curve->times.back();
-  history_ = {std::move(curve->times), std::move(curve->orders), start, end};
+  run::OrderCurve curve = SHAKEN_TRY(run::order_of_frames(reader_, kMostPoints));
+  if (curve.times.empty()) return {};  // spheres have no S
+  const double start = curve.times.front(), end = curve.times.back();
+  history_ = {std::move(curve.times), std::move(curve.orders), start, end};
   return {};
 }
 
@@ -175,7 +165,7 @@ Result<RodPicture> TrajectorySource::bare_picture(const Snapshot& frame, Asked a
   picture.frame.position = frame.position;
   picture.frame.director = frame.director;
   picture.frame.velocity = frame.velocity;
-  if (auto done = check_sizes(file_.string() + " has", picture, asked); !done) return done.error();
+  SHAKEN_TRY(check_sizes(file_.string() + " has", picture, asked));
   const std::optional<double> gamma = plan_ ? scene::gamma_of(plan_->system) : std::nullopt;
   picture.captions.settings = settings_of(picture);
   if (gamma) {
@@ -189,11 +179,9 @@ Result<RodPicture> TrajectorySource::bare_picture(const Snapshot& frame, Asked a
 
 Result<const std::vector<analysis::Defect>*> TrajectorySource::defects_of(std::size_t index) {
   if (const auto known = defects_.find(index); known != defects_.end()) return &known->second;
-  const Result<Snapshot> frame = reader_.frame(index);
-  if (!frame) return frame.error();
-  Result<RodPicture> picture = bare_picture(*frame, {.defects = true});
-  if (!picture) return picture.error();
-  return &(defects_[index] = std::move(picture->found.defects));
+  const Snapshot frame = SHAKEN_TRY(reader_.frame(index));
+  RodPicture picture = SHAKEN_TRY(bare_picture(frame, {.defects = true}));
+  return &(defects_[index] = std::move(picture.found.defects));
 }
 
 Result<void> TrajectorySource::link(std::size_t first, std::size_t last) {
@@ -203,18 +191,15 @@ Result<void> TrajectorySource::link(std::size_t first, std::size_t last) {
     links_begin_ = links_end_ = first;
   }
   for (; links_end_ <= last; ++links_end_) {
-    const Result<double> time = time_of(links_end_);
-    if (!time) return time.error();
-    const auto defects = defects_of(links_end_);
-    if (!defects) return defects.error();
-    links_->add(*time, **defects);
+    const double time = SHAKEN_TRY(time_of(links_end_));
+    links_->add(time, *SHAKEN_TRY(defects_of(links_end_)));
   }
   return {};
 }
 
 Result<void> TrajectorySource::follow(const FollowedDefect& defect, std::size_t first, std::size_t last) {
   links_.reset();  // of these frames alone
-  if (auto done = link(first, last); !done) return done.error();
+  SHAKEN_TRY(link(first, last));
   followed_ = links_->longest(defect.charge, defect.rank);
   if (followed_) return {};
   return Error{fmt::format("view follow:{0}:{1} is of the {0} defect after {1} others: in these frames there are {2}",
@@ -222,78 +207,60 @@ Result<void> TrajectorySource::follow(const FollowedDefect& defect, std::size_t 
 }
 
 Result<std::vector<Vec2>> TrajectorySource::displacements(const Snapshot& now, std::size_t index, double span) const {
-  const Result<double> recorded = time_of(index);
-  if (!recorded) return recorded.error();
-  const Result<std::size_t> past = nearest_frame(*recorded - span);
-  if (!past) return past.error();
-  if (*past == index && index > 0) {
-    const Result<double> previous = time_of(index - 1);
-    if (!previous) return previous.error();
+  const double recorded = SHAKEN_TRY(time_of(index));
+  const std::size_t past = SHAKEN_TRY(nearest_frame(recorded - span));
+  if (past == index && index > 0) {
+    const double previous = SHAKEN_TRY(time_of(index - 1));
     return Error{
-        fmt::format("no displacements over {:g} s: frames are recorded every {:g} s", span, *recorded - *previous)};
+        fmt::format("no displacements over {:g} s: frames are recorded every {:g} s", span, recorded - previous)};
   }
-  const Result<Snapshot> before = reader_.frame(*past);
-  if (!before) return before.error();
+  const Snapshot before = SHAKEN_TRY(reader_.frame(past));
   const auto unwrapped = [&](const Snapshot& frame, std::size_t i) -> Vec2 {
     return frame.position[i].head<2>() +
            reader_.header().cell.box.sides().cwiseProduct(Vec2(frame.image[i][0], frame.image[i][1]));
   };
   std::vector<Vec2> ways;
-  for (std::size_t i = 0; i < now.position.size(); ++i) ways.emplace_back(unwrapped(now, i) - unwrapped(*before, i));
+  for (std::size_t i = 0; i < now.position.size(); ++i) ways.emplace_back(unwrapped(now, i) - unwrapped(before, i));
   return ways;
 }
 
 Result<RodPicture> TrajectorySource::picture(std::size_t index, const PictureStyle& style) {
-  const Result<Snapshot> frame = reader_.frame(index);
-  if (!frame) return frame.error();
-  return picture_of(*frame, index, style);
+  return picture_of(SHAKEN_TRY(reader_.frame(index)), index, style);
 }
 
 Result<RodPicture> TrajectorySource::picture_at(double time, const PictureStyle& style) {
-  const Result<std::size_t> nearest = nearest_frame(time);
-  if (!nearest) return nearest.error();
-  const Result<double> recorded = time_of(*nearest);
-  if (!recorded) return recorded.error();
+  const std::size_t nearest = SHAKEN_TRY(nearest_frame(time));
+  const double recorded = SHAKEN_TRY(time_of(nearest));
   constexpr double kSame = 1e-9;  // [s]
-  const bool is_first = *nearest == 0, is_last = *nearest + 1 == n_frames();
-  if (!style.interpolate || std::abs(time - *recorded) < kSame || (is_first && time < *recorded) ||
-      (is_last && time > *recorded)) {
-    return picture(*nearest, style);
+  const bool is_first = nearest == 0, is_last = nearest + 1 == n_frames();
+  if (!style.interpolate || std::abs(time - recorded) < kSame || (is_first && time < recorded) ||
+      (is_last && time > recorded)) {
+    return picture(nearest, style);
   }
-  const std::size_t first = time > *recorded ? *nearest : *nearest - 1;
-  const Result<Snapshot> before = reader_.frame(first), after = reader_.frame(first + 1);
-  if (!before) return before.error();
-  if (!after) return after.error();
-  return picture_of(between(*before, *after, time, reader_.header().cell), first, style);
+  const std::size_t first = time > recorded ? nearest : nearest - 1;
+  const Snapshot before = SHAKEN_TRY(reader_.frame(first)), after = SHAKEN_TRY(reader_.frame(first + 1));
+  return picture_of(between(before, after, time, reader_.header().cell), first, style);
 }
 
 Result<RodPicture> TrajectorySource::picture_of(const Snapshot& frame, std::size_t index, const PictureStyle& style) {
   Asked asked = asked_by(style);
-  const Result<double> recorded = time_of(index);
-  if (!recorded) return recorded.error();
-  const bool is_recorded = *recorded == frame.time;
+  const bool is_recorded = SHAKEN_TRY(time_of(index)) == frame.time;
   const auto known = is_recorded ? defects_.find(index) : defects_.end();
   if (known != defects_.end() && !asked.field) asked.defects = false;
-  Result<RodPicture> made = bare_picture(frame, asked);
-  if (!made) return made.error();
-  RodPicture& picture = *made;
+  RodPicture picture = SHAKEN_TRY(bare_picture(frame, asked));
   if (known != defects_.end() && style.mark_defects) picture.found.defects = known->second;
   picture.captions.notes = notes_;
   if (followed_) picture.found.followed = followed_->at(picture.frame.time);
   if (style.displacements > 0) {
-    Result<std::vector<Vec2>> ways = displacements(frame, index, style.displacements);
-    if (!ways) return ways.error();
-    picture.frame.displacement = std::move(*ways);
+    picture.frame.displacement = SHAKEN_TRY(displacements(frame, index, style.displacements));
   }
   if (style.mark_defects && style.tracks > 0) {
     if (is_recorded) defects_[index] = picture.found.defects;
     std::size_t first = index;
     for (; first > 0; --first) {
-      const Result<double> before = time_of(first - 1);
-      if (!before) return before.error();
-      if (picture.frame.time - *before > style.tracks) break;
+      if (picture.frame.time - SHAKEN_TRY(time_of(first - 1)) > style.tracks) break;
     }
-    if (auto done = link(first, index); !done) return done.error();
+    SHAKEN_TRY(link(first, index));
     defects_.erase(defects_.begin(), defects_.lower_bound(first));  // a film does not go back
     picture.found.tracks = links_->trails(picture.frame.time, style.tracks);
   }
@@ -307,14 +274,12 @@ Result<RodPicture> TrajectorySource::picture_of(const Snapshot& frame, std::size
     picture.captions.history.time.push_back(picture.frame.time);
     picture.captions.history.order.push_back(picture.found.order);
   }
-  return made;
+  return picture;
 }
 
 Result<RodPicture> live_picture(const std::string& lcm_url, const std::string& job, std::chrono::milliseconds timeout,
                                 const PictureStyle& style) {
-  const Result<std::unique_ptr<proto::Bus>> opened = proto::Bus::open(lcm_url);
-  if (!opened) return opened.error();
-  proto::Bus& bus = **opened;
+  const std::unique_ptr<proto::Bus> bus = SHAKEN_TRY(proto::Bus::open(lcm_url));
   // The unchanging part tells which job it is; only frames after it can be put together.
   std::optional<frame_static_t> constants;
   std::optional<proto::FrameAssembler> assembler;
@@ -335,10 +300,10 @@ Result<RodPicture> live_picture(const std::string& lcm_url, const std::string& j
   const auto note_chunk = [&](const frame_t& chunk) {
     if (assembler && !frame) frame = assembler->add(chunk);
   };
-  if (!bus.subscribe<frame_static_t>(proto::kFrameStaticChannel, note_constants) ||
-      !bus.subscribe<posts_t>(proto::kPostsChannel, note_posts) ||
-      !bus.subscribe<sizes_t>(proto::kSizesChannel, note_sizes) ||
-      !bus.subscribe<frame_t>(proto::kFrameChannel, note_chunk)) {
+  if (!bus->subscribe<frame_static_t>(proto::kFrameStaticChannel, note_constants) ||
+      !bus->subscribe<posts_t>(proto::kPostsChannel, note_posts) ||
+      !bus->subscribe<sizes_t>(proto::kSizesChannel, note_sizes) ||
+      !bus->subscribe<frame_t>(proto::kFrameChannel, note_chunk)) {
     return Error{"LCM refuses a subscription at " + lcm_url};
   }
 
@@ -351,7 +316,7 @@ Result<RodPicture> live_picture(const std::string& lcm_url, const std::string& j
           fmt::format("no frame of job {} came within {} s at {}: is it running, with a \"stream\" block in its scene?",
                       job, timeout.count() / 1000, lcm_url)};
     }
-    bus.handle(static_cast<int>(std::min<std::int64_t>(left.count(), 200)));
+    bus->handle(static_cast<int>(std::min<std::int64_t>(left.count(), 200)));
   }
 
   const Asked asked = asked_by(style);
@@ -368,7 +333,7 @@ Result<RodPicture> live_picture(const std::string& lcm_url, const std::string& j
     picture.frame.position.emplace_back(rod.x, rod.y, cell->gap / 2);
     picture.frame.director.emplace_back(axis[0], axis[1], axis[2]);
   }
-  if (auto done = check_sizes("the job's messages have", picture, asked); !done) return done.error();
+  SHAKEN_TRY(check_sizes("the job's messages have", picture, asked));
   picture.captions.settings = settings_of(picture);
   name_runs({&picture.captions});
   if (!constants->label.empty()) {

@@ -72,9 +72,7 @@ Result<PictureStyle> named_style(const std::string& name, const PictureStyle& st
     return Error{fmt::format("there is no style '{}': give one of {}, or a file{}", name,
                              fmt::join(preset_names(), ", "), keys::did_you_mean(keys::nearest(name, preset_names())))};
   }
-  const Result<std::string> text = read_input(name);
-  if (!text) return text.error();
-  keys::Loaded<PictureStyle> loaded = load_style(*text, name, style);
+  keys::Loaded<PictureStyle> loaded = load_style(SHAKEN_TRY(read_input(name)), name, style);
   if (!loaded) return Error{to_string(loaded.error())};
   return *loaded;
 }

@@ -17,21 +17,18 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
 
 Result<Simulation> Simulation::start(const System& system, const GoOn& go_on) {
-  auto world = is_compressed(system.start) ? make_compressed_world(system, go_on) : make_world(system);
-  if (!world) return world.error();
-  return Simulation(std::move(world).value());
+  return Simulation(
+      SHAKEN_TRY(is_compressed(system.start) ? make_compressed_world(system, go_on) : make_world(system)));
 }
 
 Result<Simulation> Simulation::start(const System& system, const World& left, const GoOn& go_on) {
-  auto world = is_resized(system, left.system) ? make_resized_world(system, left, go_on) : make_world(system, left);
-  if (!world) return world.error();
-  return Simulation(std::move(world).value());
+  auto world =
+      SHAKEN_TRY(is_resized(system, left.system) ? make_resized_world(system, left, go_on) : make_world(system, left));
+  return Simulation(std::move(world));
 }
 
 Result<Simulation> Simulation::resume(const System& system, std::span<const std::byte> checkpoint) {
-  auto world = restore_checkpoint(system, checkpoint);
-  if (!world) return world.error();
-  return Simulation(std::move(world).value());
+  return Simulation(SHAKEN_TRY(restore_checkpoint(system, checkpoint)));
 }
 
 Simulation Simulation::start_from(World world) {

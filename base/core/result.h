@@ -29,6 +29,7 @@ class [[nodiscard]] Result {
   const T& value() const& { return std::get<T>(content_); }
   T&& value() && { return std::get<T>(std::move(content_)); }
   T& operator*() & { return value(); }
+  T&& operator*() && { return std::move(*this).value(); }
   const T& operator*() const& { return value(); }
   T* operator->() { return &value(); }
   const T* operator->() const { return &value(); }
@@ -40,7 +41,7 @@ class [[nodiscard]] Result {
 
 /// That something was done, or the reason why it was not: for functions that give nothing back. True if it was done,
 /// as with every Result; `return {};` says so. A failure is passed on, also as one of another type, by
-///   if (auto done = write_file(file, text); !done) return done.error();
+///   SHAKEN_TRY(write_file(file, text));
 /// Asking for the reason of a success throws std::bad_optional_access.
 template <>
 class [[nodiscard]] Result<void> {
@@ -49,10 +50,21 @@ class [[nodiscard]] Result<void> {
   Result(Error error) : error_(std::move(error)) {}
 
   explicit operator bool() const { return !error_; }
+  void operator*() const {}
   const Error& error() const { return error_.value(); }
 
  private:
   std::optional<Error> error_;
 };
+
+/// The value of a Result; where it has none, the function that this stands in returns the reason.
+///   const std::string text = SHAKEN_TRY(read_file(file));
+///   SHAKEN_TRY(write_file(copy, text));
+#define SHAKEN_TRY(expression)        \
+  __extension__({                     \
+    auto tried = (expression);        \
+    if (!tried) return tried.error(); \
+    *std::move(tried);                \
+  })
 
 }  // namespace shaken

@@ -122,9 +122,7 @@ Result<Written> split_quantity(std::string_view text) {
     return Error{fmt::format("\"{}\": {}", text, foreign)};
   }
   if (end == 0) return Error{fmt::format("\"{}\" is not a number", text)};
-  const Result<Decimal> number = parse_decimal(all.substr(0, end));
-  if (!number) return number.error();
-  return Written{*number, std::string(trimmed(all.substr(end)))};
+  return Written{SHAKEN_TRY(parse_decimal(all.substr(0, end))), std::string(trimmed(all.substr(end)))};
 }
 
 Result<Decimal> in_default_unit(const Written& written, Dimension dimension) {
@@ -153,11 +151,8 @@ Result<Decimal> in_default_unit(const Written& written, Dimension dimension) {
 }
 
 Result<double> parse_quantity(std::string_view text, Dimension dimension) {
-  const Result<Written> written = split_quantity(text);
-  if (!written) return written.error();
-  const Result<Decimal> number = in_default_unit(*written, dimension);
-  if (!number) return number.error();
-  return number->value();
+  const Written written = SHAKEN_TRY(split_quantity(text));
+  return SHAKEN_TRY(in_default_unit(written, dimension)).value();
 }
 
 std::string format_quantity(double value, Dimension dimension) {

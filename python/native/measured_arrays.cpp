@@ -42,25 +42,24 @@ Result<void> check(const Snapshot& frame, std::size_t number, const Box& box) {
 Result<Measured> measure_arrays(const Scene& scene, std::vector<Snapshot> frames, double interval, run::Lacking lacking,
                                 bool is_tracked, const GoOn& go_on) {
   const std::string started = utc_now();
-  Result<scene::RunPlan> asked = resolved(scene);
-  if (!asked) return asked.error();
-  asked->system.added = {};  // frames are of the first species alone
+  scene::RunPlan asked = SHAKEN_TRY(resolved(scene));
+  asked.system.added = {};  // frames are of the first species alone
   std::size_t n_all = 0;
   for (const Snapshot& frame : frames) n_all += frame.n_rods();
   const std::size_t mean =
       frames.empty()
           ? 0
           : static_cast<std::size_t>(std::llround(static_cast<double>(n_all) / static_cast<double>(frames.size())));
-  const auto own = run::plan_of_tracks(*asked, "scene", {{std::max<std::size_t>(mean, 1)}, frames.size(), interval});
+  const auto own = run::plan_of_tracks(asked, "scene", {{std::max<std::size_t>(mean, 1)}, frames.size(), interval});
   if (!own) return as_error(own.error());
 
-  const Tick spacing = run::ticks_between(interval, *asked);
+  const Tick spacing = run::ticks_between(interval, asked);
   const Vec2 period = period_of(own->system.box(), own->system.walls);
   const bool is_followed = !lacking.contains(run::Needs::kIdentities);
   std::size_t number = 0;
   const Snapshot* before = nullptr;
   for (Snapshot& frame : frames) {
-    if (auto done = check(frame, number, own->system.box()); !done) return done.error();
+    SHAKEN_TRY(check(frame, number, own->system.box()));
     frame.tick = spacing * static_cast<Tick>(number++);
     frame.time = static_cast<double>(frame.tick) * own->system.dt;
     frame.box = own->system.box();

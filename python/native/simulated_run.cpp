@@ -49,51 +49,45 @@ SimulatedRun::SimulatedRun(Scene scene, scene::RunPlan plan, Simulation simulati
 }
 
 Result<SimulatedRun> SimulatedRun::start(Scene scene, const GoOn& go_on) {
-  Result<scene::RunPlan> plan = resolved(scene);
-  if (!plan) return plan.error();
-  Result<Simulation> simulation = run::start_simulation(*plan, {}, go_on);
-  if (!simulation) return simulation.error();
-  SimulatedRun run(std::move(scene), std::move(plan).value(), std::move(simulation).value());
+  scene::RunPlan plan = SHAKEN_TRY(resolved(scene));
+  Simulation simulation = SHAKEN_TRY(run::start_simulation(plan, {}, go_on));
+  SimulatedRun run(std::move(scene), std::move(plan), std::move(simulation));
   run.measure();
   return run;
 }
 
 Result<SimulatedRun> SimulatedRun::start(Scene scene, const std::vector<run::ImportedRod>& rods,
                                          bool draws_velocities) {
-  Result<scene::RunPlan> plan = resolved(scene);
-  if (!plan) return plan.error();
+  scene::RunPlan plan = SHAKEN_TRY(resolved(scene));
   for (const run::ImportedRod& rod : rods) {
-    if (!plan->system.has_species(rod.shape))
+    if (!plan.system.has_species(rod.shape))
       return Error{fmt::format("rod {} is of species {}, which the scene does not have", rod.number, rod.shape)};
   }
-  const World empty = empty_world(plan->system);
+  const World empty = empty_world(plan.system);
   if (empty.species.size() != empty.species_of_shape.back() + 1U) {
     return Error{
         "rods of the scene differ in size, of which arrays say nothing: leave out length_spread and "
         "end_diameter_spread"};
   }
   std::vector<keys::Problem> problems;
-  const scene::RunPlan placed = run::without_start(*plan);
+  const scene::RunPlan placed = run::without_start(plan);
   auto found = run::place_rods(placed.system, rods, "the rods", false, problems);
   if (!found) return as_error(keys::tidied(std::move(problems)));
   if (draws_velocities) run::draw_velocities(found->world);
   const Simulation imported = Simulation::start_from(std::move(found->world));
-  plan->start = scene::StartState{run::import_id(placed, imported), 0};
-  Result<Simulation> simulation = Simulation::start(plan->system, imported.world());
-  if (!simulation) return simulation.error();
-  SimulatedRun run(std::move(scene), std::move(plan).value(), std::move(simulation).value());
+  plan.start = scene::StartState{run::import_id(placed, imported), 0};
+  Simulation simulation = SHAKEN_TRY(Simulation::start(plan.system, imported.world()));
+  SimulatedRun run(std::move(scene), std::move(plan), std::move(simulation));
   run.measure();
   return run;
 }
 
 Result<SimulatedRun> SimulatedRun::resume(const SavedRun& saved) {
-  Result<scene::RunPlan> plan = resolved(saved.scene);
-  if (!plan) return plan.error();
-  plan->start = saved.start;
-  Result<Simulation> simulation = Simulation::resume(plan->system, saved.simulation);
-  if (!simulation) return simulation.error();
-  SimulatedRun run(saved.scene, std::move(plan).value(), std::move(simulation).value());
-  if (auto done = run.run_.measurements.restore(saved.measurements); !done) return done.error();
+  scene::RunPlan plan = SHAKEN_TRY(resolved(saved.scene));
+  plan.start = saved.start;
+  Simulation simulation = SHAKEN_TRY(Simulation::resume(plan.system, saved.simulation));
+  SimulatedRun run(saved.scene, std::move(plan), std::move(simulation));
+  SHAKEN_TRY(run.run_.measurements.restore(saved.measurements));
   run.time_before_ = saved.time_before;
   run.spent_ = saved.spent;
   return run;
@@ -142,12 +136,10 @@ Result<void> SimulatedRun::may_set(const std::vector<std::string>& settings) con
 
 Result<void> SimulatedRun::begin_stage(const std::vector<std::string>& settings, const GoOn& go_on) {
   Scene next = with(scene_, settings);
-  Result<scene::RunPlan> plan = resolved(next);
-  if (!plan) return plan.error();
-  Result<Simulation> simulation = Simulation::start(plan->system, run_.simulation.world(), go_on);
-  if (!simulation) return simulation.error();
-  plan->start = scene::StartState{scene::run_id(plan_), run_.simulation.time()};
-  SimulatedRun stage(std::move(next), std::move(plan).value(), std::move(simulation).value());
+  scene::RunPlan plan = SHAKEN_TRY(resolved(next));
+  Simulation simulation = SHAKEN_TRY(Simulation::start(plan.system, run_.simulation.world(), go_on));
+  plan.start = scene::StartState{scene::run_id(plan_), run_.simulation.time()};
+  SimulatedRun stage(std::move(next), std::move(plan), std::move(simulation));
   stage.time_before_ = time_before_ + run_.simulation.time();
   stage.measure();
   *this = std::move(stage);

@@ -89,9 +89,7 @@ void make_picture(const Options& options) {
   runs.prepare(style, -kAlways, kAlways);
   const auto picture_of = [&](TrajectorySource& source) -> Result<RodPicture> {
     if (options.time.empty()) return source.picture(options.frame == "last" ? source.n_frames() - 1 : frame, style);
-    const Result<std::size_t> nearest = source.nearest_frame(time);
-    if (!nearest) return nearest.error();
-    return source.picture(*nearest, style);
+    return source.picture(SHAKEN_TRY(source.nearest_frame(time)), style);
   };
   RodPicture picture = value_or_fail(runs.joint_picture(style, picture_of));
   // One colouring for all panels, as there is one legend.

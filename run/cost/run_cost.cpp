@@ -40,13 +40,13 @@ class Prober {
 
   Result<RunCost> run() {
     cost_.run_ticks = static_cast<double>(scene::most_ticks(plan_));
-    if (auto done = time_ticks(); !done) return done.error();
+    SHAKEN_TRY(time_ticks());
     // what is sampled or recorded is read first, all rods of it
     snapshot_cpu_ = time_of([&] { snapshot_ = simulation_.snapshot(); }, each_, 2);
     time_samples();
-    if (auto done = time_frames(); !done) return done.error();
+    SHAKEN_TRY(time_frames());
     if (plan_.movie) time_movie();
-    if (auto done = time_checkpoints(); !done) return done.error();
+    SHAKEN_TRY(time_checkpoints());
     if (plan_.stream) time_stream();
     cost_.memory = peak_memory() + (plan_.movie ? children_peak_memory() : 0) + scene::peak_of(measured_);
     return cost_;
@@ -83,20 +83,18 @@ class Prober {
     const double most = cpu_;
     Stretch warm_up;
     do {
-      const auto stretch = step_for(std::max(kPilot, warm_up.cpu));
-      if (!stretch) return stretch.error();
-      warm_up.ticks += stretch->ticks;
-      warm_up.cpu += stretch->cpu;
-      cpu_ = kPart * stretch->cpu / static_cast<double>(stretch->ticks) * cost_.run_ticks;
+      const auto stretch = SHAKEN_TRY(step_for(std::max(kPilot, warm_up.cpu)));
+      warm_up.ticks += stretch.ticks;
+      warm_up.cpu += stretch.cpu;
+      cpu_ = kPart * stretch.cpu / static_cast<double>(stretch.ticks) * cost_.run_ticks;
       cpu_ = std::clamp(cpu_, std::min(kLeast, most), most);
     } while (warm_up.cpu < part * cpu_);
     each_ = std::min(kCpu, cpu_ / 16);
-    const auto timed = step_for(cpu_ / 2);
-    if (!timed) return timed.error();
+    const auto timed = SHAKEN_TRY(step_for(cpu_ / 2));
     cost_.warm_up = static_cast<double>(warm_up.ticks) * dt_;
-    cost_.simulated = static_cast<double>(timed->ticks) * dt_;
-    cost_.cpu = timed->cpu;
-    cost_.tick_cpu = timed->cpu / static_cast<double>(timed->ticks);
+    cost_.simulated = static_cast<double>(timed.ticks) * dt_;
+    cost_.cpu = timed.cpu;
+    cost_.tick_cpu = timed.cpu / static_cast<double>(timed.ticks);
     return {};
   }
 
@@ -132,19 +130,17 @@ class Prober {
   /// time of one, or why they cannot be written.
   Result<double> record(const std::filesystem::path& folder, const Cadence& cadence, int n) {
     const RunDirectory directory{folder};
-    auto log = FrameLog::create(directory.frames(),
-                                trajectory_header(simulation_.world(), scene::to_json(plan_).dump(2) + "\n", {}));
-    if (!log) return log.error();
+    auto log = SHAKEN_TRY(FrameLog::create(
+        directory.frames(), trajectory_header(simulation_.world(), scene::to_json(plan_).dump(2) + "\n", {})));
     Snapshot frame = snapshot_;
     const double begin = thread_cpu_seconds();
     for (int k = 0; k < n; ++k) {
       frame.tick = k * cadence.period();
       frame.time = static_cast<double>(frame.tick) * dt_;
-      if (auto done = log->append(shaken::run::record(frame)); !done) return done.error();
+      SHAKEN_TRY(log.append(shaken::run::record(frame)));
     }
-    const Result<TrajectoryReader> frames = TrajectoryReader::open(directory.frames());
-    if (!frames) return frames.error();
-    if (auto done = write_trajectory(directory.trajectory(), frames->recorded()); !done) return done.error();
+    const TrajectoryReader frames = SHAKEN_TRY(TrajectoryReader::open(directory.frames()));
+    SHAKEN_TRY(write_trajectory(directory.trajectory(), frames.recorded()));
     std::filesystem::remove(directory.frames());
     return (thread_cpu_seconds() - begin) / n;
   }
@@ -157,9 +153,7 @@ class Prober {
     double bytes[2] = {0, 0};
     for (const int n : {1, 1 + kFrames}) {
       const ScratchFolder folder;
-      const auto cpu = record(folder.path(), *recording, n);
-      if (!cpu) return cpu.error();
-      frames.each = *cpu + snapshot_cpu_;
+      frames.each = SHAKEN_TRY(record(folder.path(), *recording, n)) + snapshot_cpu_;
       bytes[n > 1] = bytes_in(folder / "trajectory.h5");
     }
     const auto n = static_cast<double>(frames.count);
@@ -196,7 +190,7 @@ class Prober {
     const double begin = thread_cpu_seconds();
     const Checkpoint checkpoint{simulation_.checkpoint(), std::vector<std::byte>(static_cast<std::size_t>(state)), 0,
                                 0};
-    if (auto done = write_checkpoint(directory, scene::run_id(plan_), checkpoint); !done) return done.error();
+    SHAKEN_TRY(write_checkpoint(directory, scene::run_id(plan_), checkpoint));
     cost_.checkpoints.each = thread_cpu_seconds() - begin;
     // one at the end, and one now and then before
     cost_.checkpoints.count = 1 + static_cast<std::int64_t>(cost_.total() / kCheckpointEvery);

@@ -59,32 +59,30 @@ void each_piece(const std::string& run_id, const Checkpoint& checkpoint, const T
 
 Result<void> write_checkpoint(const RunDirectory& directory, const std::string& run_id, const Checkpoint& checkpoint) {
   const std::filesystem::path file = directory.checkpoint();
-  Result<ReplacementFile> next = ReplacementFile::create(file);
-  if (!next) return next.error();
+  ReplacementFile next = SHAKEN_TRY(ReplacementFile::create(file));
   Result<void> done;
   each_piece(run_id, checkpoint, [&](std::span<const std::byte> piece) {
-    if (done) done = next->append(text_of(piece));
+    if (done) done = next.append(text_of(piece));
   });
   if (!done) return done;
   // The new one is written by now: should the machine stop between the renames, the previous one is whole.
   if (std::rename(file.c_str(), directory.previous_checkpoint().c_str()) != 0 && errno != ENOENT) {
     return system_error("cannot keep " + file.string());
   }
-  return next->finish();
+  return next.finish();
 }
 
 Result<Checkpoint> read_checkpoint(const std::filesystem::path& file, const std::string& run_id) {
-  const Result<std::string> content = read_file(file);
-  if (!content) return content.error();
+  const std::string content = SHAKEN_TRY(read_file(file));
   const auto refuse = [&](const std::string& why) { return Error{file.string() + " " + why}; };
 
   constexpr std::size_t kHashBytes = sizeof(std::uint64_t);
-  if (!content->starts_with(kCheckpointMagic) || content->size() < kCheckpointMagic.size() + kHashBytes) {
+  if (!content.starts_with(kCheckpointMagic) || content.size() < kCheckpointMagic.size() + kHashBytes) {
     return refuse("is not a checkpoint");
   }
   try {
-    StateReader whole(bytes_of(*content));
-    const std::span<const std::byte> hashed = whole.bytes(content->size() - kHashBytes);
+    StateReader whole(bytes_of(content));
+    const std::span<const std::byte> hashed = whole.bytes(content.size() - kHashBytes);
     std::uint64_t stored_hash = 0;
     whole.get(stored_hash);
     if (stored_hash != hash_of(hashed)) return refuse("is damaged");

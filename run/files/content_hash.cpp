@@ -119,9 +119,8 @@ Result<void> check_content(const fs::path& file) {
     if (!identity || whole_files().contains(file, *identity)) return {};
     const std::optional<ContentHash> wanted = promised(file);
     if (!wanted) return {};
-    const Result<ContentHash> found = content_hash(file);
-    if (!found) return found.error();
-    if (*found == *wanted) {
+    const ContentHash found = SHAKEN_TRY(content_hash(file));
+    if (found == *wanted) {
       whole_files().add(file, *identity);
       return {};
     }

@@ -196,17 +196,16 @@ class LoggedFrames final : public RecordedFrames {
     if (auto done = check(header); !done) return refuse("is damaged: " + done.error().message);
     std::unique_ptr<LoggedFrames> frames(
         new LoggedFrames(path, std::move(file), kPrefixBytes + length + kHashBytes, std::move(header)));
-    if (auto done = frames->count(); !done) return done.error();
+    SHAKEN_TRY(frames->count());
     return frames;
   }
 
   const TrajectoryHeader& header() const override { return header_; }
   std::size_t n_frames() const override { return n_frames_; }
   Result<RecordedFrame> frame(std::size_t index) const override {
-    Result<std::optional<RecordedFrame>> frame = read(index);
-    if (!frame) return frame.error();
-    if (!*frame) return Error{path_.string() + ": frame " + std::to_string(index) + " is damaged"};
-    return std::move(**frame);
+    std::optional<RecordedFrame> frame = SHAKEN_TRY(read(index));
+    if (!frame) return Error{path_.string() + ": frame " + std::to_string(index) + " is damaged"};
+    return *std::move(frame);
   }
   std::size_t begin() const { return begin_; }
   std::size_t n_rods() const { return static_cast<std::size_t>(header_.n_rods); }
@@ -230,9 +229,7 @@ class LoggedFrames final : public RecordedFrames {
     if (size > begin_) n_frames_ = (size - begin_) / frame_bytes(n_rods());
     if (n_frames_ == 0) return {};
     // The last one may be on its way to the file just now, or have been when its writer was killed.
-    const Result<std::optional<RecordedFrame>> last = read(n_frames_ - 1);
-    if (!last) return last.error();
-    if (!*last) --n_frames_;
+    if (!SHAKEN_TRY(read(n_frames_ - 1))) --n_frames_;
     return {};
   }
 
@@ -266,22 +263,20 @@ Result<FrameLog> FrameLog::create(const std::filesystem::path& file, const Traje
   content.put(static_cast<std::uint32_t>(text.size()));
   content.append(bytes_of(text));
   content.put(hash_of(bytes_of(text)));
-  if (auto done = write_file_atomically(file, text_of(content.bytes())); !done) return done.error();
+  SHAKEN_TRY(write_file_atomically(file, text_of(content.bytes())));
   return reopen(file, 0);
 }
 
 Result<FrameLog> FrameLog::reopen(const std::filesystem::path& file, std::size_t n_frames) {
-  const auto frames = LoggedFrames::open(file);
-  if (!frames) return frames.error();
-  if ((*frames)->n_frames() < n_frames) {
-    return Error{file.string() + " has " + std::to_string((*frames)->n_frames()) + " whole frames instead of " +
+  const auto frames = SHAKEN_TRY(LoggedFrames::open(file));
+  if (frames->n_frames() < n_frames) {
+    return Error{file.string() + " has " + std::to_string(frames->n_frames()) + " whole frames instead of " +
                  std::to_string(n_frames)};
   }
   for (std::size_t i = 0; i < n_frames; ++i) {
-    if (const auto frame = (*frames)->frame(i); !frame) return frame.error();
+    if (const auto frame = frames->frame(i); !frame) return frame.error();
   }
-  FrameLog log(file, Descriptor(::open(file.c_str(), O_RDWR | O_CLOEXEC)), (*frames)->begin(), (*frames)->n_rods(),
-               n_frames);
+  FrameLog log(file, Descriptor(::open(file.c_str(), O_RDWR | O_CLOEXEC)), frames->begin(), frames->n_rods(), n_frames);
   if (!log.file_ || ::ftruncate(log.file_.value(), static_cast<off_t>(log.end())) != 0) {
     return system_error("cannot write " + file.string());
   }
@@ -311,9 +306,7 @@ Result<void> FrameLog::sync() const {
 }
 
 Result<std::unique_ptr<RecordedFrames>> open_frame_log(const std::filesystem::path& file) {
-  auto frames = LoggedFrames::open(file);
-  if (!frames) return frames.error();
-  return std::unique_ptr<RecordedFrames>(std::move(frames).value());
+  return std::unique_ptr<RecordedFrames>(SHAKEN_TRY(LoggedFrames::open(file)));
 }
 
 Result<bool> is_frame_log(const std::filesystem::path& file) {

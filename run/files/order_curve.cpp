@@ -20,10 +20,9 @@ Result<OrderCurve> order_of_frames(const TrajectoryReader& frames, std::size_t m
   const std::size_t n = frames.n_frames(), points = std::min(n, most);
   if (!cell.has_axes()) return curve;
   for (std::size_t k = 0; k < points; ++k) {
-    const Result<Snapshot> frame = frames.frame(points == 1 ? n - 1 : k * (n - 1) / (points - 1));
-    if (!frame) return frame.error();
-    curve.times.push_back(frame->time);
-    curve.orders.push_back(analysis::nematic_order(cell, frame->director).order);
+    const Snapshot frame = SHAKEN_TRY(frames.frame(points == 1 ? n - 1 : k * (n - 1) / (points - 1)));
+    curve.times.push_back(frame.time);
+    curve.orders.push_back(analysis::nematic_order(cell, frame.director).order);
   }
   return curve;
 }
@@ -31,14 +30,12 @@ Result<OrderCurve> order_of_frames(const TrajectoryReader& frames, std::size_t m
 Result<OrderCurve> recorded_order(const RunDirectory& directory, std::size_t most) {
   std::error_code ignored;
   if (std::filesystem::exists(directory.recorded(), ignored)) {
-    const Result<TrajectoryReader> frames = TrajectoryReader::open(directory.recorded());
-    if (!frames) return frames.error();
-    const std::size_t bytes = frame_bytes(static_cast<std::size_t>(frames->header().n_rods));
-    return order_of_frames(*frames, std::min(most, std::max<std::size_t>(2, kMostFrameBytes / bytes)));
+    const TrajectoryReader frames = SHAKEN_TRY(TrajectoryReader::open(directory.recorded()));
+    const std::size_t bytes = frame_bytes(static_cast<std::size_t>(frames.header().n_rods));
+    return order_of_frames(frames, std::min(most, std::max<std::size_t>(2, kMostFrameBytes / bytes)));
   }
-  Result<Observables> arrays = read_observables(directory.observables());
-  if (!arrays) return arrays.error();
-  return OrderCurve{std::move((*arrays)["/order/time_s"]), std::move((*arrays)["/order/order"])};
+  Observables arrays = SHAKEN_TRY(read_observables(directory.observables()));
+  return OrderCurve{std::move(arrays["/order/time_s"]), std::move(arrays["/order/order"])};
 }
 
 }  // namespace shaken::run

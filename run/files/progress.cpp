@@ -41,10 +41,9 @@ Result<void> write_progress(const std::filesystem::path& file, const Progress& p
 }
 
 Result<Progress> read_progress(const std::filesystem::path& file) {
-  const Result<std::string> text = read_file(file);
-  if (!text) return text.error();
+  const std::string text = SHAKEN_TRY(read_file(file));
   try {
-    const auto json = nlohmann::json::parse(*text);
+    const auto json = nlohmann::json::parse(text);
     Progress progress;
     json.at("state").get_to(progress.state);
     json.at("message").get_to(progress.message);

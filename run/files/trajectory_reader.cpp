@@ -128,12 +128,9 @@ bool is_trajectory(const std::filesystem::path& file) {
 }
 
 Result<TrajectoryReader> TrajectoryReader::open(const std::filesystem::path& file) {
-  const Result<bool> is_log = is_frame_log(file);
-  if (!is_log) return is_log.error();
-  if (*is_log) {
-    auto frames = open_frame_log(file);
-    if (!frames) return frames.error();
-    return TrajectoryReader(file, std::move(frames).value());
+  const bool is_log = SHAKEN_TRY(is_frame_log(file));
+  if (is_log) {
+    return TrajectoryReader(file, SHAKEN_TRY(open_frame_log(file)));
   }
   if (auto whole = check_content(file); !whole) return whole.error();
   hdf5::initialize();
@@ -148,9 +145,7 @@ Result<Snapshot> TrajectoryReader::frame(std::size_t index) const {
   if (index >= n_frames()) {
     return Error{path_.string() + " has no frame " + std::to_string(index) + "; it has " + std::to_string(n_frames())};
   }
-  const Result<RecordedFrame> recorded = frames_->frame(index);
-  if (!recorded) return recorded.error();
-  Result<Snapshot> frame = decode(*recorded, header().cell.box);
+  Result<Snapshot> frame = decode(SHAKEN_TRY(frames_->frame(index)), header().cell.box);
   if (!frame) return Error{path_.string() + ": frame " + std::to_string(index) + ": " + frame.error().message};
   return frame;
 }

@@ -176,27 +176,23 @@ Result<void> write_trajectory(const std::filesystem::path& file, const Trajector
 }
 
 Result<FrameLog> reopen_frames(const RunDirectory& directory, std::size_t n_frames) {
-  const Result<bool> is_logged = file_exists(directory.frames()), is_written = file_exists(directory.trajectory());
-  if (!is_logged) return is_logged.error();
-  if (!is_written) return is_written.error();
-  if (*is_logged || !*is_written) {
+  const bool is_logged = SHAKEN_TRY(file_exists(directory.frames()));
+  const bool is_written = SHAKEN_TRY(file_exists(directory.trajectory()));
+  if (is_logged || !is_written) {
     return FrameLog::reopen(directory.frames(), n_frames);
   }
-  const Result<TrajectoryReader> trajectory = TrajectoryReader::open(directory.trajectory());
-  if (!trajectory) return trajectory.error();
-  if (trajectory->n_frames() < n_frames) {
-    return Error{directory.trajectory().string() + " has " + std::to_string(trajectory->n_frames()) +
+  const TrajectoryReader trajectory = SHAKEN_TRY(TrajectoryReader::open(directory.trajectory()));
+  if (trajectory.n_frames() < n_frames) {
+    return Error{directory.trajectory().string() + " has " + std::to_string(trajectory.n_frames()) +
                  " frames instead of " + std::to_string(n_frames)};
   }
   UnfinishedFile unfinished(directory.frames());
-  Result<FrameLog> log = FrameLog::create(unfinished.path(), trajectory->header());
-  if (!log) return log.error();
+  FrameLog log = SHAKEN_TRY(FrameLog::create(unfinished.path(), trajectory.header()));
   for (std::size_t i = 0; i < n_frames; ++i) {
-    const Result<RecordedFrame> frame = trajectory->recorded().frame(i);
-    if (!frame) return frame.error();
-    if (auto done = log->append(*frame); !done) return done.error();
+    const RecordedFrame frame = SHAKEN_TRY(trajectory.recorded().frame(i));
+    SHAKEN_TRY(log.append(frame));
   }
-  if (auto done = unfinished.replace(); !done) return done.error();
+  SHAKEN_TRY(unfinished.replace());
   return FrameLog::reopen(directory.frames(), n_frames);
 }
 

@@ -11,10 +11,9 @@ namespace shaken::run {
 
 Result<std::vector<ImportedRod>> read_recorded_rods(const std::string& file, std::optional<int> frame,
                                                     const System& system) {
-  if (auto done = try_to_read(file); !done) return done.error();
-  const auto frames = TrajectoryReader::open(file);
-  if (!frames) return frames.error();
-  const TrajectoryHeader& header = frames->header();
+  SHAKEN_TRY(try_to_read(file));
+  const auto frames = SHAKEN_TRY(TrajectoryReader::open(file));
+  const TrajectoryHeader& header = frames.header();
   const auto plan = scene::load_scene(header.scene_json, file + ", its scene");
   if (!plan) return Error{keys::to_string(plan.error())};
   std::string differs = start_mismatch(system, plan->system);
@@ -28,21 +27,20 @@ Result<std::vector<ImportedRod>> read_recorded_rods(const std::string& file, std
                     "another box and gap",
                     file, differs)};
   }
-  if (frames->n_frames() == 0) return Error{file + " has no frames"};
-  const auto index = frame ? static_cast<std::size_t>(*frame) : frames->n_frames() - 1;
-  const Result<Snapshot> snapshot = frames->frame(index);
-  if (!snapshot) return snapshot.error();
+  if (frames.n_frames() == 0) return Error{file + " has no frames"};
+  const auto index = frame ? static_cast<std::size_t>(*frame) : frames.n_frames() - 1;
+  const Snapshot snapshot = SHAKEN_TRY(frames.frame(index));
 
   const World world = empty_world(plan->system);
   const bool has_plates = system.base || system.lid;
-  const double base = world.plates.at(has_plates ? snapshot->tick : 0).base;
+  const double base = world.plates.at(has_plates ? snapshot.tick : 0).base;
   std::vector<ImportedRod> rods;
-  for (std::size_t i = 0; i < snapshot->n_rods(); ++i) {
+  for (std::size_t i = 0; i < snapshot.n_rods(); ++i) {
     ImportedRod rod{.number = static_cast<int>(i),
                     .shape = world.shape_of_rod[i],
-                    .position = snapshot->position[i],
-                    .director = snapshot->director[i],
-                    .velocity = snapshot->velocity[i]};
+                    .position = snapshot.position[i],
+                    .director = snapshot.director[i],
+                    .velocity = snapshot.velocity[i]};
     rod.position.z() -= base;
     rods.push_back(rod);
   }

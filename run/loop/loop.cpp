@@ -161,7 +161,7 @@ class Loop {
     const Snapshot snapshot = run_.simulation.snapshot();
     if (measure) run_.measure(plan_, snapshot);
     if (record) {
-      if (auto done = run_.frames->append(shaken::run::record(snapshot)); !done) return done.error();
+      SHAKEN_TRY(run_.frames->append(shaken::run::record(snapshot)));
     }
     if (show) publish_frame(snapshot);
     const DefectSample* defects = run_.measurements.last_defects();
@@ -181,7 +181,7 @@ class Loop {
   /// Frames first: no checkpoint may know of one that the disk does not.
   Result<void> checkpoint() {
     if (run_.frames) {
-      if (auto done = run_.frames->sync(); !done) return done.error();
+      SHAKEN_TRY(run_.frames->sync());
     }
     Result<void> done = write_checkpoint(directory_, run_id_, make_checkpoint(run_, cpu_seconds(), wall_seconds()));
     if (done) checkpoint_tick_ = tick();
@@ -207,10 +207,9 @@ class Loop {
       if (!frames || frames->n_frames() == n) return frames;
       return Error{fmt::format("{} has {} frames instead of {}", file.string(), frames->n_frames(), n)};
     };
-    const Result<TrajectoryReader> frames = opened(directory_.frames());
-    if (!frames) return frames.error();
+    const TrajectoryReader frames = SHAKEN_TRY(opened(directory_.frames()));
     const TrajectoryHeader header = trajectory_header(run_.simulation.world(), scene_text(plan_), provenance_of(plan_));
-    if (auto done = write_trajectory(directory_.trajectory(), header, frames->recorded()); !done) return done.error();
+    SHAKEN_TRY(write_trajectory(directory_.trajectory(), header, frames.recorded()));
     assume_whole(directory_.trajectory());  // the hash in summary.json is of the one before
     const Result<TrajectoryReader> written = opened(directory_.trajectory());
     return written ? Result<void>() : written.error();
@@ -226,7 +225,7 @@ class Loop {
     summary.reason = reason;
     summary.rods = rods;
     if (state != "done") summary.done_before = former_end(directory_, run_id_);
-    if (auto done = hash_files(state != "stopped", summary); !done) return done.error();
+    SHAKEN_TRY(hash_files(state != "stopped", summary));
     if (state == "done" && summary.order) {
       const std::string trouble = why_not_steady(*summary.order, summary.sim_seconds);
       if (!trouble.empty()) spdlog::warn("{}", trouble);
@@ -243,9 +242,7 @@ class Loop {
     std::vector<std::filesystem::path> written{directory_.observables()};
     if (with_frames && run_.frames) written.push_back(directory_.trajectory());
     for (const auto& file : written) {
-      const Result<ContentHash> hash = content_hash(file);
-      if (!hash) return hash.error();
-      summary.files[file.filename().string()] = *hash;
+      summary.files[file.filename().string()] = SHAKEN_TRY(content_hash(file));
     }
     return {};
   }
@@ -336,9 +333,7 @@ void set_aside(const std::filesystem::path& file) {
 Result<Opened> open_run(const scene::RunPlan& plan, const RunDirectory& directory, const GoOn& go_on) {
   bool found = false;
   for (const auto& file : directory.checkpoints()) {
-    const Result<bool> is_there = file_exists(file);
-    if (!is_there) return is_there.error();
-    if (!*is_there) continue;
+    if (!SHAKEN_TRY(file_exists(file))) continue;
     found = true;
     const Result<Checkpoint> checkpoint = read_checkpoint(file, scene::run_id(plan));
     if (!checkpoint && may_pass(checkpoint.error())) return checkpoint.error();  // it may be whole
@@ -361,11 +356,10 @@ Result<Opened> open_run(const scene::RunPlan& plan, const RunDirectory& director
     set_aside(directory.trajectory());
   }
   const double cpu_begin = shaken::cpu_seconds();
-  Result<OpenRun> run = start_run(plan, directory, scene_text(plan), go_on);
-  if (!run) return run.error();
+  OpenRun run = SHAKEN_TRY(start_run(plan, directory, scene_text(plan), go_on));
   if (begins_with_compression(plan))
     spdlog::info("compressed the rods in {:.2f} CPU-s", shaken::cpu_seconds() - cpu_begin);
-  return Opened{std::move(run).value(), true};
+  return Opened{std::move(run), true};
 }
 
 /// Of a run that is done: what its frames were recorded in is of no use any more, where trajectory.h5 has them all.
@@ -405,9 +399,7 @@ RunOutcome fail(const RunOptions& options, const RunCallbacks& callbacks, const 
 /// A directory of another scene is refused, never overwritten. One whose run is to go on longer, or less long, than it
 /// was gets the scene.json that says so, unless it has ended.
 Result<void> claim(const scene::RunPlan& plan, const RunDirectory& directory, bool is_own_scene, bool has_ended) {
-  const Result<bool> is_there = file_exists(directory.scene());
-  if (!is_there) return is_there.error();
-  if (!*is_there) return write_file_atomically(directory.scene(), scene_text(plan));
+  if (!SHAKEN_TRY(file_exists(directory.scene()))) return write_file_atomically(directory.scene(), scene_text(plan));
   const Result<scene::RunPlan> present = is_own_scene ? Result<scene::RunPlan>(plan) : read_plan(directory);
   if (!present && may_pass(present.error())) return present.error();
   if (!present) {

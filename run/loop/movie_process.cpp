@@ -49,9 +49,8 @@ Result<void> render_movie(const std::filesystem::path& directory, const std::ato
   const std::filesystem::path so_far = directory / "drawing.json";
   std::vector<std::string> command{program, "movie", directory.string(), "--progress", so_far.string()};
   if (!label.empty()) command.insert(command.end(), {"--label=" + label});
-  const Result<pid_t> child = start_child({.command = command, .ends_with_us = true});
-  if (!child) return child.error();
-  const ProcessEnd end = wait_for(*child, stop, [&] { tell(so_far, on_drawn); });
+  const pid_t child = SHAKEN_TRY(start_child({.command = command, .ends_with_us = true}));
+  const ProcessEnd end = wait_for(child, stop, [&] { tell(so_far, on_drawn); });
   if (end.is_success()) tell(so_far, on_drawn);
   std::error_code ignored;
   std::filesystem::remove(so_far, ignored);

@@ -59,22 +59,19 @@ void OpenRun::measure(const scene::RunPlan& plan, const Snapshot& now) {
 
 Result<OpenRun> start_run(const scene::RunPlan& plan, const RunDirectory& directory, const std::string& scene_json,
                           const GoOn& go_on) {
-  Result<Simulation> simulation = start_simulation(plan, directory.root, go_on);
-  if (!simulation) return simulation.error();
-  OpenRun run = begin_run(plan, std::move(simulation).value());
+  Simulation simulation = SHAKEN_TRY(start_simulation(plan, directory.root, go_on));
+  OpenRun run = begin_run(plan, std::move(simulation));
   if (run.recording) {
-    auto frames = FrameLog::create(directory.frames(),
-                                   trajectory_header(run.simulation.world(), scene_json, provenance_of(plan)));
-    if (!frames) return frames.error();
-    run.frames = std::move(frames).value();
+    auto frames = SHAKEN_TRY(FrameLog::create(
+        directory.frames(), trajectory_header(run.simulation.world(), scene_json, provenance_of(plan))));
+    run.frames = std::move(frames);
   }
   return run;
 }
 
 Result<OpenRun> resume_run(const scene::RunPlan& plan, const RunDirectory& directory, const Checkpoint& checkpoint) {
-  Result<Simulation> simulation = Simulation::resume(plan.system, checkpoint.simulation);
-  if (!simulation) return simulation.error();
-  OpenRun run = begin_run(plan, std::move(simulation).value());
+  Simulation simulation = SHAKEN_TRY(Simulation::resume(plan.system, checkpoint.simulation));
+  OpenRun run = begin_run(plan, std::move(simulation));
   run.cpu_before = checkpoint.cpu_seconds;
   run.wall_before = checkpoint.wall_seconds;
   if (auto done = run.measurements.restore(checkpoint.measurements); !done) {

@@ -26,21 +26,19 @@ Result<Replay> replay(const std::filesystem::path& root) {
   if (!std::filesystem::exists(directory.trouble())) {
     return Error{root.string() + " holds no trouble.json: its run has met no numerical trouble"};
   }
-  Result<TroubleReport> recorded = read_trouble(directory.trouble());
-  if (!recorded) return recorded.error();
-  const Result<scene::RunPlan> plan = read_plan(directory);
-  if (!plan) return plan.error();
-  const NumericalTrouble& trouble = recorded->trouble;
-  Result<Simulation> simulation = resume_last(directory, scene::run_id(*plan), plan->system, trouble.tick);
-  if (!simulation) simulation = start_simulation(*plan, root);
+  TroubleReport recorded = SHAKEN_TRY(read_trouble(directory.trouble()));
+  const scene::RunPlan plan = SHAKEN_TRY(read_plan(directory));
+  const NumericalTrouble& trouble = recorded.trouble;
+  Result<Simulation> simulation = resume_last(directory, scene::run_id(plan), plan.system, trouble.tick);
+  if (!simulation) simulation = start_simulation(plan, root);
   if (!simulation) return simulation.error();
 
-  Replay replay{*recorded, simulation->tick(), {}, {}};
+  Replay replay{recorded, simulation->tick(), {}, {}};
   replay.met = simulation->advance_to(trouble.tick - 1);
   if (replay.met) return replay;  // earlier than it was
   std::vector<int> rods;
   for (const int rod : trouble.rods) {
-    if (rod >= 0 && rod < plan->system.n_all_rods()) rods.push_back(rod);
+    if (rod >= 0 && rod < plan.system.n_all_rods()) rods.push_back(rod);
   }
   replay.before = look_closely(simulation->world(), simulation->tick(), rods);
   replay.met = simulation->advance_to(trouble.tick);

@@ -9,9 +9,8 @@
 namespace shaken::run {
 
 Result<scene::RunPlan> read_plan(const RunDirectory& directory) {
-  const Result<std::string> text = read_file(directory.scene());
-  if (!text) return text.error();
-  const keys::Loaded<scene::RunPlan> plan = scene::load_scene(*text, directory.scene().string());
+  const keys::Loaded<scene::RunPlan> plan =
+      scene::load_scene(SHAKEN_TRY(read_file(directory.scene())), directory.scene().string());
   if (!plan) return Error{to_string(plan.error())};
   return *plan;
 }
@@ -19,9 +18,7 @@ Result<scene::RunPlan> read_plan(const RunDirectory& directory) {
 Result<Simulation> resume_last(const RunDirectory& directory, const std::string& run_id, const System& system,
                                Tick before) {
   const auto resume = [&](const std::filesystem::path& file) -> Result<Simulation> {
-    const Result<Checkpoint> checkpoint = read_checkpoint(file, run_id);
-    if (!checkpoint) return checkpoint.error();
-    Result<Simulation> simulation = Simulation::resume(system, checkpoint->simulation);
+    Result<Simulation> simulation = Simulation::resume(system, SHAKEN_TRY(read_checkpoint(file, run_id)).simulation);
     if (simulation && simulation->tick() < before) return simulation;
     return Error{file.string() + ": " + (simulation ? "too late a state" : simulation.error().message)};
   };

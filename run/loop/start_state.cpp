@@ -71,13 +71,10 @@ std::vector<path> folders_near(const path& directory) {
 
 /// The state that run `id` had at `time`, if one of its checkpoints is of then.
 Result<Simulation> saved_state(const RunDirectory& directory, const std::string& id, double time) {
-  const Result<scene::RunPlan> plan = read_plan(directory);
-  if (!plan) return plan.error();
-  const Result<bool> imported = file_exists(directory.imported());
-  if (!imported) return imported.error();
-  const bool is_imported = *imported;
+  const scene::RunPlan plan = SHAKEN_TRY(read_plan(directory));
+  const bool is_imported = SHAKEN_TRY(file_exists(directory.imported()));
   const Error other{directory.root.string() + " holds another run"};
-  if (!is_imported && scene::run_id(*plan) != id) return other;
+  if (!is_imported && scene::run_id(plan) != id) return other;
   std::string trouble = kNotSaved;
   for (const path& file : directory.checkpoints()) {
     const Result<bool> is_there = file_exists(file);
@@ -85,9 +82,9 @@ Result<Simulation> saved_state(const RunDirectory& directory, const std::string&
     const Result<Checkpoint> checkpoint = read_checkpoint(file, id);
     if (!checkpoint && may_pass(checkpoint.error())) return checkpoint.error();
     Result<Simulation> simulation =
-        checkpoint ? Simulation::resume(plan->system, checkpoint->simulation) : Result<Simulation>(checkpoint.error());
-    if (simulation && is_imported && import_id(*plan, *simulation) != id) return other;
-    if (simulation && simulation->tick() == std::llround(time / plan->system.dt)) return simulation;
+        checkpoint ? Simulation::resume(plan.system, checkpoint->simulation) : Result<Simulation>(checkpoint.error());
+    if (simulation && is_imported && import_id(plan, *simulation) != id) return other;
+    if (simulation && simulation->tick() == std::llround(time / plan.system.dt)) return simulation;
     if (trouble != kNotSaved) continue;  // the newest has told
     trouble = simulation ? fmt::format("its last saved state is that at {:.10g} s", simulation->time())
                          : simulation.error().message;

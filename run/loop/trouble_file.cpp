@@ -70,10 +70,9 @@ Result<void> write_trouble(const std::filesystem::path& file, const scene::RunPl
 }
 
 Result<TroubleReport> read_trouble(const std::filesystem::path& file) {
-  const Result<std::string> text = read_file(file);
-  if (!text) return text.error();
+  const std::string text = SHAKEN_TRY(read_file(file));
   try {
-    const OrderedJson json = OrderedJson::parse(*text);
+    const OrderedJson json = OrderedJson::parse(text);
     TroubleReport report;
     report.trouble.tick = json.at("tick").get<Tick>();
     report.trouble.rods = json.at("rods").get<std::vector<int>>();

@@ -74,15 +74,14 @@ keys::Loaded<Task> task_of(const MeasureOptions& asked, const TrajectoryReader& 
   const std::string given = asked.scene.empty() ? own : value_or_fail(read_input(asked.scene), ExitCode::kBadInput);
   Lacking lacking = lacking_of(frames.header().lacking);
   lacking.insert(kLackingInFiles.begin(), kLackingInFiles.end());
-  auto made = plan_for_frames({own, name}, {given, asked.scene.empty() ? name : asked.scene}, asked.settings, *spacing,
-                              lacking);
-  if (!made) return made.error();
+  auto made = SHAKEN_TRY(plan_for_frames({own, name}, {given, asked.scene.empty() ? name : asked.scene}, asked.settings,
+                                         *spacing, lacking));
   const bool is_tracked = !frames.header().lacking.empty();
   if (is_tracked && !lacking.contains(Needs::kVelocities)) {
     const double interval = static_cast<double>(*spacing) * frames.header().dt;
-    made->remarks.insert(made->remarks.begin(), remark_on_velocities(frames.recorded().n_frames(), interval));
+    made.remarks.insert(made.remarks.begin(), remark_on_velocities(frames.recorded().n_frames(), interval));
   }
-  return Task{*std::move(made), &frames.recorded()};
+  return Task{std::move(made), &frames.recorded()};
 }
 
 /// Of a table; `tracks` takes what the task is of.
@@ -101,10 +100,9 @@ keys::Loaded<Task> task_of(const MeasureOptions& asked, std::optional<TrackedRod
   const auto spacing = frame_spacing(*tracks->frames);
   if (!spacing) return std::vector<keys::Problem>{{asked.file, 0, 0, "", spacing.error().message}};
   const std::string& own = tracks->frames->header().scene_json;
-  auto made = plan_for_frames({own, asked.scene}, {own, asked.scene}, {}, *spacing, tracks->lacking);
-  if (!made) return made.error();
-  made->remarks.insert(made->remarks.begin(), tracks->remarks.begin(), tracks->remarks.end());
-  return Task{*std::move(made), tracks->frames.get(), tracks->has_constant_number};
+  auto made = SHAKEN_TRY(plan_for_frames({own, asked.scene}, {own, asked.scene}, {}, *spacing, tracks->lacking));
+  made.remarks.insert(made.remarks.begin(), tracks->remarks.begin(), tracks->remarks.end());
+  return Task{std::move(made), tracks->frames.get(), tracks->has_constant_number};
 }
 
 /// Measures, and fills the directory; the summary comes last.

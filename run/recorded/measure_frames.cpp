@@ -47,10 +47,9 @@ Result<Tick> frame_spacing(const RecordedFrames& frames) {
   if (frames.n_frames() == 0) return Error{"there are no frames"};
   Tick spacing = 1, last = 0;
   for (std::size_t i = 0; i < std::min<std::size_t>(frames.n_frames(), 2); ++i) {
-    const Result<RecordedFrame> frame = frames.frame(i);
-    if (!frame) return frame.error();
-    if (i == 1) spacing = frame->tick - last;
-    last = frame->tick;
+    const RecordedFrame frame = SHAKEN_TRY(frames.frame(i));
+    if (i == 1) spacing = frame.tick - last;
+    last = frame.tick;
   }
   if (spacing < 1) return Error{"the second frame is not later than the first"};
   if (last % spacing != 0 && frames.n_frames() > 1) {
@@ -61,11 +60,9 @@ Result<Tick> frame_spacing(const RecordedFrames& frames) {
 
 keys::Loaded<FramesPlan> plan_for_frames(const SceneText& of, const SceneText& asked,
                                          std::span<const std::string> settings, Tick spacing, const Lacking& lacking) {
-  const auto own = scene::load_scene(of.text, of.name);
-  if (!own) return own.error();
-  const auto wanted = scene::load_scene(asked.text, asked.name, settings);
-  if (!wanted) return wanted.error();
-  OrderedJson scene = scene::to_json(*wanted), simulated = scene::to_json(*own);
+  const auto own = SHAKEN_TRY(scene::load_scene(of.text, of.name));
+  const auto wanted = SHAKEN_TRY(scene::load_scene(asked.text, asked.name, settings));
+  OrderedJson scene = scene::to_json(wanted), simulated = scene::to_json(own);
   std::vector<std::string> differ;
   const auto simulation = [](OrderedJson json) {
     json["time"] = without(json["time"], kFreeOfTime);
@@ -81,7 +78,7 @@ keys::Loaded<FramesPlan> plan_for_frames(const SceneText& of, const SceneText& a
   if (!problems.empty()) return problems;
 
   std::vector<std::string> remarks;
-  const double dt = wanted->system.dt;
+  const double dt = wanted.system.dt;
   bool is_any_left = false;
   OrderedJson& measure = scene["measure"];
   for (const MeasurementKind& kind : measurement_kinds()) {
@@ -107,33 +104,28 @@ keys::Loaded<FramesPlan> plan_for_frames(const SceneText& of, const SceneText& a
   if (!is_any_left) {
     return std::vector<keys::Problem>{{asked.name, 0, 0, "/measure", "names nothing that frames tell"}};
   }
-  auto plan = scene::load_scene(scene.dump(), asked.name);
-  if (!plan) return plan.error();
-  return FramesPlan{*std::move(plan), std::move(remarks)};
+  return FramesPlan{SHAKEN_TRY(scene::load_scene(scene.dump(), asked.name)), std::move(remarks)};
 }
 
 Result<MeasuredFrames> measure_frames(const scene::RunPlan& plan, const RecordedFrames& frames,
                                       const std::function<bool(std::size_t frame)>& goes_on) {
-  const Result<Tick> spacing = frame_spacing(frames);
-  if (!spacing) return spacing.error();
+  const Tick spacing = SHAKEN_TRY(frame_spacing(frames));
   const TrajectoryHeader& header = frames.header();
   Measurements measurements(plan, header.cell);
   MeasuredFrames found;
   Tick expected = 0;
   for (std::size_t i = 0; i < frames.n_frames(); ++i) {
     if (goes_on && !goes_on(i)) return Error{"interrupted", EINTR};
-    const Result<RecordedFrame> recorded = frames.frame(i);
-    if (!recorded) return recorded.error();
-    Result<Snapshot> frame = decode(*recorded, header.cell.box);
-    if (!frame) return frame.error();
-    if (i > 0 && frame->tick != expected) {
-      return Error{fmt::format("frame {} is at tick {}, where others are {} ticks apart", i, frame->tick, *spacing)};
+    const RecordedFrame recorded = SHAKEN_TRY(frames.frame(i));
+    Snapshot frame = SHAKEN_TRY(decode(recorded, header.cell.box));
+    if (i > 0 && frame.tick != expected) {
+      return Error{fmt::format("frame {} is at tick {}, where others are {} ticks apart", i, frame.tick, spacing)};
     }
-    expected = frame->tick + *spacing;
-    frame->angular_velocity.assign(frame->n_rods(), Vec3::Zero());  // nothing that is measured has a part in it
-    measurements.sample(*frame);
-    if (i == 0) found.first = frame->time;
-    found.last = frame->time;
+    expected = frame.tick + spacing;
+    frame.angular_velocity.assign(frame.n_rods(), Vec3::Zero());  // nothing that is measured has a part in it
+    measurements.sample(frame);
+    if (i == 0) found.first = frame.time;
+    found.last = frame.time;
   }
   found.n_frames = frames.n_frames();
   found.reduction = measurements.reduce(found.last);

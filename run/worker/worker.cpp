@@ -146,9 +146,7 @@ ExitCode run_scene(const scene::RunPlan& plan, const WorkerOptions& asked) {
 /// A simulation of `system` from the state that the run in `folder` was last saved in.
 Result<Simulation> resume_from(const std::filesystem::path& folder, const System& system) {
   const RunDirectory directory{folder};
-  const Result<scene::RunPlan> plan = read_plan(directory);
-  if (!plan) return plan.error();
-  return resume_last(directory, scene::run_id(*plan), system);
+  return resume_last(directory, scene::run_id(SHAKEN_TRY(read_plan(directory))), system);
 }
 
 void probe_scene(const scene::RunPlan& plan, const WorkerOptions& asked) {

@@ -59,10 +59,9 @@ Result<Bounds> read_bounds(const std::vector<std::string_view>& texts) {
   std::vector<Written> parts;
   Bounds bounds;
   for (const std::string_view text : texts) {
-    const Result<Written> part = split_quantity(text);
-    if (!part) return part.error();
-    if (!part->unit.empty()) bounds.unit = part->unit;
-    parts.push_back(*part);
+    const Written part = SHAKEN_TRY(split_quantity(text));
+    if (!part.unit.empty()) bounds.unit = part.unit;
+    parts.push_back(part);
   }
   for (const Written& part : parts) {
     if (!part.unit.empty() && part.unit != bounds.unit) {

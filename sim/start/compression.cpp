@@ -90,7 +90,7 @@ class Compression {
 
   /// From random places in a larger box.
   Result<World> from_random() {
-    if (auto done = insert(); !done) return done.error();
+    SHAKEN_TRY(insert());
     gap_ = world_.system.gap;
     return run();
   }
@@ -132,9 +132,9 @@ class Compression {
         goes_on = to_go() < former - kStandstill;
         former = to_go();
       }
-      if (auto done = may_go_on(goes_on); !done) return done.error();
+      SHAKEN_TRY(may_go_on(goes_on));
       approach();
-      if (auto done = fly(field_ ? kTicksBetweenAligned : kTicksBetween); !done) return done.error();
+      SHAKEN_TRY(fly(field_ ? kTicksBetweenAligned : kTicksBetween));
     }
     for (int tries = 1;; ++tries) {
       if (auto flights = relaxed()) {
@@ -142,10 +142,10 @@ class Compression {
         aim_.start = content(aim_);
         return std::move(aim_);
       }
-      if (auto done = may_go_on(tries < kMostSettling); !done) return done.error();
+      SHAKEN_TRY(may_go_on(tries < kMostSettling));
       if (tries % kFinerAfter == 0) world_.system.dt *= 0.5;
       fly_anew_in(world_.system.box_side, world_.system.gap);
-      if (auto done = fly(kRelaxationTicks); !done) return done.error();
+      SHAKEN_TRY(fly(kRelaxationTicks));
     }
   }
 

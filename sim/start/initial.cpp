@@ -55,11 +55,10 @@ Result<Lattice> lattice_at_angle(const Placement& rods, const SinCos& angle) {
 Result<std::vector<Flight>> aligned_rods(const Placement& rods) {
   const System& system = rods.system;
   const double angle = system.start_angle * (kPi / 180.0);
-  const auto lattice = angle == 0 ? lattice_along_x(rods) : lattice_at_angle(rods, sincos(angle));
-  if (!lattice) return lattice.error();
+  const auto lattice = SHAKEN_TRY(angle == 0 ? lattice_along_x(rods) : lattice_at_angle(rods, sincos(angle)));
 
   // which sites stay empty: the tail of a random permutation (Fisher & Yates)
-  std::vector<int> sites = usable_sites(*lattice, rods);
+  std::vector<int> sites = usable_sites(lattice, rods);
   Rng shuffle(system.seed, RngStream::kLattice, 0, 0);
   for (std::size_t k = sites.size() - 1; k > 0; --k) std::swap(sites[k], sites[shuffle.below(k + 1)]);
   sites.resize(static_cast<std::size_t>(rods.n_rods()));
@@ -68,7 +67,7 @@ Result<std::vector<Flight>> aligned_rods(const Placement& rods) {
   std::vector<Flight> flights(sites.size());
   for (int i = 0; i < rods.n_rods(); ++i) {
     Rng rng(system.seed, RngStream::kVelocity, 0, static_cast<std::uint64_t>(i));
-    flights[i].position = lattice->position(sites[i], system.box());
+    flights[i].position = lattice.position(sites[i], system.box());
     if (angle != 0) {
       std::int32_t ignored = 0;
       wrap(flights[i].position.x(), ignored, system.box().x());
@@ -169,9 +168,7 @@ Result<World> make_world(const System& system) { return make_world_along(system,
 
 Result<World> make_world_along(const System& system, const DirectorAt& directors) {
   World world = empty_world(system);
-  auto flights = initial_flights(system, world.species, world.shape_of_rod, directors);
-  if (!flights) return flights.error();
-  world.rods = std::move(flights).value();
+  world.rods = SHAKEN_TRY(initial_flights(system, world.species, world.shape_of_rod, directors));
   // what was promised is checked, not believed
   std::vector<Pose> poses;
   for (const Flight& flight : world.rods) poses.push_back({flight.position, flight.director});
