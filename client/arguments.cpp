@@ -6,6 +6,8 @@
 #include <cctype>
 #include <utility>
 
+#include "base/text.h"
+
 namespace shaken::client {
 namespace {
 
@@ -19,25 +21,19 @@ constexpr std::array<std::pair<Names, const char*>, 9> kValueNames{{{Names::kFil
                                                                     {Names::kJobOrFolder, "JOB|DIR"},
                                                                     {Names::kField, "FIELD"},
                                                                     {Names::kSetting, "PATH=VALUE"}}};
-const char* value_name_of(Names names) {
-  const auto found = std::ranges::find(kValueNames, names, &std::pair<Names, const char*>::first);
-  return found == kValueNames.end() ? "" : found->second;
-}
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string all;
-  for (const std::string& word : words) all += word + "|";
-  return all;
-}
-
 std::string shown_value(const std::string& value_name, Names names) {
-  return names == Names::kAnything ? value_name : value_name_of(names);
+  return names == Names::kAnything ? value_name : Meaning(names).type;
 }
 
 /// The help shows a positional by its own name; the type beside it would repeat it.
 constexpr const char* kNothing = " ";
 
 }  // namespace
+
+Meaning::Meaning(Names names) {
+  const auto found = std::ranges::find(kValueNames, names, &std::pair<Names, const char*>::first);
+  if (found != kValueNames.end()) type = found->second;
+}
 
 Names meaning(const CLI::Option& option) {
   for (const auto& [names, value_name] : kValueNames) {
@@ -48,45 +44,25 @@ Names meaning(const CLI::Option& option) {
 
 std::vector<std::string> choices(const CLI::Option& option) {
   const std::string& name = option.get_type_name();
-  std::vector<std::string> words;
-  if (name.find('|') == std::string::npos) return words;
-  for (std::size_t begin = 0; begin <= name.size();) {
-    const std::size_t end = std::min(name.find('|', begin), name.size());
-    const std::string word = name.substr(begin, end - begin);
-    // Capitals stand for something, as N in "N|last".
-    if (!word.empty() && std::isupper(static_cast<unsigned char>(word.front())) == 0) words.push_back(word);
-    begin = end + 1;
-  }
+  if (name.find('|') == std::string::npos) return {};
+  std::vector<std::string> words = split(name, '|');
+  // Capitals stand for something, as N in "N|last".
+  std::erase_if(words,
+                [](const std::string& word) { return std::isupper(static_cast<unsigned char>(word.front())) != 0; });
   return words;
 }
 
-void Arguments::required(const std::string& name, std::string& value, const std::string& help, Names names) {
-  app_.add_option(name, value, help)->required()->type_name(value_name_of(names))->option_text(kNothing);
+void Arguments::required(const std::string& name, std::string& value, const std::string& help, const Meaning& meaning) {
+  app_.add_option(name, value, help)->required()->type_name(meaning.type)->option_text(kNothing);
 }
 
-void Arguments::optional(const std::string& name, std::string& value, const std::string& help, Names names) {
-  app_.add_option(name, value, help)->type_name(value_name_of(names))->option_text(kNothing);
-}
-
-void Arguments::list(const std::string& name, std::vector<std::string>& values, const std::string& help, Names names,
-                     int minimum) {
-  auto* option = app_.add_option(name, values, help)->type_name(value_name_of(names))->option_text(kNothing);
-  if (minimum > 0) option->required();
+void Arguments::optional(const std::string& name, std::string& value, const std::string& help, const Meaning& meaning) {
+  app_.add_option(name, value, help)->type_name(meaning.type)->option_text(kNothing);
 }
 
 void Arguments::list(const std::string& name, std::vector<std::string>& values, const std::string& help,
-                     const std::vector<std::string>& words) {
-  app_.add_option(name, values, help)->type_name(joined(words))->option_text(kNothing);
-}
-
-void Arguments::required(const std::string& name, std::string& value, const std::string& help,
-                         const std::vector<std::string>& words) {
-  app_.add_option(name, value, help)->required()->type_name(joined(words))->option_text(kNothing);
-}
-
-void Arguments::optional(const std::string& name, std::string& value, const std::string& help,
-                         const std::vector<std::string>& words) {
-  app_.add_option(name, value, help)->type_name(joined(words))->option_text(kNothing);
+                     const Meaning& meaning, int minimum) {
+  app_.add_option(name, values, help)->type_name(meaning.type)->option_text(kNothing)->required(minimum > 0);
 }
 
 void Arguments::rest(std::vector<std::string>& words) {
@@ -97,8 +73,7 @@ void Arguments::rest(std::vector<std::string>& words) {
 
 void Arguments::option(const std::string& flags, std::string& value, const std::string& value_name,
                        const std::string& help, Names names) {
-  app_.add_option(flags, value, help)
-      ->type_name(names == Names::kAnything ? value_name : std::string(value_name_of(names)));
+  app_.add_option(flags, value, help)->type_name(shown_value(value_name, names));
 }
 
 void Arguments::option(const std::string& flags, std::optional<int>& value, const std::string& value_name,
@@ -121,23 +96,15 @@ void Arguments::flag(const std::string& flags, bool& value, const std::string& h
   app_.add_flag(flags, value, help);
 }
 
-void Arguments::optional(const std::string& name, const std::string& help, Names names) {
-  without_variable_.push_back(app_.add_option(name, help)->type_name(value_name_of(names))->option_text(kNothing));
+void Arguments::optional(const std::string& name, const std::string& help, const Meaning& meaning) {
+  without_variable_.push_back(app_.add_option(name, help)->type_name(meaning.type)->option_text(kNothing));
 }
 
-void Arguments::list(const std::string& name, const std::string& help, const std::vector<std::string>& words) {
-  add_list(name, help, joined(words));
-}
-
-void Arguments::list(const std::string& name, const std::string& help, Names names) {
-  add_list(name, help, std::string(value_name_of(names)));
-}
-
-void Arguments::add_list(const std::string& name, const std::string& help, const std::string& values) {
+void Arguments::list(const std::string& name, const std::string& help, const Meaning& meaning) {
   without_variable_.push_back(app_.add_option(name, help)
                                   ->expected(1, CLI::detail::expected_max_vector_size)
                                   ->allow_extra_args()
-                                  ->type_name(values)
+                                  ->type_name(meaning.type)
                                   ->option_text(kNothing));
 }
 

@@ -27,30 +27,28 @@ enum class Names {
   kSetting,      ///< PATH=VALUE, with a key of the scene
 };
 
+/// One of these, or one of some words: "bash|zsh".
+struct Meaning {
+  Meaning(Names names);                        // NOLINT(google-explicit-constructor): one is meant by the other
+  Meaning(const char* words) : type(words) {}  // NOLINT(google-explicit-constructor): likewise
+  std::string type;                            ///< as which CLI11 keeps it
+};
+
 /// Declares the command line of a verb. Keeps CLI11 out of the verbs: its header costs seconds per source file.
 /// The variables must outlive the parsing; one that is not given keeps its value.
 class Arguments {
  public:
   explicit Arguments(CLI::App& app) : app_(app) {}
 
-  void required(const std::string& name, std::string& value, const std::string& help, Names names);
-  void optional(const std::string& name, std::string& value, const std::string& help, Names names);
-  /// The same of one of `words`.
-  void required(const std::string& name, std::string& value, const std::string& help,
-                const std::vector<std::string>& words);
-  void optional(const std::string& name, std::string& value, const std::string& help,
-                const std::vector<std::string>& words);
+  void required(const std::string& name, std::string& value, const std::string& help, const Meaning& meaning);
+  void optional(const std::string& name, std::string& value, const std::string& help, const Meaning& meaning);
   /// Any number of them, at least `minimum`.
-  void list(const std::string& name, std::vector<std::string>& values, const std::string& help, Names names,
+  void list(const std::string& name, std::vector<std::string>& values, const std::string& help, const Meaning& meaning,
             int minimum);
-  /// Any number of them, also none; `words` are those that the shell offers.
-  void list(const std::string& name, std::vector<std::string>& values, const std::string& help,
-            const std::vector<std::string>& words);
 
   /// The same without a variable, of a verb that hands its words on.
-  void optional(const std::string& name, const std::string& help, Names names);
-  void list(const std::string& name, const std::string& help, const std::vector<std::string>& words);
-  void list(const std::string& name, const std::string& help, Names names);
+  void optional(const std::string& name, const std::string& help, const Meaning& meaning);
+  void list(const std::string& name, const std::string& help, const Meaning& meaning);
   void option(const std::string& flags, const std::string& value_name, const std::string& help,
               Names names = Names::kAnything);
   void repeatable(const std::string& flags, const std::string& value_name, const std::string& help,
@@ -78,13 +76,11 @@ class Arguments {
   void flag(const std::string& flags, bool& value, const std::string& help);
 
  private:
-  void add_list(const std::string& name, const std::string& help, const std::string& values);
-
   CLI::App& app_;
   std::vector<CLI::Option*> without_variable_;
 };
 
-/// How an argument's meaning is kept in its CLI11 option, for completion.cpp to read.
+/// How an argument's meaning is kept in its CLI11 option, for verbs/completion.cpp to read.
 Names meaning(const CLI::Option& option);
 /// The words that an option takes, where its value's name lists them.
 std::vector<std::string> choices(const CLI::Option& option);

@@ -4,7 +4,6 @@
 
 #include "base/standard_streams.h"
 #include "client/program.h"
-#include "client/verb.h"
 
 int main(int argc, char** argv) {
   shaken::guard_standard_streams("shaken");
@@ -12,5 +11,5 @@ int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
   shaken::client::Console console = shaken::client::process_console();
   const std::vector<std::string> arguments(argv + (argc > 0 ? 1 : 0), argv + argc);
-  return static_cast<int>(shaken::client::run_program(arguments, console, shaken::client::make_verbs()));
+  return static_cast<int>(shaken::client::run_program(arguments, console));
 }

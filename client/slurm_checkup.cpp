@@ -1,5 +1,3 @@
-#include "client/slurm_checkup.h"
-
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -10,6 +8,7 @@
 #include "base/process.h"
 #include "base/slurm_conf.h"
 #include "base/text.h"
+#include "client/checkup.h"
 #include "run/files/version.h"
 
 namespace shaken::client {

@@ -1,15 +1,27 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "client/checkup.h"
 #include "client/live/json.h"
-#include "client/slurm_checkup.h"
 #include "client/slurm_estimate.h"
 #include "client/verbs/verbs.h"
 
 namespace shaken::client {
 namespace {
+
+struct Shown {
+  const char* word;
+  Colour colour;
+};
+/// A finding's level, to programs and people.
+const Shown& shown(const CheckResult& finding) {
+  static constexpr std::array<Shown, 3> kLevels{
+      // in order
+      {{"ok", Colour::kGreen}, {"warn", Colour::kYellow}, {"fail", Colour::kRed}}};
+  return kLevels.at(static_cast<std::size_t>(finding.level));
+}
 
 class Doctor : public Verb {
  public:
@@ -36,12 +48,12 @@ class Doctor : public Verb {
     Json list = Json::array();
     for (const CheckResult& finding : findings) {
       list.push_back({{"check", finding.what},
-                      {"level", word(finding.level)},
+                      {"level", shown(finding).word},
                       {"message", finding.message},
                       {"remedy", finding.remedy}});
       if (json_) continue;
       console.out << fmt::format("{}  {:<14}{}\n",
-                                 console.painted(colour(finding.level), fmt::format("{:<4}", word(finding.level))),
+                                 console.painted(shown(finding).colour, fmt::format("{:<4}", shown(finding).word)),
                                  finding.what, finding.message);
       if (!finding.remedy.empty()) console.out << fmt::format("{:<20}-> {}\n", "", finding.remedy);
     }
@@ -53,14 +65,6 @@ class Doctor : public Verb {
   }
 
  private:
-  static const char* word(CheckResult::Level level) {
-    return level == CheckResult::Level::kOk ? "ok" : (level == CheckResult::Level::kWarn ? "warn" : "fail");
-  }
-  static Colour colour(CheckResult::Level level) {
-    return level == CheckResult::Level::kOk ? Colour::kGreen
-                                            : (level == CheckResult::Level::kWarn ? Colour::kYellow : Colour::kRed);
-  }
-
   std::string executor_;
   bool json_ = false;
 };

@@ -1,7 +1,7 @@
 // Verbs whose work the Python package does: here they have their help and their options, which it is handed on.
 #pragma once
 
-#include <initializer_list>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -20,11 +20,15 @@ class InPython : public Verb {
  protected:
   virtual void declare_options(Arguments& arguments) = 0;
   /// Goes on as `python3 -m shaken.PART FIRST WORDS`.
-  ExitCode go_on(const Context& context, const std::string& part, std::initializer_list<std::string> first) const;
+  ExitCode go_on(const Context& context, const std::string& part, const std::vector<std::string>& first) const;
 
  private:
   std::vector<std::string> words_;
 };
+
+/// One that has no more than its options, and goes on with `first` and the daemon's root.
+std::unique_ptr<Verb> handed_on(const std::string& part, const std::vector<std::string>& first, const VerbInfo& info,
+                                void (*declare_options)(Arguments& arguments));
 
 /// The daemon's root, as --root of all of them.
 std::string root_option(const Context& context);

@@ -3,50 +3,36 @@
 #include "client/verbs/verbs.h"
 
 namespace shaken::client {
-namespace {
 
-class Pack : public InPython {
- public:
-  VerbInfo info() const override {
-    return {"pack", kResultsGroup, "Runs in one file, to hand on",
-            "  shaken pack 1f0c                  a run: scene, numbers and curves, into 1f0c59d1.tar.xz\n"
-            "  shaken pack s3 -o phases.tar.xz   the runs of a sweep that are done\n"
-            "  shaken pack s3 --frames           with their recorded frames\n"
-            "  shaken pack from-the-cluster/     the runs in a folder",
-            kExitCodesOfDaemon};
-  }
+std::unique_ptr<Verb> make_pack() {
+  return handed_on("tables", {"pack"},
+                   {"pack", kResultsGroup, "Runs in one file, to hand on",
+                    "  shaken pack 1f0c                  a run: scene, numbers and curves, into 1f0c59d1.tar.xz\n"
+                    "  shaken pack s3 -o phases.tar.xz   the runs of a sweep that are done\n"
+                    "  shaken pack s3 --frames           with their recorded frames\n"
+                    "  shaken pack from-the-cluster/     the runs in a folder",
+                    kExitCodesOfDaemon},
+                   [](Arguments& arguments) {
+                     arguments.list("ID", "A sweep, a job, or a folder of runs", Names::kRun);
+                     arguments.option("-o,--out", "FILE", "Where to write; named after the first if left out",
+                                      Names::kFile);
+                     arguments.flag("--frames", "With trajectory.h5, for pictures and films");
+                     arguments.flag("--json", "Print JSON");
+                   });
+}
 
-  void declare_options(Arguments& arguments) override {
-    arguments.list("ID", "A sweep, a job, or a folder of runs", Names::kRun);
-    arguments.option("-o,--out", "FILE", "Where to write; named after the first if left out", Names::kFile);
-    arguments.flag("--frames", "With trajectory.h5, for pictures and films");
-    arguments.flag("--json", "Print JSON");
-  }
-
-  ExitCode run(const Context& context) override { return go_on(context, "tables", {"pack", root_option(context)}); }
-};
-
-class Unpack : public InPython {
- public:
-  VerbInfo info() const override {
-    return {"unpack", kResultsGroup, "The runs of a file of `shaken pack`, into a folder",
-            "  shaken unpack phases.tar.xz       into phases/; then `shaken results phases/`\n"
-            "  shaken unpack phases.tar.xz -o runs",
-            kExitCodesOfDaemon};
-  }
-
-  void declare_options(Arguments& arguments) override {
-    arguments.list("FILE", "What `shaken pack` has written", Names::kFile);
-    arguments.option("-o,--out", "DIR", "Where to write; named after the file if left out", Names::kFolder);
-    arguments.flag("--json", "Print JSON");
-  }
-
-  ExitCode run(const Context& context) override { return go_on(context, "tables", {"unpack", root_option(context)}); }
-};
-
-}  // namespace
-
-std::unique_ptr<Verb> make_pack() { return std::make_unique<Pack>(); }
-std::unique_ptr<Verb> make_unpack() { return std::make_unique<Unpack>(); }
+std::unique_ptr<Verb> make_unpack() {
+  return handed_on("tables", {"unpack"},
+                   {"unpack", kResultsGroup, "The runs of a file of `shaken pack`, into a folder",
+                    "  shaken unpack phases.tar.xz       into phases/; then `shaken results phases/`\n"
+                    "  shaken unpack phases.tar.xz -o runs",
+                    kExitCodesOfDaemon},
+                   [](Arguments& arguments) {
+                     arguments.list("FILE", "What `shaken pack` has written", Names::kFile);
+                     arguments.option("-o,--out", "DIR", "Where to write; named after the file if left out",
+                                      Names::kFolder);
+                     arguments.flag("--json", "Print JSON");
+                   });
+}
 
 }  // namespace shaken::client

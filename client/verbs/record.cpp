@@ -1,10 +1,13 @@
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <array>
+#include <charconv>
 #include <chrono>
 #include <filesystem>
 #include <optional>
 #include <set>
+#include <string_view>
+#include <utility>
 
 #include "base/clock.h"
 #include "base/interrupt.h"
@@ -12,7 +15,6 @@
 #include "base/text.h"
 #include "client/live/duration.h"
 #include "client/live/target.h"
-#include "client/size.h"
 #include "client/verbs/verbs.h"
 #include "proto/bus.h"
 #include "proto/log_file.h"
@@ -22,6 +24,26 @@ namespace shaken::client {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+/// Bytes from "500MB", "2 GB" or "64000"; a kB has 1000. `option` is named in the message. Throws Failure (kBadInput)
+/// for anything else, and unless it is at least one byte.
+std::int64_t size_option(const std::string& option, const std::string& text) {
+  constexpr std::array<std::pair<std::string_view, double>, 6> kUnits{
+      {{"", 1}, {"B", 1}, {"kB", 1e3}, {"MB", 1e6}, {"GB", 1e9}, {"TB", 1e12}}};
+  constexpr double kMost = 1e18;
+  double number = 0;
+  const char* const text_end = text.data() + text.size();
+  const auto [number_end, problem] = std::from_chars(text.data(), text_end, number, std::chars_format::fixed);
+  std::string_view unit(number_end, static_cast<std::size_t>(text_end - number_end));
+  if (unit.starts_with(' ')) unit.remove_prefix(1);
+  for (const auto& [name, bytes] : kUnits) {
+    if (problem == std::errc() && unit == name && number * bytes >= 1 && number * bytes <= kMost) {
+      return static_cast<std::int64_t>(number * bytes);
+    }
+  }
+  throw Failure(ExitCode::kBadInput,
+                fmt::format("{}: '{}' is no size (write 500MB, 2GB or 64000)", option, printable(text)));
+}
 
 class Record : public Verb {
  public:

@@ -24,7 +24,7 @@ class PrintSchema : public Verb {
 
   void declare(Arguments& arguments) override {
     arguments.optional("KIND", kind_, "scene, sweep, style or catalogue; scene if left out",
-                       {"scene", "sweep", "style", "catalogue"});
+                       "scene|sweep|style|catalogue");
   }
 
   ExitCode run(const Context& context) override {

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "client/live/ink.h"
+#include "client/live/rod_colours.h"
 
 namespace shaken::client {
 

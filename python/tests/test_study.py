@@ -395,7 +395,7 @@ def test_the_two_steps_are_compared_and_priced():
 
 def test_every_figure_is_completed_by_the_shell():
     source = (SOURCE / "client" / "verbs" / "figures.cpp").read_text()
-    words = source.split("return split(")[1].split("' ')")[0].replace('"', " ").replace(",", " ").split()
+    words = "".join(source.split("kFigures =")[1].split(";")[0].replace('"', " ").split()).split("|")
     assert words == [f.number for f in FIGURES if f.number] + [f.name for f in FIGURES]
 
 

@@ -98,7 +98,7 @@ TEST(HandOn, GivesWhatHasNoVariable) {
     arguments.option("--own", own, "NAME", "");
     arguments.repeatable("-w,--where", "CONDITION", "");
     arguments.flag("-y,--yes", "");
-    arguments.list("WORD", "", std::vector<std::string>{"a", "b"});
+    arguments.list("WORD", "", "a|b");
     arguments.hand_on(words);
     app.parse(line);
     return words;

@@ -2,7 +2,6 @@
 
 #include <sstream>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "base/files.h"
@@ -32,11 +31,11 @@ inline ExitCode run_beside(const Console& console, const std::vector<std::string
 
 /// The program as a shell would start it, with both outputs caught; neither is a terminal, but lines may have a width
 /// as if there were one.
-inline Outcome run_client(const std::vector<std::string>& arguments, int width = 0, Verbs verbs = make_verbs()) {
+inline Outcome run_client(const std::vector<std::string>& arguments, int width = 0) {
   std::ostringstream out;
   std::ostringstream err;
   Console console{.out = out, .err = err, .width = width, .run_instead = run_beside};
-  const ExitCode code = run_program(arguments, console, std::move(verbs));
+  const ExitCode code = run_program(arguments, console);
   return {code, out.str(), err.str()};
 }
 

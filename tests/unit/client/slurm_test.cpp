@@ -7,7 +7,7 @@
 
 #include "base/failure.h"
 #include "base/scratch_folder.h"
-#include "client/slurm_checkup.h"
+#include "client/checkup.h"
 #include "client/slurm_estimate.h"
 
 namespace shaken::client {

@@ -10,7 +10,7 @@
 
 #include "base/text.h"
 #include "client/live/json.h"
-#include "client/waiting_reasons.h"
+#include "client/waiting.h"
 #include "proto/bus.h"
 #include "tests/unit/client/fake_daemon.h"
 #include "tests/unit/client/run_client.h"
@@ -250,7 +250,7 @@ TEST_F(Verbs, CleanAsksWhoeverIsThere) {
     std::ostringstream err;
     std::istringstream in(agrees ? "y\n" : "\n");
     Console console{.out = out, .err = err, .in = &in};
-    const ExitCode code = run_program({"clean", "--root", root_.path().string()}, console, make_verbs());
+    const ExitCode code = run_program({"clean", "--root", root_.path().string()}, console);
     EXPECT_THAT(err.str(), HasSubstr("Remove 1 run, 3 kB? [y/N] "));
     EXPECT_EQ(code, ExitCode::kFailed) << "not agreed, or kept by the daemon without a word";
     EXPECT_EQ(Json::parse(daemon_.requests().back().body).contains("only"), agrees);
