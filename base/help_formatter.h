@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string>
 
-#include "base/help_text.h"
+#include "base/text.h"
 
 namespace shaken {
 

@@ -1,6 +1,7 @@
 #include "base/interrupt.h"
 
 #include <algorithm>
+#include <array>
 #include <csignal>
 #include <ctime>
 
@@ -8,9 +9,8 @@ namespace shaken {
 namespace {
 
 volatile std::sig_atomic_t g_interrupted = 0;
-struct sigaction g_old_int;
-struct sigaction g_old_term;
-struct sigaction g_old_hup;
+constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
+std::array<struct sigaction, kSignals.size()> g_old;
 
 void note_signal(int) { g_interrupted = 1; }
 
@@ -21,15 +21,11 @@ InterruptGuard::InterruptGuard() {
   struct sigaction action {};
   action.sa_handler = note_signal;  // no SA_RESTART: sleeps must end
   sigemptyset(&action.sa_mask);
-  sigaction(SIGINT, &action, &g_old_int);
-  sigaction(SIGTERM, &action, &g_old_term);
-  sigaction(SIGHUP, &action, &g_old_hup);
+  for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &action, &g_old[i]);
 }
 
 InterruptGuard::~InterruptGuard() {
-  sigaction(SIGINT, &g_old_int, nullptr);
-  sigaction(SIGTERM, &g_old_term, nullptr);
-  sigaction(SIGHUP, &g_old_hup, nullptr);
+  for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &g_old[i], nullptr);
 }
 
 bool InterruptGuard::interrupted() const { return g_interrupted != 0; }

@@ -29,44 +29,17 @@ std::vector<std::size_t> Table::widths() const {
   return widths;
 }
 
-std::vector<bool> Table::shown(int width) const {
-  std::vector<bool> shown(columns_.size(), true);
-  if (width <= 0) return shown;
-  const std::vector<std::size_t> all = widths();
-  for (;;) {
-    std::size_t total = 0;
-    std::optional<std::size_t> least;  // important; of equal ones the last
-    for (std::size_t c = 0; c < columns_.size(); ++c) {
-      if (!shown[c]) continue;
-      total += all[c] + (total > 0 ? kGap : 0);
-      if (columns_[c].rank > 0 && (!least || columns_[c].rank >= columns_[*least].rank)) least = c;
-    }
-    if (total <= static_cast<std::size_t>(width) || !least) return shown;
-    shown[*least] = false;
-  }
-}
-
-std::vector<std::string> Table::left_out(int width) const {
-  const std::vector<bool> is_shown = shown(width);
-  std::vector<std::string> titles;
-  for (std::size_t c = 0; c < columns_.size(); ++c) {
-    if (!is_shown[c]) titles.push_back(columns_[c].title);
-  }
-  return titles;
-}
-
 std::string Table::text(int width) const {
-  const std::vector<bool> is_shown = shown(width);
   std::vector<std::size_t> widths = this->widths();
   const auto total = [&] {
     std::size_t sum = 0;
-    for (std::size_t c = 0; c < widths.size(); ++c) sum += is_shown[c] ? widths[c] + (sum > 0 ? kGap : 0) : 0;
+    for (const std::size_t each : widths) sum += each + (sum > 0 ? kGap : 0);
     return sum;
   };
   while (width > 0 && total() > static_cast<std::size_t>(width)) {
     std::optional<std::size_t> widest;
     for (std::size_t c = 1; c < widths.size(); ++c) {
-      const bool may_be_cut = is_shown[c] && columns_[c].align == Align::kLeft && widths[c] > kNarrowest;
+      const bool may_be_cut = columns_[c].align == Align::kLeft && widths[c] > kNarrowest;
       if (may_be_cut && (!widest || widths[c] > widths[*widest])) widest = c;
     }
     if (!widest) break;
@@ -77,7 +50,6 @@ std::string Table::text(int width) const {
   const auto add_line = [&](const std::vector<std::string>& cells) {
     std::string line;
     for (std::size_t c = 0; c < cells.size(); ++c) {
-      if (!is_shown[c]) continue;
       const std::string cell = fitted(cells[c], widths[c]);
       const std::string padding(widths[c] - std::min(widths[c], display_width(cell)), ' ');
       if (!line.empty()) line.append(kGap, ' ');

@@ -15,23 +15,18 @@ class Table {
   struct Column {
     std::string title;
     Align align = Align::kLeft;
-    int rank = 0;  ///< where there is no room, the column with the highest rank goes first; 0: never
   };
 
   explicit Table(std::vector<Column> columns) : columns_(std::move(columns)) {}
   /// Needs as many cells as there are columns.
   void add_row(Row cells);
-  /// One line per row, titles first. Where `width` > 0 and a line does not fit, whole columns go by their rank; then
-  /// texts (left-aligned, but for the first column) are shortened, the widest first and none below 4 characters.
-  /// Numbers and names in the first column are never cut: what still does not fit is left to the terminal.
+  /// One line per row, titles first. Where `width` > 0 and a line does not fit, texts (left-aligned, but for the first
+  /// column) are shortened, the widest first and none below 4 characters. Numbers and names in the first column are
+  /// never cut: what still does not fit is left to the terminal.
   std::string text(int width) const;
-  /// Titles of the columns that text(width) leaves out.
-  std::vector<std::string> left_out(int width) const;
 
  private:
   std::vector<std::size_t> widths() const;
-  /// Whether each column is shown.
-  std::vector<bool> shown(int width) const;
 
   std::vector<Column> columns_;
   std::vector<Row> rows_;

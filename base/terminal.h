@@ -1,5 +1,7 @@
 #pragma once
 
+#include <sys/ioctl.h>
+
 #include <optional>
 
 namespace shaken {
@@ -10,6 +12,10 @@ struct TerminalSize {
 };
 
 /// Of the terminal that `descriptor` writes to; nothing if it is none, or does not know its size.
-std::optional<TerminalSize> terminal_size(int descriptor);
+inline std::optional<TerminalSize> terminal_size(int descriptor) {
+  winsize size{};
+  if (ioctl(descriptor, TIOCGWINSZ, &size) != 0 || size.ws_col == 0 || size.ws_row == 0) return std::nullopt;
+  return TerminalSize{size.ws_col, size.ws_row};
+}
 
 }  // namespace shaken

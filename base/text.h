@@ -1,9 +1,12 @@
 #pragma once
 
+#include <charconv>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 namespace shaken {
@@ -43,6 +46,19 @@ std::string csv_field(std::string_view text);
 std::string base64(std::string_view bytes);
 /// A word of a command line as a shell takes it: in quotes where it needs them.
 std::string shell_word(std::string_view text);
+/// A help text whose lines are no longer than `width` columns. What is described (an option, a verb, an example) keeps
+/// its column, and its description goes on below itself; prose is broken between words. A command that is longer than
+/// that stays whole, for it is there to be copied.
+std::string wrapped_help(std::string_view text, std::size_t width = 80);
+/// The number that `text` is as a whole; none if it is anything else.
+template <class Number>
+std::optional<Number> number_in(std::string_view text) {
+  Number number{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
+}
+/// Whether `text` has the form of a run's id: 16 hex digits.
+bool is_id(std::string_view text);
 /// What lies between separators, without what is empty: "/v1//jobs/" by '/' is "v1" and "jobs".
 std::vector<std::string> split(std::string_view text, char separator);
 
