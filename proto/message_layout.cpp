@@ -7,6 +7,13 @@ namespace {
 
 constexpr std::size_t kFingerprintBytes = 8;
 
+/// Of a number, be it by itself or in an array; none of a space.
+constexpr std::size_t bytes_of(char field) {
+  if (field == '8' || field == 'D') return 8;
+  if (field == '4' || field == 'W') return 4;
+  return field == 'H' ? 2 : field == 'B' ? 1 : 0;
+}
+
 /// Walks over a payload without ever leaving it.
 class Walker {
  public:
@@ -47,36 +54,15 @@ std::optional<std::size_t> message_size(std::string_view layout, std::span<const
   bool fits = walker.skip(kFingerprintBytes);
   std::size_t n = 0;
   for (const char field : layout) {
-    switch (field) {
-      case '8':
-        fits = fits && walker.skip(8);
-        break;
-      case '4':
-        fits = fits && walker.skip(4);
-        break;
-      case 's':
-        fits = fits && walker.skip_string();
-        break;
-      case 'D':
-        fits = fits && walker.skip(8 * n);
-        break;
-      case 'W':
-        fits = fits && walker.skip(4 * n);
-        break;
-      case 'B':
-        fits = fits && walker.skip(n);
-        break;
-      case 'H':
-        fits = fits && walker.skip(2 * n);
-        break;
-      case 'n': {
-        const auto length = walker.length();
-        fits = fits && length;
-        n = length.value_or(0);
-        break;
-      }
-      default:
-        break;  // a space
+    if (field == 'n') {
+      const auto length = walker.length();
+      fits = fits && length;
+      n = length.value_or(0);
+    } else if (field == 's') {
+      fits = fits && walker.skip_string();
+    } else {
+      const bool is_array = field >= 'A' && field <= 'Z';
+      fits = fits && walker.skip(bytes_of(field) * (is_array ? n : 1));
     }
   }
   if (!fits) return std::nullopt;

@@ -3,7 +3,7 @@
 #include <arpa/inet.h>
 #include <netinet/in.h>
 
-#include <charconv>
+#include "base/text.h"
 
 namespace shaken::relay {
 
@@ -22,15 +22,12 @@ std::string Address::url() const {
 Result<Address> parse_address(std::string_view text) {
   const std::size_t colon = text.find(':');
   const std::string host(text.substr(0, colon));
-  const std::string_view port = colon == std::string_view::npos ? "" : text.substr(colon + 1);
+  const auto port = number_in<std::uint16_t>(colon == std::string_view::npos ? "" : text.substr(colon + 1));
   in_addr address{};
-  Address result;
-  const auto [end, problem] = std::from_chars(port.data(), port.data() + port.size(), result.port);
-  if (inet_pton(AF_INET, host.c_str(), &address) != 1 || problem != std::errc() || end != port.data() + port.size()) {
+  if (inet_pton(AF_INET, host.c_str(), &address) != 1 || !port) {
     return Error{std::string("'").append(text) + "' is no address in four numbers with a port, such as 127.0.0.1:7700"};
   }
-  result.host = ntohl(address.s_addr);
-  return result;
+  return Address{ntohl(address.s_addr), *port};
 }
 
 }  // namespace shaken::relay

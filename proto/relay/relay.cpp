@@ -3,6 +3,7 @@
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
+#include <spdlog/spdlog.h>
 #include <sys/eventfd.h>
 #include <sys/socket.h>
 
@@ -167,14 +168,14 @@ void Relay::accept_clients() {
       if (errno == ECONNABORTED || errno == EINTR) continue;
       if (errno != EAGAIN && errno != EWOULDBLOCK) {
         accepts_from_ = now + kPauseOfAccepting;
-        warnings_.note(system_error("no client can be taken").message, now);
+        warn(system_error("no client can be taken").message);
       }
       return;
     }
     if (clients_.size() >= limits_.clients) {
       // Closed rather than left to wait: LCM's client waits for an answer for ever, but goes on if there is none.
       ++counters_.sent_away;
-      warnings_.note("a client was sent away: " + std::to_string(limits_.clients) + " are connected", now);
+      warn("a client was sent away: " + std::to_string(limits_.clients) + " are connected");
       continue;
     }
     prepare(socket.value());
@@ -196,7 +197,7 @@ void Relay::hand_on(std::string_view channel, std::string_view payload) {
       client->send(Clock::now());
     }
     if (const std::int64_t dropped = client->dropped() - dropped_before; dropped > 0) {
-      if (dropped_before == 0) warnings_.note("a client does not keep up, and misses messages", Clock::now());
+      if (dropped_before == 0) warn("a client does not keep up, and misses messages");
       counters_.dropped += dropped;
     }
   }
@@ -207,12 +208,25 @@ void Relay::forget_ended() {
     if (!client->has_ended()) return false;
     if (!client->refusal().empty()) {
       ++counters_.sent_away;
-      warnings_.note("a client was sent away: " + client->refusal(), Clock::now());
+      warn("a client was sent away: " + client->refusal());
     }
     return true;
   };
   std::erase_if(clients_, has_ended);
   counters_.clients = static_cast<std::int64_t>(clients_.size());
+}
+
+void Relay::warn(const std::string& what) {
+  constexpr std::chrono::seconds kPause{10};
+  const Clock::time_point now = Clock::now();
+  if (now < warns_from_) {
+    ++kept_back_;
+    return;
+  }
+  warns_from_ = now + kPause;
+  const std::int64_t others = std::exchange(kept_back_, 0);
+  spdlog::warn("relay: {}{}", what,
+               others > 0 ? "; " + std::to_string(others) + " such warnings were left out before" : "");
 }
 
 }  // namespace shaken::relay

@@ -13,7 +13,6 @@
 #include "proto/bus.h"
 #include "proto/relay/address.h"
 #include "proto/relay/client.h"
-#include "proto/relay/client_warnings.h"
 #include "proto/relay/limits.h"
 
 namespace shaken::relay {
@@ -56,6 +55,8 @@ class Relay {
   void accept_clients();
   void hand_on(std::string_view channel, std::string_view payload);
   void forget_ended();
+  /// For the log, once in ten seconds at most: a client that comes again and again must not fill it.
+  void warn(const std::string& what);
 
   Address address_;
   Limits limits_;
@@ -66,7 +67,8 @@ class Relay {
   std::vector<bool> is_readable_;  ///< which of them
   bool is_asked_to_accept_ = false;
   Clock::time_point accepts_from_{};  ///< there was no descriptor for a client before
-  ClientWarnings warnings_;
+  Clock::time_point warns_from_{};
+  std::int64_t kept_back_ = 0;  ///< warnings until then
   Counters counters_;
   std::jthread thread_;  ///< last: it uses all of the above
 };
