@@ -3,7 +3,6 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <charconv>
 #include <set>
 #include <stdexcept>
 
@@ -12,15 +11,14 @@
 #include "run/files/directory.h"
 #include "server/cleaning.h"
 #include "server/log_slice.h"
-#include "server/more_replicas.h"
 #include "server/submission.h"
 
 namespace shaken::server {
 
 struct Api::Answer {
-  int status = 200;
   Json json;
-  std::string allow;  ///< methods that the path has, with 405
+  int status = 200;
+  std::string allow{};  ///< methods that the path has, with 405
 };
 
 namespace {
@@ -114,7 +112,7 @@ std::span<const Api::Route> Api::routes() {
 Api::Answer Api::problems_answer(std::span<const keys::Problem> found) {
   std::string sentence = keys::to_string(found.front());
   if (found.size() > 1) sentence = std::to_string(found.size()) + " problems; the first: " + sentence;
-  return {422, {{"error", sentence}, {"problems", keys::to_json(found)}}, ""};
+  return {{{"error", sentence}, {"problems", keys::to_json(found)}}, 422};
 }
 
 bool Api::in_sweep(const Call& call) { return call.request.path.starts_with("/v1/sweeps/"); }
@@ -159,16 +157,15 @@ Api::Answer Api::dispatch(const http::Request& request) const {
     return (this->*route.handler)({request, *id});
   }
   if (!allowed.empty()) {
-    return {405, {{"error", request.path + " does not know " + method + ", only " + allowed}}, allowed};
+    return {{{"error", request.path + " does not know " + method + ", only " + allowed}}, 405, allowed};
   }
   std::vector<std::string> known;
   for (const Route& route : routes()) known.push_back(std::string(route.method) + " " + route.pattern);
-  return {404, {{"error", "no such path: " + request.path + "; see docs/protocol.md"}, {"routes", known}}, ""};
+  return {{{"error", "no such path: " + request.path + "; see docs/protocol.md"}, {"routes", known}}, 404};
 }
 
 Api::Answer Api::status(const Call&) const {
-  return {200,
-          {{"version", info_.version},
+  return {{{"version", info_.version},
            {"api", 1},
            {"pid", info_.pid},
            {"root", info_.root.string()},
@@ -177,8 +174,7 @@ Api::Answer Api::status(const Call&) const {
            {"slots", info_.slots},
            {"lcm", {{"url", info_.lcm_url}, {"ok", info_.lcm_ok}, {"message", info_.lcm_message}}},
            {"relay", info_.relay_url.empty() ? Json(nullptr) : Json(info_.relay_url)},
-           {"jobs", counts_report(queue_.counts())}},
-          ""};
+           {"jobs", counts_report(queue_.counts())}}};
 }
 
 Api::Answer Api::submit(const Call& call) const {
@@ -203,13 +199,11 @@ Api::Answer Api::checked(const Submission& submission) {
   const auto n_done = std::count_if(submission.jobs.begin(), submission.jobs.end(),
                                     [](const NewJob& job) { return job.has_results.value_or(false); });
   const Extent& extent = submission.extent;
-  return {200,
-          {{"name", submission.name},
+  return {{{"name", submission.name},
            {"n_jobs", submission.jobs.size()},
            {"n_done", n_done},
            {"n_rods", {extent.fewest_rods, extent.most_rods}},
-           {"simulated_s", extent.simulated}},
-          ""};
+           {"simulated_s", extent.simulated}}};
 }
 
 Api::Answer Api::add_replicas(const Call& call) const {
@@ -239,40 +233,34 @@ Api::Answer Api::submitted(const std::string& name, int priority, std::vector<Ne
   counts["requeued"] = submitted.n_requeued;
   counts["extended"] = submitted.n_extended;
   counts["found"] = submitted.n_found;
-  return {submitted.created ? 201 : 200,
-          {{"sweep", report(*queue_.sweep(submitted.sweep))},
+  return {{{"sweep", report(*queue_.sweep(submitted.sweep))},
            {"jobs", report(queue_.jobs(submitted.sweep))},
            {"counts", counts}},
-          ""};
+          submitted.created ? 201 : 200};
 }
 
 Api::Answer Api::list_sweeps(const Call&) const {
   Json sweeps = Json::array();
   const Line line = this->line();
   for (const Sweep& sweep : queue_.sweeps()) sweeps.push_back(report(sweep, line));
-  return {200, {{"sweeps", sweeps}}, ""};
+  return {{{"sweeps", sweeps}}};
 }
 
 Api::Answer Api::show_sweep(const Call& call) const {
   const Sweep sweep = find_sweep(call.id);
-  return {200, {{"sweep", report(sweep)}, {"jobs", report(queue_.jobs(sweep.id))}}, ""};
+  return {{{"sweep", report(sweep)}, {"jobs", report(queue_.jobs(sweep.id))}}};
 }
 
-Api::Answer Api::list_jobs(const Call& call) const { return {200, {{"jobs", report(find_jobs(call))}}, ""}; }
+Api::Answer Api::list_jobs(const Call& call) const { return {{{"jobs", report(find_jobs(call))}}}; }
 
-Api::Answer Api::show_job(const Call& call) const {
-  return {200, {{"job", job_report(find_job(call.id), info_.runs())}}, ""};
-}
+Api::Answer Api::show_job(const Call& call) const { return {{{"job", job_report(find_job(call.id), info_.runs())}}}; }
 
 std::int64_t Api::count_in(const Call& call, const std::string& parameter, const std::string& meaning) {
   const auto text = call.parameter(parameter);
   if (!text) return 0;
-  std::int64_t count = 0;
-  const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), count);
-  if (error != std::errc() || end != text->data() + text->size() || count < 0) {
-    throw Refusal(400, parameter + ": '" + *text + "' is not " + meaning);
-  }
-  return count;
+  const auto count = number_in<std::int64_t>(*text);
+  if (!count || *count < 0) throw Refusal(400, parameter + ": '" + *text + "' is not " + meaning);
+  return *count;
 }
 
 Api::Answer Api::show_log(const Call& call) const {
@@ -280,9 +268,7 @@ Api::Answer Api::show_log(const Call& call) const {
   const std::int64_t offset = count_in(call, "offset", "a number of bytes");
   const LogSlice slice = read_slice(run::RunDirectory{info_.runs() / job.id}.log(), offset, kLogSliceBytes);
   return {
-      200,
-      {{"text", slice.text}, {"offset", slice.next}, {"state", to_word(job.state)}, {"ended", has_ended(job.state)}},
-      ""};
+      {{"text", slice.text}, {"offset", slice.next}, {"state", to_word(job.state)}, {"ended", has_ended(job.state)}}};
 }
 
 Api::Answer Api::show_history(const Call& call) const {
@@ -295,7 +281,7 @@ Api::Answer Api::show_history(const Call& call) const {
                        {"attempt", change.attempt},
                        {"cause", change.cause}});
   }
-  return {200, {{"job", job_report(job, info_.runs())}, {"changes", changes}}, ""};
+  return {{{"job", job_report(job, info_.runs())}, {"changes", changes}}};
 }
 
 Api::Answer Api::extend(const Call& call) const {
@@ -328,14 +314,14 @@ Api::Answer Api::extend(const Call& call) const {
   }
   Json answer = {{"extended", queue_.extend(scenes)}};
   if (!refused.empty()) answer["refused"] = refused;
-  return {200, answer, ""};
+  return {answer};
 }
 
 Api::Answer Api::control(const Call& call) const {
   const auto parts = split(call.request.path, '/');
   const std::string& action = parts.back();
   const Target target = in_sweep(call) ? Target(find_sweep(call.id).id) : Target(find_job(call.id).id);
-  const auto answer = [](const char* changed, int n) { return Answer{200, {{changed, n}}, ""}; };
+  const auto answer = [](const char* changed, int n) { return Answer{{{changed, n}}}; };
   if (action == "priority") {
     const int priority = parsed(priority_keys(), call.request.body).n;
     return answer("changed", queue_.set_priority(target, priority));
@@ -352,7 +338,7 @@ Api::Answer Api::results(const Call& call) const {
   for (const Job& job : find_jobs(call)) {
     if (job.finished >= since) rows.push_back(result_row(job, info_.runs()));
   }
-  return {200, {{"rows", rows}}, ""};
+  return {{{"rows", rows}}};
 }
 
 Api::Answer Api::clean(const Call& call) const {
@@ -375,7 +361,7 @@ Api::Answer Api::clean(const Call& call) const {
                     {"kept", run.kept}});
     if (run.removed || (request.dry_run && (is_known || request.unknown))) bytes += run.bytes;
   }
-  return {200, {{"runs", runs}, {"bytes", bytes}}, ""};
+  return {{{"runs", runs}, {"bytes", bytes}}};
 }
 
 Sweep Api::find_sweep(const std::string& word) const {

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/clock.h"
+#include "base/text.h"
 #include "run/files/directory.h"
 
 namespace shaken::server {
@@ -15,11 +16,6 @@ namespace fs = std::filesystem;
 
 /// A directory on its way out has this before its id: whatever starts the run anew makes a directory of its own.
 constexpr std::string_view kLeaving = ".leaving-";
-
-bool is_id(const std::string& name) {
-  constexpr std::size_t kLength = 16;
-  return name.size() == kLength && name.find_first_not_of("0123456789abcdef") == std::string::npos;
-}
 
 /// A folder itself, not a link to one.
 bool is_folder(const fs::path& path) {

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/core/result.h"
 #include "base/keys/table.h"
 #include "scene/keys/run_plan.h"
 #include "server/cleaning.h"
@@ -78,5 +79,12 @@ std::string refuse_start(const scene::StartState& start, const Queue& queue, con
 
 /// Why the scene that the queue has for job `id` is not to be run; empty if it is that job's.
 std::string refuse_scene(const std::string& id, const std::string& scene);
+
+/// The jobs of a sweep with `n` replicas of each of its points, or as many as there are if these are more: those that
+/// are there, and new ones with further seeds, as if its file had been submitted so. `runs`: folder of the run
+/// directories, where it is looked whether results are there. Fails where the seed is swept, or where a scene is of
+/// other physics.
+Result<std::vector<NewJob>> with_replicas(const Queue& queue, std::int64_t sweep, int n,
+                                          const std::filesystem::path& runs);
 
 }  // namespace shaken::server

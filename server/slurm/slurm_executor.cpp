@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <random>
 #include <system_error>
@@ -33,13 +32,10 @@ constexpr std::string_view kNamePrefix = "shaken-";
 /// Ahead of the end of a task's time its runs are told to write a checkpoint.
 constexpr double kAhead = 60;
 
+/// 16 hex digits, as an id has (is_id).
 std::string new_token() {
   std::random_device random;
   return fmt::format("{:08x}{:08x}", random(), random());
-}
-
-bool is_token(std::string_view word) {
-  return word.size() == 16 && word.find_first_not_of("0123456789abcdef") == word.npos;
 }
 
 /// Whether Slurm has refused an array for its size, or for how many tasks a user may have: "Invalid job array
@@ -99,9 +95,8 @@ std::string SlurmExecutor::name(int worker) const {
 
 std::optional<int> SlurmExecutor::adopt(const std::string& name) {
   const std::string token = name.substr(0, name.find('/'));
-  int number = -1;
-  if (token.size() < name.size()) std::from_chars(name.data() + token.size() + 1, name.data() + name.size(), number);
-  if (!is_token(token) || number < 0) return std::nullopt;
+  const int number = token.size() < name.size() ? number_in<int>(name.substr(token.size() + 1)).value_or(-1) : -1;
+  if (!is_id(token) || number < 0) return std::nullopt;
   auto batch = batches_.find(token);
   if (batch == batches_.end()) {
     auto written = SentBatch::written(options_.folder / token);
@@ -309,7 +304,7 @@ void SlurmExecutor::remove_unknown() {
   for (std::filesystem::directory_iterator entry(options_.folder, error), end; !error && entry != end;
        entry.increment(error)) {
     const std::string name = entry->path().filename().string();
-    if (is_token(name) && !batches_.contains(name)) unknown.push_back(entry->path());
+    if (is_id(name) && !batches_.contains(name)) unknown.push_back(entry->path());
   }
   for (const std::filesystem::path& folder : unknown) std::filesystem::remove_all(folder, error);
 }

@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdlib>
+
+#include "base/text.h"
 
 namespace shaken::server::slurm {
 namespace {
@@ -49,9 +50,10 @@ std::vector<QueuedTask> parse_squeue(std::string_view output) {
   for (const std::string_view line : split(output, '\n')) {
     const auto parts = split(line, '|');
     if (parts.size() < 5 || !is_number(parts[0]) || !is_number(parts[1])) continue;
-    QueuedTask task{std::string(parts[0]), 0, std::string(parts[3]), std::string(parts[2]), std::string(parts[4])};
-    const auto [end, error] = std::from_chars(parts[1].data(), parts[1].data() + parts[1].size(), task.task);
-    if (error != std::errc()) continue;
+    const auto number = number_in<int>(parts[1]);
+    if (!number) continue;
+    QueuedTask task{std::string(parts[0]), *number, std::string(parts[3]), std::string(parts[2]),
+                    std::string(parts[4])};
     if (is_among(kOver, task.state)) task.stage = QueuedTask::Stage::kOver;
     if (is_among(kWorking, task.state)) task.stage = QueuedTask::Stage::kWorking;
     tasks.push_back(std::move(task));

@@ -1,22 +1,32 @@
-#include "server/slurm/task.h"
-
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <array>
-#include <charconv>
 #include <csignal>
 #include <cstdlib>
 #include <optional>
 #include <string>
 #include <thread>
 
+#include "base/failure.h"
+#include "base/program.h"
 #include "base/standard_streams.h"
+#include "base/text.h"
 #include "run/files/directory.h"
+#include "run/files/version.h"
 #include "server/local_executor.h"
+#include "server/slurm/batch.h"
 
 namespace shaken::server::slurm {
 namespace {
+
+constexpr const char* kFooter =
+    R"(Slurm starts it for shakend, as what a job array is made of; there is no need to start it by hand. It reads the
+number of its task from SLURM_ARRAY_TASK_ID, does the runs that FOLDER/batch.json lists for it, and writes into
+FOLDER/NUMBER.json how each of them ended. On SIGUSR1, which Slurm sends ahead of the end of its time, on SIGTERM, and
+for a run that FOLDER/NUMBER.stop names, it lets the run that is at work write a checkpoint and end.
+
+Exit codes: 0 every run has ended, or the time is over, 1 failed, 2 bad input, 143 the task was taken away.)";
 
 using std::chrono::milliseconds;
 using Clock = std::chrono::steady_clock;
@@ -27,15 +37,14 @@ constexpr int kWritingTries = 60;
 constexpr auto kStoppedCode = static_cast<int>(ExitCode::kStopped);
 
 /// A number of the environment; `fallback` where there is none.
-int number_in(const char* variable, int fallback) {
-  const char* text = std::getenv(variable);
-  if (text == nullptr) return fallback;
-  const std::string_view word = text;
-  int number = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-  return error == std::errc() && end == word.data() + word.size() ? number : fallback;
+int variable(const char* name, int fallback) {
+  const char* text = std::getenv(name);
+  return text != nullptr ? number_in<int>(text).value_or(fallback) : fallback;
 }
 
+/// A task on a node of the cluster: starts its workers one after the other, hands on what Slurm and the daemon ask of
+/// them, and writes down how they end. Blocks signals of this thread. Throws Failure if the batch has no such task or
+/// has been withdrawn, or if the report cannot be written.
 class Task {
  public:
   Task(BatchFolder folder, int number) : folder_(std::move(folder)), number_(number) {
@@ -44,7 +53,7 @@ class Task {
     pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
     if (auto before = read_report(folder_.report(number))) report_ = std::move(*before);
     if (const char* job = std::getenv("SLURM_JOB_ID")) report_.slurm_job = job;
-    report_.restarts = number_in("SLURM_RESTART_COUNT", 0);
+    report_.restarts = variable("SLURM_RESTART_COUNT", 0);
     std::array<char, 256> host{};
     gethostname(host.data(), host.size() - 1);
     report_.host = host.data();
@@ -142,7 +151,14 @@ class Task {
 };
 
 }  // namespace
-
-ExitCode do_task(const BatchFolder& folder) { return Task(folder, number_in("SLURM_ARRAY_TASK_ID", -1)).work(); }
-
 }  // namespace shaken::server::slurm
+
+int main(int argc, char** argv) {
+  using namespace shaken::server::slurm;
+  shaken::Program app("shaken-task", "Does one task of a batch of runs, one after the other, on a node of a cluster.",
+                      kFooter);
+  std::string folder;
+  app.set_version_flag("--version", shaken::run::version());
+  app.add_option("FOLDER", folder, "Of the batch, below slurm/ of the daemon's root")->type_name("DIR")->required();
+  return app.run(argc, argv, [&] { return Task({folder}, variable("SLURM_ARRAY_TASK_ID", -1)).work(); });
+}

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include "server/queue/queue.h"
-#include "server/queue/stop_rule.h"
 #include "tests/unit/server/server_support.h"
 
 namespace shaken::server {

@@ -1,4 +1,4 @@
-#include "server/queue/stop_rule.h"
+#include "server/queue/terms.h"
 
 #include <fmt/format.h>
 
