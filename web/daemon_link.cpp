@@ -2,7 +2,7 @@
 
 #include <httplib.h>
 
-#include <nlohmann/json.hpp>
+#include "web/json_reply.h"
 
 namespace shaken::web {
 
@@ -17,9 +17,8 @@ http::Reply DaemonLink::ask(const http::Request& request) const {
   const httplib::Result answer = request.method == "POST" ? daemon.Post(request.path, request.body, "application/json")
                                                           : daemon.Get(request.path, query, httplib::Headers{});
   if (!answer) {
-    const nlohmann::json body{{"error", "no daemon answers at " + socket.string() + " (" +
-                                            httplib::to_string(answer.error()) + "): start shakend"}};
-    return {.status = 503, .body = body.dump() + "\n"};
+    return refusal(503, "no daemon answers at " + socket.string() + " (" + httplib::to_string(answer.error()) +
+                            "): start shakend");
   }
   return {.status = answer->status, .body = answer->body, .allow = answer->get_header_value("Allow")};
 }
@@ -27,7 +26,7 @@ http::Reply DaemonLink::ask(const http::Request& request) const {
 Result<std::string> DaemonLink::get(const std::string& path) const {
   http::Reply reply = ask({.method = "GET", .path = path, .query = {}, .body = ""});
   if (reply.status == 200) return std::move(reply.body);
-  const nlohmann::json body = nlohmann::json::parse(reply.body, nullptr, false);
+  const Json body = Json::parse(reply.body, nullptr, false);
   return Error{body.is_object() ? body.value("error", reply.body) : reply.body};
 }
 

@@ -2,10 +2,18 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
+#include "base/core/result.h"
 #include "base/http/http_server.h"
 
 namespace shaken::web {
+
+/// A secret that nobody can guess: 32 hex digits, 128 random bits. Fails where the system has none.
+Result<std::string> make_token();
+
+/// Whether they are equal; takes as long for every `given` of the same length.
+bool is_token(std::string_view given, std::string_view token);
 
 /// Decides who is answered. Every user of the machine, and every web site that its browser has open, can send requests
 /// to a port of 127.0.0.1; the token is what they do not know. The page carries it in a header of each request, not in

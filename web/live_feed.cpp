@@ -52,10 +52,6 @@ void LiveFeed::take(Run& run, const defects_t& message) {
   run.defects = message;
 }
 
-void LiveFeed::take(Run& run, const frame_static_t& message) { run.rods.note(message); }
-void LiveFeed::take(Run& run, const posts_t& message) { run.rods.note(message); }
-void LiveFeed::take(Run& run, const sizes_t& message) { run.rods.note(message); }
-
 void LiveFeed::take(Run& run, const frame_t& message) {
   if (Clock::now() > run.looked_at + kInterest) return;
   run.rods.note(message);

@@ -71,10 +71,8 @@ class LiveFeed {
   void listen(const std::stop_token& stop);
   static void take(Run& run, const observables_t& message);
   static void take(Run& run, const defects_t& message);
-  static void take(Run& run, const frame_static_t& message);
-  static void take(Run& run, const posts_t& message);
-  static void take(Run& run, const sizes_t& message);
   static void take(Run& run, const frame_t& message);
+  static void take(Run& run, const auto& constants) { run.rods.note(constants); }
 
   std::unique_ptr<proto::Bus> bus_;
   mutable std::mutex mutex_;

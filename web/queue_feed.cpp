@@ -1,16 +1,14 @@
 #include "web/queue_feed.h"
 
 #include <exception>
-#include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
 
 #include "base/job_state.h"
+#include "web/json_reply.h"
 
 namespace shaken::web {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr int kSeldom = 60;
 /// After which nobody looks any more: a page waits again each second.
@@ -32,7 +30,7 @@ std::string QueueFeed::asked() {
   for (const std::string& state : words_of(has_worker)) paths.push_back("/v1/jobs?state=" + state);
   for (const std::string& path : paths) {
     const Result<std::string> answer = daemon_.get(path);
-    if (!answer) return Json{{"error", answer.error().message}}.dump(-1, ' ', false, Json::error_handler_t::replace);
+    if (!answer) return text_of({{"error", answer.error().message}});
     const Json body = Json::parse(*answer, nullptr, false);
     if (path == "/v1/status") {
       all["status"] = body;
@@ -47,7 +45,7 @@ std::string QueueFeed::asked() {
   for (const Json& job : jobs) running.insert(job.value("id", ""));
   all["jobs"] = std::move(jobs);
   running_(running);
-  return all.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return text_of(all);
 }
 
 void QueueFeed::poll(const std::stop_token& stop) {
@@ -56,8 +54,7 @@ void QueueFeed::poll(const std::stop_token& stop) {
     try {
       now = asked();
     } catch (const std::exception& problem) {
-      now = Json{{"error", std::string("what the daemon answers is not understood: ") + problem.what()}}.dump(
-          -1, ' ', false, Json::error_handler_t::replace);
+      now = text_of({{"error", std::string("what the daemon answers is not understood: ") + problem.what()}});
     }
     std::unique_lock lock(mutex_);
     is_stale_ = false;

@@ -3,27 +3,24 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 #include <exception>
-#include <nlohmann/json.hpp>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "base/files.h"
+#include "base/text.h"
 #include "run/files/content_hash.h"
 #include "run/files/directory.h"
+#include "web/json_reply.h"
 #include "web/packed_frame.h"
 #include "web/recorded_run.h"
 
 namespace shaken::web {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-std::string line_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"; }
+std::string line_of(const Json& json) { return text_of(json) + "\n"; }
 
 /// A damaged file may make a reader ask for much memory, or end in a core dump: neither is to hurt the machine.
 void be_expendable() {
@@ -48,12 +45,6 @@ constexpr std::size_t kMostOrders = 300;
 /// Frames of the path of one rod.
 constexpr std::size_t kLongestPath = 60;
 
-std::optional<std::size_t> number(const std::string& text) {
-  std::size_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
-}
-
 Result<std::string> frames(const RecordedRun& run) {
   const auto frames = run.frames();
   if (!frames) return frames.error();
@@ -75,7 +66,7 @@ Result<std::size_t> index_in(const RecordedRun& run, const std::string& word) {
     if (frames->n == 0) return Error{frames->reason};
     return frames->n - 1;
   }
-  if (const auto index = number(word)) return *index;
+  if (const auto index = number_in<std::size_t>(word)) return *index;
   return Error{word + " is no number of a frame"};
 }
 
@@ -91,7 +82,7 @@ Result<std::string> frame(const RecordedRun& run, const std::string& word) {
 Result<std::string> path(const RecordedRun& run, const std::string& rod, const std::string& word) {
   const auto last = index_in(run, word);
   if (!last) return last.error();
-  const auto which = number(rod);
+  const auto which = number_in<std::size_t>(rod);
   if (!which) return Error{rod + " is no number of a rod"};
   const auto path = run.path(*which, *last >= kLongestPath ? *last + 1 - kLongestPath : 0, *last);
   if (!path) return path.error();

@@ -22,10 +22,6 @@ bool has_file(const fs::path& file) {
 
 }  // namespace
 
-bool RecordedRun::is_id(const std::string& text) {
-  return text.size() == 16 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
-}
-
 Result<run::TrajectoryReader> RecordedRun::reader() const {
   const fs::path file = directory_.recorded();
   if (!has_file(file)) return Error{kRecordsNone};

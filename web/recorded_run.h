@@ -47,9 +47,6 @@ class RecordedRun {
   /// Its plain files, in alphabetical order. Empty where there is no such directory.
   std::vector<FileEntry> files() const;
 
-  /// Whether `text` has the form of an id: 16 hex digits.
-  static bool is_id(const std::string& text);
-
  private:
   Result<run::TrajectoryReader> reader() const;
 

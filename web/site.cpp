@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <numbers>
@@ -18,7 +17,7 @@
 #include "base/paths.h"
 #include "base/scratch_folder.h"
 #include "base/text.h"
-#include "web/examples.h"
+#include "client/starter_scene.h"
 #include "web/json_reply.h"
 #include "web/packed_frame.h"
 #include "web/recorded_run.h"
@@ -115,6 +114,21 @@ Json palettes() {
           {"wall", client::ink_of(client::kWallTone)}};
 }
 
+/// Scenes to begin from, [{"name", "text"}]: that of `shaken init`, and the files in the folder `configs`.
+Json examples(const std::filesystem::path& configs) {
+  std::vector<std::filesystem::path> files;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(configs, error)) {
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  Json scenes = Json::array({{{"name", "a small box"}, {"text", client::kStarterScene}}});
+  for (const auto& file : files) {
+    if (const auto text = read_file(file)) scenes.push_back({{"name", file.stem().string()}, {"text", *text}});
+  }
+  return scenes;
+}
+
 /// The pieces of an open file. Throws where one cannot be read: what has come so far is not the file.
 struct FilePieces {
   Descriptor file;
@@ -130,20 +144,13 @@ struct FilePieces {
   }
 };
 
-std::optional<std::size_t> index_of(const std::string& text) {
-  std::size_t index = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
-  return error == std::errc() && end == text.data() + text.size() ? std::optional(index) : std::nullopt;
-}
-
 }  // namespace
 
 Site::Site(SiteSetup setup)
     : setup_(std::move(setup)),
       daemon_(setup_.root),
       looks_(setup_.root, std::chrono::seconds(2)),
-      reader_(setup_.root / "runs", [this] { return is_closing_.load(); }),
-      costs_(setup_.client, setup_.estimating, [this] { return is_closing_.load(); }) {
+      reader_(setup_.root / "runs", [this] { return is_closing_.load(); }) {
   if (setup_.bus) live_.emplace(std::move(setup_.bus));
   queue_.emplace(looks_, [this](const std::set<std::string>& running) {
     if (live_) live_->keep(running);
@@ -164,7 +171,7 @@ Reply Site::routed(const Request& request) {
   const bool reads = request.method == "GET" || request.method == "HEAD";
   if (first == "v1" && (reads || request.method == "POST")) return daemon_.ask(request);
   if (parts == std::vector<std::string>{"tickets"} && request.method == "POST") return ticket(request);
-  if (parts == std::vector<std::string>{"cost"} && request.method == "POST") return costs_.answer(request);
+  if (parts == std::vector<std::string>{"cost"} && request.method == "POST") return cost(request);
   if (!reads) return refusal(405, request.path + " can only be read");
   if (parts.empty()) return page_file("index.html");
   if (first == "page" && parts.size() == 2) {
@@ -183,7 +190,7 @@ Reply Site::routed(const Request& request) {
   const std::string run = first == "live" ? request.parameter("run") : parts.size() > 1 ? parts[1] : "";
   if (first == "live" || first == "runs") {
     const bool is_queue_only = first == "live" && run.empty();
-    if (!is_queue_only && !RecordedRun::is_id(run)) return refusal(404, "no run has the id " + run);
+    if (!is_queue_only && !is_id(run)) return refusal(404, "no run has the id " + run);
     if (parts == std::vector<std::string>{"live"}) return events(run);
     if (first == "runs") return of_run(run, {parts.begin() + 2, parts.end()}, request);
   }
@@ -240,14 +247,15 @@ Reply Site::of_run(const std::string& run, const std::vector<std::string>& rest,
     return of_reader(reader_.ask(run, {"frames"}), "application/json");
   }
   if (what == "frames" && rest.size() == 2) {
-    if (!index_of(rest[1])) return refusal(404, rest[1] + " is no number of a frame");
+    if (!number_in<std::size_t>(rest[1])) return refusal(404, rest[1] + " is no number of a frame");
     return of_reader(reader_.ask(run, {"frame", rest[1]}), "application/octet-stream");
   }
   if (what == "newest" && rest.size() == 1) return newest(run);
   if (what == "order" && rest.size() == 1) return of_reader(reader_.ask(run, {"order"}), "application/json");
   if (what == "path" && rest.size() == 1) {
     const std::string rod = request.parameter("rod"), frame = request.parameter("frame");
-    if (!index_of(rod) || !(frame == "last" || index_of(frame))) return refusal(404, "expected ?rod=I&frame=K");
+    if (!number_in<std::size_t>(rod) || !(frame == "last" || number_in<std::size_t>(frame)))
+      return refusal(404, "expected ?rod=I&frame=K");
     return of_reader(reader_.ask(run, {"path", rod, frame}), "application/json");
   }
   if (what == "curves" && rest.size() == 1) return curves(run, request);
@@ -302,7 +310,7 @@ Reply Site::picture(const std::string& run, const Request& request) {
   if (format != "png" && format != "svg" && format != "pdf") return refusal(400, "format is one of png, svg, pdf");
   const auto frames = reader_.ask(run, {"frames"});
   if (!frames) return refusal(404, frames.error().message);
-  const std::optional<std::size_t> index = index_of(frame);
+  const std::optional<std::size_t> index = number_in<std::size_t>(frame);
   if (const Json found = Json::parse(*frames); !index || *index >= found.at("n").get<std::size_t>())
     return refusal(404, found.value("reason", "no frame '" + frame + "'"));
   const std::unique_lock lock(drawing_, std::try_to_lock);
@@ -329,6 +337,32 @@ Reply Site::picture(const std::string& run, const Request& request) {
   reply.headers.emplace_back("Content-Disposition",
                              "attachment; filename=\"" + run + "-" + std::to_string(*index) + "." + format + "\"");
   return reply;
+}
+
+Reply Site::cost(const Request& request) {
+  const Json body = Json::parse(request.body, nullptr, false);
+  const bool is_whole = body.is_object() && body.contains("text") && body["text"].is_string() &&
+                        (!body.contains("replicas") || body["replicas"].is_number_integer());
+  if (!is_whole) return refusal(400, R"(expected {"text": a scene or sweep, "replicas": a number, if any})");
+  const std::unique_lock lock(estimating_, std::try_to_lock);
+  if (!lock) return refusal(429, "the cost of another scene is being estimated: try again");
+  const ScratchFolder folder;
+  const std::filesystem::path scene = folder.path() / "scene.json";
+  if (const auto written = write_file(scene, body["text"].get<std::string>()); !written) {
+    return refusal(507, written.error().message);
+  }
+  std::vector<std::string> command{setup_.client.string(), "submit", scene.string(), "--dry-run", "--json"};
+  if (body.contains("replicas")) command.push_back("--replicas=" + std::to_string(body["replicas"].get<int>()));
+  const Captured captured =
+      run_captured(command, CaptureLimits{.time = setup_.estimating, .stop = [this] { return is_closing_.load(); }});
+  if (captured.cut_short) {
+    return refusal(504, "the cost is not known: the rods were not placed and stepped within " +
+                            std::to_string(setup_.estimating.count() / 1000) + " s");
+  }
+  if (captured.exit_code != 0) return refusal(422, captured.output);
+  const Json answer = Json::parse(captured.output, nullptr, false);
+  if (!answer.is_object() || !answer.contains("estimate")) return refusal(500, "shaken: " + captured.output);
+  return json_reply(answer["estimate"]);
 }
 
 }  // namespace shaken::web

@@ -11,7 +11,6 @@
 
 #include "base/http/http_server.h"
 #include "base/process.h"
-#include "web/cost.h"
 #include "web/daemon_link.h"
 #include "web/live_feed.h"
 #include "web/queue_feed.h"
@@ -55,16 +54,20 @@ class Site {
   std::filesystem::path directory(const std::string& run) const { return setup_.root / "runs" / run; }
   http::Reply file(const std::string& run, const std::string& name) const;
   http::Reply picture(const std::string& run, const http::Request& request);
+  /// What a scene or sweep, `{"text", "replicas"?}`, would cost on this machine: `shaken submit --dry-run` steps a
+  /// piece of some of its runs, which takes some CPU-seconds. 400: no such body; 422: no scene that can be run; 429:
+  /// another one is being made; 504: it takes too long.
+  http::Reply cost(const http::Request& request);
 
   SiteSetup setup_;
   DaemonLink daemon_;
   DaemonLink looks_;  ///< for the queue's feed, whose end must not wait long
   RunReader reader_;
-  CostEstimates costs_;
   std::optional<LiveFeed> live_;
   std::atomic<bool> is_closing_ = false;
   Tickets tickets_;
   std::mutex drawing_;              ///< one picture at a time: the cores are the runs'
+  std::mutex estimating_;           ///< likewise
   std::optional<QueueFeed> queue_;  ///< the last: its thread uses the others
 };
 

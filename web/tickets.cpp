@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "web/token.h"
+#include "web/guard.h"
 
 namespace shaken::web {
 namespace {

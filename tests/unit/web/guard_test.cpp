@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "web/tickets.h"
-#include "web/token.h"
 
 namespace shaken::web {
 namespace {

@@ -114,13 +114,5 @@ TEST_F(RecordedRunTest, LinksAndFoldersAreNoFiles) {
   EXPECT_EQ(files[0].size, 2u);
 }
 
-TEST(RunId, IsSixteenHexDigits) {
-  EXPECT_TRUE(RecordedRun::is_id(kRun));
-  for (const char* text :
-       {"", "..", "1f0c", "1F0C000000000000", "1f0c00000000000g", "1f0c0000000000000", "../../etc/passw"}) {
-    EXPECT_FALSE(RecordedRun::is_id(text)) << text;
-  }
-}
-
 }  // namespace
 }  // namespace shaken::web
