@@ -34,8 +34,8 @@ struct Meaning {
   std::string type;                            ///< as which CLI11 keeps it
 };
 
-/// Declares the command line of a verb. Keeps CLI11 out of the verbs: its header costs seconds per source file.
-/// The variables must outlive the parsing; one that is not given keeps its value.
+/// Declares the command line of a verb. Keeps CLI11 out of the verbs, but for that which completes the others': its
+/// header costs seconds per source file. The variables must outlive the parsing; one that is not given keeps its value.
 class Arguments {
  public:
   explicit Arguments(CLI::App& app) : app_(app) {}

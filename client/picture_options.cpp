@@ -75,13 +75,6 @@ Drawn find_one(const Context& context, const std::string& job) {
 
 }  // namespace
 
-std::vector<Drawn> find_drawn(const Context& context, const std::vector<std::string>& jobs) {
-  std::vector<Drawn> drawn;
-  drawn.reserve(jobs.size());
-  for (const std::string& job : jobs) drawn.push_back(find_one(context, job));
-  return drawn;
-}
-
 std::string sweep_of(const Context& context, const std::vector<Drawn>& drawn) {
   const std::string& sweep = drawn.front().sweep;
   if (sweep.empty()) throw Failure(ExitCode::kBadInput, "--inset sweep takes jobs of a sweep, not run directories");
@@ -103,6 +96,28 @@ std::vector<std::string> labels_of(const std::vector<Drawn>& drawn) {
   labels.reserve(drawn.size());
   for (const Drawn& one : drawn) labels.push_back(one.label.empty() && drawn.size() > 1 ? one.name : one.label);
   return labels;
+}
+
+std::vector<Drawn> find_drawn(const Context& context, const std::vector<std::string>& jobs) {
+  std::vector<Drawn> drawn;
+  drawn.reserve(jobs.size());
+  for (const std::string& job : jobs) drawn.push_back(find_one(context, job));
+  return drawn;
+}
+
+void PictureOptions::draw(const Context& context, const std::string& what, const std::vector<Drawn>& drawn,
+                          const std::vector<std::pair<std::string, std::string>>& more,
+                          const std::string& ending) const {
+  std::vector<std::string> command{sibling_program("shaken-render").string(), what};
+  for (const Drawn& one : drawn) command.push_back(one.directory);
+  command.insert(command.end(), {"-o", out.empty() ? drawn.front().name + ending : out});
+  for (const auto& [option, value] : more) {
+    if (!value.empty()) command.push_back(option + "=" + value);
+  }
+  if (shows_sweep()) command.push_back("--sweep=" + sweep_of(context, drawn));
+  const std::vector<std::string> style = words(labels_of(drawn));
+  command.insert(command.end(), style.begin(), style.end());
+  become(command);
 }
 
 }  // namespace shaken::client

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "client/arguments.h"
@@ -9,26 +10,6 @@
 namespace shaken::client {
 
 struct Context;
-
-/// The options that `shaken picture` and `shaken movie` have in common, and what they are about.
-class PictureOptions {
- public:
-  /// `films` of pictures: those that have a speed.
-  void declare(Arguments& arguments, bool films);
-  /// What was given, as shaken-render takes it; `labels` are the headlines, one for each run, where none was given.
-  std::vector<std::string> words(const std::vector<std::string>& labels) const;
-  bool shows_sweep() const;
-
-  std::vector<std::string> jobs;  ///< ids, or the beginnings of some, or run directories; several go side by side
-  std::string out;
-
- private:
-  std::map<std::string, std::string> values_;
-  std::map<std::string, bool> switches_;
-  std::string style_;
-  std::vector<std::string> labels_;
-  bool bare_ = false;
-};
 
 /// What is drawn.
 struct Drawn {
@@ -38,6 +19,31 @@ struct Drawn {
   std::string state{};  ///< of the job
   std::string label{};  ///< what was swept; empty if nothing was
   std::string sweep{};  ///< of the job
+};
+
+/// The options that `shaken picture` and `shaken movie` have in common, and what they are about.
+class PictureOptions {
+ public:
+  /// `films` of pictures: those that have a speed.
+  void declare(Arguments& arguments, bool films);
+  /// What was given, as shaken-render takes it; `labels` are the headlines, one for each run, where none was given.
+  std::vector<std::string> words(const std::vector<std::string>& labels) const;
+  /// Draws `drawn`, as `shaken-render WHAT` does with these options and those of `more` that have a value, into a file
+  /// that is named after the first with `ending`, unless --out says where. Throws Failure.
+  [[noreturn]] void draw(const Context& context, const std::string& what, const std::vector<Drawn>& drawn,
+                         const std::vector<std::pair<std::string, std::string>>& more, const std::string& ending) const;
+
+  std::vector<std::string> jobs;  ///< ids, or the beginnings of some, or run directories; several go side by side
+  std::string out;
+
+ private:
+  bool shows_sweep() const;
+
+  std::map<std::string, std::string> values_;
+  std::map<std::string, bool> switches_;
+  std::string style_;
+  std::vector<std::string> labels_;
+  bool bare_ = false;
 };
 
 /// Finds them. Throws Failure.

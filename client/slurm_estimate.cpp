@@ -13,16 +13,9 @@
 #include "scene/sweeps/sweep_keys.h"
 
 namespace shaken::client {
+namespace {
 
-bool is_slurm(const std::string& executor) {
-  const std::vector<std::string>& known = scene::sweep_keys().at("executor").names;
-  if (!executor.empty() && std::find(known.begin(), known.end(), executor) == known.end()) {
-    throw Failure(ExitCode::kBadInput,
-                  fmt::format("--executor: '{}' is none of {}", printable(executor), fmt::join(known, ", ")));
-  }
-  return executor == "slurm";
-}
-
+/// Wall time of each task: so many runs one after the other, in their order.
 std::vector<double> tasks_of(const SlurmLoad& load) {
   const auto per_task = static_cast<std::size_t>(load.runs_per_task);
   std::vector<double> tasks((load.runs.size() + per_task - 1) / per_task);
@@ -31,6 +24,7 @@ std::vector<double> tasks_of(const SlurmLoad& load) {
   return tasks;
 }
 
+/// When the last of these tasks ends if they are started in their order, `at_once` of them at most at the same time.
 double end_of_last(const std::vector<double>& tasks, std::size_t at_once) {
   std::priority_queue<double, std::vector<double>, std::greater<>> ends;  // of those that run, the next one first
   double last = 0;
@@ -44,6 +38,17 @@ double end_of_last(const std::vector<double>& tasks, std::size_t at_once) {
     last = std::max(last, begin + task);
   }
   return last;
+}
+
+}  // namespace
+
+bool is_slurm(const std::string& executor) {
+  const std::vector<std::string>& known = scene::sweep_keys().at("executor").names;
+  if (!executor.empty() && std::find(known.begin(), known.end(), executor) == known.end()) {
+    throw Failure(ExitCode::kBadInput,
+                  fmt::format("--executor: '{}' is none of {}", printable(executor), fmt::join(known, ", ")));
+  }
+  return executor == "slurm";
 }
 
 SlurmEstimate estimate_in_slurm(const SlurmLoad& load) {

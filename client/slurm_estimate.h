@@ -34,11 +34,6 @@ struct SlurmEstimate {
   double all() const { return std::max(wall, refill); }
 };
 
-/// Wall time of each task: so many runs one after the other, in their order.
-std::vector<double> tasks_of(const SlurmLoad& load);
-/// When the last of these tasks ends if they are started in their order, `at_once` of them at most at the same time.
-double end_of_last(const std::vector<double>& tasks, std::size_t at_once);
-
 /// Whether a value of --executor means Slurm; none means that of the scene's sweep or the daemon. Throws Failure where
 /// it is the name of no executor.
 bool is_slurm(const std::string& executor);

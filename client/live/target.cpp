@@ -62,16 +62,6 @@ std::vector<Target> find_targets(ApiClient& session, const std::vector<std::stri
   return targets;
 }
 
-Target find_target_or_newest(ApiClient& session, const std::string& id) {
-  if (!id.empty()) return find_target(session, id);
-  const Json answer = session.get("/v1/sweeps");
-  const Json& sweeps = answer.at("sweeps");
-  if (sweeps.empty()) {
-    throw Failure(ExitCode::kBadInput, "nothing has been submitted yet: `shaken submit FILE` does");
-  }
-  return find_target(session, sweeps.back().at("id").get<std::string>());
-}
-
 Json find_job(ApiClient& session, const std::string& id) {
   const std::vector<Json> jobs = jobs_of(find_target(session, id));
   if (jobs.size() == 1) return jobs.front();  // a sweep of one job is as clear as the job itself

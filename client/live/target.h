@@ -26,8 +26,6 @@ struct Target {
 Target find_target(ApiClient& session, const std::string& id);
 /// All of these. They are found before the first job is changed: a slip in the last one must not cost the others.
 std::vector<Target> find_targets(ApiClient& session, const std::vector<std::string>& ids);
-/// As find_target; without an id, the newest sweep.
-Target find_target_or_newest(ApiClient& session, const std::string& id);
 
 /// Whether `id` is the path of a run directory rather than the ID of a job: `shaken run` makes such directories without
 /// any daemon knowing of them.

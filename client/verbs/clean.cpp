@@ -14,15 +14,12 @@ using Align = Table::Align;
 
 /// The words between commas, without blanks round them.
 std::vector<std::string> listed(const std::string& text) {
-  std::vector<std::string> words;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    std::string word = text.substr(begin, end - begin);
+  std::vector<std::string> words = split(text, ',');
+  for (std::string& word : words) {
     word.erase(0, std::min(word.find_first_not_of(' '), word.size()));
     word.erase(word.find_last_not_of(' ') + 1);
-    if (!word.empty()) words.push_back(word);
-    begin = end + 1;
   }
+  std::erase(words, "");
   return words;
 }
 

@@ -43,39 +43,14 @@ class Movie : public Verb {
     const std::vector<Drawn> all = find_drawn(context, options_.jobs);
     const Drawn& drawn = all.front();
     if (live_ && all.size() > 1) throw Failure(ExitCode::kBadInput, "--live takes one job");
-    if (live_) check_live(context, drawn);
-
-    std::vector<std::string> command{sibling_program("shaken-render").string()};
-    const auto add = [&](const std::vector<std::string>& words) {
-      command.insert(command.end(), words.begin(), words.end());
-    };
-    if (live_) {
-      add({"live", drawn.id, "--lcm-url", lcm_url_, "-o", out_or(drawn.name + ".png")});
-      add(options_.words({}));  // the messages say what was swept
-      become(command);
-    }
-    if (!frame_.empty()) {
-      add({"picture"});
-      for (const Drawn& one : all) add({one.directory});
-      add({"--frame", frame_, "-o", out_or(drawn.name + ".png")});
-    } else {
-      add({"movie"});
-      for (const Drawn& one : all) add({one.directory});
-      add({"-o", out_or(drawn.name + ".mp4")});
-      for (const auto& [option, value] :
-           {std::pair{"--from=", from_}, {"--to=", to_}, {"--every=", every_}, {"--threads=", threads_}}) {
-        if (!value.empty()) add({option + value});
-      }
-    }
-    if (options_.shows_sweep()) add({"--sweep=" + sweep_of(context, all)});
-    add(options_.words(labels_of(all)));
-    become(command);
+    if (live_) draw_live(context, drawn);
+    if (!frame_.empty()) options_.draw(context, "picture", all, {{"--frame", frame_}}, ".png");
+    options_.draw(context, "movie", all,
+                  {{"--from", from_}, {"--to", to_}, {"--every", every_}, {"--threads", threads_}}, ".mp4");
   }
 
  private:
-  std::string out_or(const std::string& file) const { return options_.out.empty() ? file : options_.out; }
-
-  void check_live(const Context& context, const Drawn& drawn) {
+  [[noreturn]] void draw_live(const Context& context, const Drawn& drawn) const {
     if (drawn.id.empty()) throw Failure(ExitCode::kBadInput, "--live takes the ID of a running job, not a directory");
     if (!has_worker(drawn.state)) {
       throw Failure(ExitCode::kFailed,
@@ -83,9 +58,14 @@ class Movie : public Verb {
                                 "recorded frame",
                                 drawn.name, drawn.state, options_.jobs.front()));
     }
-    if (!lcm_url_.empty()) return;
-    ApiClient session(context.root());
-    lcm_url_ = text_of(session.get("/v1/status").at("lcm"), "url");
+    const std::string url =
+        lcm_url_.empty() ? text_of(ApiClient(context.root()).get("/v1/status").at("lcm"), "url") : lcm_url_;
+    const std::string out = options_.out.empty() ? drawn.name + ".png" : options_.out;
+    std::vector<std::string> command{
+        sibling_program("shaken-render").string(), "live", drawn.id, "--lcm-url", url, "-o", out};
+    const std::vector<std::string> style = options_.words({});  // the messages say what was swept
+    command.insert(command.end(), style.begin(), style.end());
+    become(command);
   }
 
   PictureOptions options_;

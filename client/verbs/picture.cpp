@@ -1,4 +1,3 @@
-#include "base/process.h"
 #include "client/picture_options.h"
 #include "client/verbs/verbs.h"
 
@@ -31,17 +30,8 @@ class Picture : public Verb {
     if (!frame_.empty() && !time_.empty()) {
       throw Failure(ExitCode::kBadInput, "--frame and --time exclude each other");
     }
-    const std::vector<Drawn> drawn = find_drawn(context, options_.jobs);
-    std::vector<std::string> command{sibling_program("shaken-render").string(), "picture"};
-    for (const Drawn& one : drawn) command.push_back(one.directory);
-    command.insert(command.end(), {"-o", options_.out.empty() ? drawn.front().name + ".png" : options_.out});
-    if (!frame_.empty()) command.push_back("--frame=" + frame_);
-    if (!time_.empty()) command.push_back("--time=" + time_);
-    if (!depth_.empty()) command.push_back("--depth=" + depth_);
-    if (options_.shows_sweep()) command.push_back("--sweep=" + sweep_of(context, drawn));
-    const std::vector<std::string> style = options_.words(labels_of(drawn));
-    command.insert(command.end(), style.begin(), style.end());
-    become(command);
+    options_.draw(context, "picture", find_drawn(context, options_.jobs),
+                  {{"--frame", frame_}, {"--time", time_}, {"--depth", depth_}}, ".png");
   }
 
  private:

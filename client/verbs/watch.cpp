@@ -61,7 +61,7 @@ class Watch : public Verb {
       targets.push_back(find_target(session, id_));
     } else {
       add_unfinished_sweeps(session, targets);
-      if (targets.empty()) targets.push_back(find_target_or_newest(session, ""));
+      if (targets.empty()) targets.push_back(newest_sweep(session));
     }
     LiveJobs jobs;
     note(targets, jobs);
@@ -97,6 +97,13 @@ class Watch : public Verb {
     }
   }
 
+  static Target newest_sweep(ApiClient& session) {
+    const Json answer = session.get("/v1/sweeps");
+    const Json& sweeps = answer.at("sweeps");
+    if (!sweeps.empty()) return find_target(session, sweeps.back().at("id").get<std::string>());
+    throw Failure(ExitCode::kBadInput, "nothing has been submitted yet: `shaken submit FILE` does");
+  }
+
   static void note(const std::vector<Target>& targets, LiveJobs& jobs) {
     for (const Target& target : targets) {
       for (const Json& job : jobs_of(target)) jobs.note_api(job);
@@ -120,21 +127,17 @@ class Watch : public Verb {
 
   /// What messages change. They are handed on as long as the bus is asked for them.
   static void listen(proto::Bus& bus, LiveJobs& jobs, LiveRods* rods, bool& state_has_changed) {
-    bus.subscribe<job_t>(
-        proto::kJobChannel, [&](const job_t& message) { state_has_changed |= jobs.contradicts(message); }, 100);
-    bus.subscribe<observables_t>(
-        proto::kObservablesChannel, [&jobs](const observables_t& message) { jobs.note(message); }, 500);
-    bus.subscribe<defects_t>(
-        proto::kDefectsChannel, [&jobs](const defects_t& message) { jobs.note(message); }, 100);
+    const auto changes = [&](const job_t& message) { state_has_changed |= jobs.contradicts(message); };
+    const auto note_job = [&jobs](const auto& message) { jobs.note(message); };
+    const auto note_rods = [rods](const auto& message) { rods->note(message); };
+    bus.subscribe<job_t>(proto::kJobChannel, changes, 100);
+    bus.subscribe<observables_t>(proto::kObservablesChannel, note_job, 500);
+    bus.subscribe<defects_t>(proto::kDefectsChannel, note_job, 100);
     if (rods == nullptr) return;
-    bus.subscribe<frame_static_t>(
-        proto::kFrameStaticChannel, [rods](const frame_static_t& message) { rods->note(message); }, 100);
-    bus.subscribe<posts_t>(
-        proto::kPostsChannel, [rods](const posts_t& message) { rods->note(message); }, 100);
-    bus.subscribe<sizes_t>(
-        proto::kSizesChannel, [rods](const sizes_t& message) { rods->note(message); }, 100);
-    bus.subscribe<frame_t>(
-        proto::kFrameChannel, [rods](const frame_t& message) { rods->note(message); }, 500);
+    bus.subscribe<frame_static_t>(proto::kFrameStaticChannel, note_rods, 100);
+    bus.subscribe<posts_t>(proto::kPostsChannel, note_rods, 100);
+    bus.subscribe<sizes_t>(proto::kSizesChannel, note_rods, 100);
+    bus.subscribe<frame_t>(proto::kFrameChannel, note_rods, 500);
   }
 
   /// Until the jobs have ended, the time is over, a key or Ctrl-C, or nobody reads any more. `screen` is null where

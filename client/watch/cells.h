@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -52,6 +53,11 @@ class CellGrid {
   int lines_;
   std::vector<ScreenCell> cells_;
 };
+
+/// What each dot, by line and column, adds to the braille character without dots: Unicode numbers them 1-3 and 7 down
+/// the left column, 4-6 and 8 down the right.
+inline constexpr std::uint8_t kBrailleDots[4][2] = {{0x01, 0x08}, {0x02, 0x10}, {0x04, 0x20}, {0x40, 0x80}};
+inline constexpr char32_t kNoDots = 0x2800;
 
 /// A character in UTF-8.
 void append_utf8(std::string& text, char32_t glyph);

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "base/text.h"
+#include "client/watch/cells.h"
 
 namespace shaken::client {
 namespace {
@@ -21,11 +22,7 @@ class DotGrid {
   int width() const { return 2 * columns_; }
   int height() const { return 4 * lines_; }
 
-  void set(int x, int y) {
-    // Unicode numbers the dots 1-3 and 7 down the left column, 4-6 and 8 down the right.
-    static constexpr std::uint8_t kBits[4][2] = {{0x01, 0x08}, {0x02, 0x10}, {0x04, 0x20}, {0x40, 0x80}};
-    cells_[static_cast<std::size_t>((y / 4) * columns_ + x / 2)] |= kBits[y % 4][x % 2];
-  }
+  void set(int x, int y) { cells_[static_cast<std::size_t>((y / 4) * columns_ + x / 2)] |= kBrailleDots[y % 4][x % 2]; }
 
   /// Bresenham's line.
   void line(int x0, int y0, int x1, int y1) {
@@ -52,12 +49,7 @@ class DotGrid {
     std::string text;
     for (int column = 0; column < columns_; ++column) {
       const std::uint8_t bits = cells_[static_cast<std::size_t>(line * columns_ + column)];
-      // UTF-8 of U+2800 + bits; a blank as a space, so that it copies as one.
-      if (bits == 0) {
-        text += ' ';
-      } else {
-        text += {'\xE2', static_cast<char>(0xA0 + (bits >> 6)), static_cast<char>(0x80 + (bits & 0x3F))};
-      }
+      append_utf8(text, bits == 0 ? U' ' : kNoDots + bits);  // a blank as a space, so that it copies as one
     }
     return text;
   }

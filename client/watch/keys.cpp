@@ -22,20 +22,15 @@ std::optional<std::size_t> sequence_size(std::string_view bytes) {
 
 std::optional<Key::Kind> kind_of(std::string_view sequence) {
   if (sequence.size() == 1) return Key::Kind::kEscape;
-  switch (sequence.back()) {
-    case 'A':
-      return Key::Kind::kUp;
-    case 'B':
-      return Key::Kind::kDown;
-    case 'C':
-      return Key::Kind::kRight;
-    case 'D':
-      return Key::Kind::kLeft;
-    case 'Z':
-      return Key::Kind::kBackTab;
-    default:
-      return std::nullopt;
+  static constexpr std::pair<char, Key::Kind> kKinds[]{{'A', Key::Kind::kUp},
+                                                       {'B', Key::Kind::kDown},
+                                                       {'C', Key::Kind::kRight},
+                                                       {'D', Key::Kind::kLeft},
+                                                       {'Z', Key::Kind::kBackTab}};
+  for (const auto& [last, kind] : kKinds) {
+    if (sequence.back() == last) return kind;
   }
+  return std::nullopt;
 }
 
 }  // namespace

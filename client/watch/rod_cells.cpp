@@ -59,8 +59,6 @@ ScreenCell block_cell(const RodSamples& samples, int column, int row, bool mixes
 }
 
 ScreenCell braille_cell(const RodSamples& samples, int column, int row, bool in_colour) {
-  // Unicode numbers the dots 1-3 and 7 down the left column, 4-6 and 8 down the right.
-  static constexpr std::uint8_t kBits[4][2] = {{0x01, 0x08}, {0x02, 0x10}, {0x04, 0x20}, {0x40, 0x80}};
   const Blend blend = blended(samples, column, row, 2, 4);
   ScreenCell cell;
   if (in_colour && blend.n_in_box > 0) cell.back = ink_of(kFloorTone);
@@ -68,11 +66,11 @@ ScreenCell braille_cell(const RodSamples& samples, int column, int row, bool in_
   for (int j = 0; j < 4; ++j) {
     for (int i = 0; i < 2; ++i) {
       const bool is_set = samples.is_in_box(column + i, row + j) && samples.tone(column + i, row + j) != kFloorTone;
-      if (is_set) bits |= kBits[j][i];
+      if (is_set) bits |= kBrailleDots[j][i];
     }
   }
   if (bits == 0) return cell;
-  cell.glyph = 0x2800 + bits;
+  cell.glyph = kNoDots + bits;
   if (in_colour) cell.fore = ink_of(blend.tone);
   return cell;
 }

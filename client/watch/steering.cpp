@@ -35,57 +35,22 @@ std::string neighbour(const std::string& job, std::span<const std::string> jobs,
 }
 
 void steer_by_letter(Steering& state, char letter, std::span<const std::string> jobs) {
-  switch (letter) {
-    case 'q':
-      state.quit = true;
-      break;
-    case ' ':
-      state.paused = !state.paused;
-      break;
-    case '+':
-    case '=':
-      zoom_by(state.view, kZoomStep);
-      break;
-    case '-':
-      zoom_by(state.view, 1 / kZoomStep);
-      break;
-    case '0':
-      state.view = {};
-      break;
-    case 'c':
-      state.colouring = static_cast<Colouring>((static_cast<int>(state.colouring) + 1) % 5);
-      break;
-    case 'b':
-      state.grain = state.grain == Grain::kBraille ? Grain::kBlocks : Grain::kBraille;
-      break;
-    case 'd':
-      state.shows_defects = !state.shows_defects;
-      break;
-    case 'o':
-      state.numbers = !state.numbers;
-      break;
-    case 'n':
-    case '\t':
-      state.job = neighbour(state.job, jobs, 1);
-      break;
-    case 'p':
-      state.job = neighbour(state.job, jobs, -1);
-      break;
-    case '?':
-    case 'h':
-      state.help = true;
-      break;
-    case '\f':
-      state.redraw = true;
-      break;
-    case '\x1a':
-      state.suspend = true;
-      break;
-    default:
-      if (letter >= '1' && letter <= '9' && letter - '1' < std::ssize(jobs)) {
-        state.job = jobs[static_cast<std::size_t>(letter - '1')];
-      }
-  }
+  if (letter == 'q') state.quit = true;
+  if (letter == ' ') state.paused = !state.paused;
+  if (letter == '+' || letter == '=') zoom_by(state.view, kZoomStep);
+  if (letter == '-') zoom_by(state.view, 1 / kZoomStep);
+  if (letter == '0') state.view = {};
+  if (letter == 'c') state.colouring = static_cast<Colouring>((static_cast<int>(state.colouring) + 1) % 5);
+  if (letter == 'b') state.grain = state.grain == Grain::kBraille ? Grain::kBlocks : Grain::kBraille;
+  if (letter == 'd') state.shows_defects = !state.shows_defects;
+  if (letter == 'o') state.numbers = !state.numbers;
+  if (letter == 'n' || letter == '\t') state.job = neighbour(state.job, jobs, 1);
+  if (letter == 'p') state.job = neighbour(state.job, jobs, -1);
+  if (letter == '?' || letter == 'h') state.help = true;
+  if (letter == '\f') state.redraw = true;
+  if (letter == '\x1a') state.suspend = true;
+  const bool is_number = letter >= '1' && letter <= '9' && letter - '1' < std::ssize(jobs);
+  if (is_number) state.job = jobs[static_cast<std::size_t>(letter - '1')];
 }
 
 }  // namespace
@@ -96,28 +61,12 @@ Steering steered(Steering state, const Key& key, std::span<const std::string> jo
     state.help = false;
     return state;
   }
-  switch (key.kind) {
-    case Key::Kind::kUp:
-      move(state.view, 0, 1, period);
-      break;
-    case Key::Kind::kDown:
-      move(state.view, 0, -1, period);
-      break;
-    case Key::Kind::kLeft:
-      move(state.view, -1, 0, period);
-      break;
-    case Key::Kind::kRight:
-      move(state.view, 1, 0, period);
-      break;
-    case Key::Kind::kBackTab:
-      state.job = neighbour(state.job, jobs, -1);
-      break;
-    case Key::Kind::kEscape:
-      break;
-    case Key::Kind::kCharacter:
-      steer_by_letter(state, key.character, jobs);
-      break;
-  }
+  if (key.kind == Key::Kind::kUp) move(state.view, 0, 1, period);
+  if (key.kind == Key::Kind::kDown) move(state.view, 0, -1, period);
+  if (key.kind == Key::Kind::kLeft) move(state.view, -1, 0, period);
+  if (key.kind == Key::Kind::kRight) move(state.view, 1, 0, period);
+  if (key.kind == Key::Kind::kBackTab) state.job = neighbour(state.job, jobs, -1);
+  if (key.kind == Key::Kind::kCharacter) steer_by_letter(state, key.character, jobs);
   return state;
 }
 
