@@ -8,8 +8,6 @@
 
 docs/python.md is the guide.
 """
-from __future__ import annotations
-
 import importlib
 from typing import Any
 

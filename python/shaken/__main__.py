@@ -1,6 +1,4 @@
 """`python -m shaken` is the program `shaken`; by another name that a wheel installs, that program."""
-from __future__ import annotations
-
 import os
 import sys
 from pathlib import Path

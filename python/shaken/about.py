@@ -1,6 +1,4 @@
 """What other rods do about a tagged one, on average, seen from it."""
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any, Iterable
 

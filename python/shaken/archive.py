@@ -5,8 +5,6 @@ as float32 rounded to a part in 8,000 (S(t) to one in 2,000, errors to one in 50
 Files are named by their runs, so that folders are merged by copying; of one run that is there twice the longer one is
 kept. Equal runs give equal files.
 """
-from __future__ import annotations
-
 import json
 import lzma
 import math

@@ -2,8 +2,6 @@
 
 The relay speaks LCM's protocol tcpq (docs/protocol.md), and this module enough of it to listen.
 """
-from __future__ import annotations
-
 import re
 import socket
 import struct

@@ -11,8 +11,6 @@ JOB_STATES: state of a job, in the order of its life -> {"has_worker": whether o
          whether nothing more happens to it unless somebody asks, "has_failed": whether it ended by itself and is not
          done, "requests": what may be asked of it, "doc"}
 """
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any

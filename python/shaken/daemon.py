@@ -1,6 +1,4 @@
 """The daemon: what `shaken submit`, `wait` and `cancel` do, from Python."""
-from __future__ import annotations
-
 import http.client
 import json
 import os

@@ -1,6 +1,4 @@
 """Points that fill a space of keys, as the entries of a sweep's "list"."""
-from __future__ import annotations
-
 import math
 from typing import Any, Mapping, Sequence
 

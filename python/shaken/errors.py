@@ -1,6 +1,4 @@
 """What goes wrong, in one sentence with the way out."""
-from __future__ import annotations
-
 import importlib
 from typing import Any, Iterable, Sequence
 

@@ -1,6 +1,4 @@
 """A measured number with its standard error, and how such numbers are put together."""
-from __future__ import annotations
-
 import html
 import math
 from dataclasses import dataclass, replace

@@ -1,6 +1,4 @@
 """A folder of runs as a sweep: what differs between their scenes are its parameters."""
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any, Iterator, Mapping, Sequence

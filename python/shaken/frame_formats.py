@@ -1,6 +1,4 @@
 """Recorded frames as other programs read them: GSD, and text with one line a rod or a bead (docs/files.md)."""
-from __future__ import annotations
-
 import json
 import re
 from typing import Any, Callable

@@ -1,6 +1,4 @@
 """Recorded frames, and what other packages take them as."""
-from __future__ import annotations
-
 import functools
 from dataclasses import dataclass, field
 from pathlib import Path

@@ -1,6 +1,4 @@
 """Frames of other programs, in GSD."""
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any, Iterator, Sequence
 

@@ -1,6 +1,4 @@
 """h5py, which reads the files of runs; and whether they are what the runs have written (docs/files.md)."""
-from __future__ import annotations
-
 import ctypes
 import functools
 import json

@@ -1,6 +1,4 @@
 """Observables of Shaken, of rods in arrays: of an experiment's tracks, of another program's frames, of one's own."""
-from __future__ import annotations
-
 import json
 from dataclasses import dataclass
 from typing import Any, Iterable, Mapping, Sequence

@@ -1,6 +1,4 @@
 """Where the compiled half of the package is: what simulates and measures in this process."""
-from __future__ import annotations
-
 import functools
 import importlib.machinery
 import importlib.util

@@ -1,6 +1,4 @@
 """What a notebook shows of results: tables with their units, and pictures of frames."""
-from __future__ import annotations
-
 import html
 import shutil
 import tempfile

@@ -1,6 +1,4 @@
 """A run by what a user calls it."""
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Runs in one file, to be handed on: the files of their directories as they are, in a tar that xz compresses. Equal
 runs give equal files."""
-from __future__ import annotations
-
 import filecmp
 import lzma
 import os

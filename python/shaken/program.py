@@ -1,6 +1,4 @@
 """What the programs of the package share: the words that they are given, how they end, and what they say then."""
-from __future__ import annotations
-
 import argparse
 import importlib.util
 import io

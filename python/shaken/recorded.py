@@ -1,7 +1,5 @@
 """What files of recorded frames hold, as it is: trajectory.h5, and the trajectory.part of a run that has not ended
 (docs/files.md)."""
-from __future__ import annotations
-
 import json
 import os
 import struct

@@ -1,6 +1,4 @@
 """Results as flat rows: swept keys by their path, the members of summary.json as "order.mean"."""
-from __future__ import annotations
-
 import json
 import math
 import re

@@ -1,6 +1,4 @@
 """A run that has been done: its scene, its numbers with their errors, its curves, and its recorded frames."""
-from __future__ import annotations
-
 import contextlib
 import difflib
 import functools

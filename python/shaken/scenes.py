@@ -1,6 +1,4 @@
 """Scenes and settings as callers give them, as text."""
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any, Mapping, Union

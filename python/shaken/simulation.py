@@ -1,6 +1,4 @@
 """A simulation in this process, to be looked at and steered between its steps."""
-from __future__ import annotations
-
 import functools
 import hashlib
 import json

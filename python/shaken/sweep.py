@@ -1,6 +1,4 @@
 """Sweeps: a row for each state point, with its replicas put together."""
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any, Iterable, Iterator, Mapping, Sequence

@@ -1,6 +1,4 @@
 """Programs and folders that do not outlive this process, however it ends; files that are whole or not there."""
-from __future__ import annotations
-
 import contextlib
 import ctypes
 import os

@@ -1,6 +1,4 @@
 """Text for a terminal: what it may obey is escaped, tables fit its width."""
-from __future__ import annotations
-
 import json
 import math
 import os

@@ -1,7 +1,5 @@
 """Units as Shaken's names carry them (`diffusion_mm2_s` is in mm2 s-1, `q_per_mm` in mm-1), and as quantities of scenes
 and command lines have them: "0.1 s", "20 ms", "2.5mm"."""
-from __future__ import annotations
-
 import math
 import re
 from decimal import Decimal

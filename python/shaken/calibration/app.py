@@ -1,6 +1,4 @@
 """`shaken calibrate`: a noise for each species and each wanted D_r, with what was measured on the way."""
-from __future__ import annotations
-
 import argparse
 import json
 import math

@@ -4,8 +4,6 @@ A rod whose angular velocity is forgotten after the time tau turns ballistically
 2 D_r (t - tau (1 - exp(-t / tau))) (Uhlenbeck & Ornstein, Phys. Rev. 36, 823 (1930), of a velocity). A straight line
 through long lags has the slope 2 D_r and meets zero at the lag tau.
 """
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -1,6 +1,4 @@
 """Runs of the rods of one species by themselves: how much they turn at a noise, to a wanted precision."""
-from __future__ import annotations
-
 import copy
 import json
 import math

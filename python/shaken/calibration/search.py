@@ -1,6 +1,4 @@
 """The noise with which D_r is as wanted. D_r grows with the noise, at most as its square; measured values scatter."""
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Callable, Sequence

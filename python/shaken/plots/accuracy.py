@@ -1,6 +1,4 @@
 """What the rows of `shaken-bench accuracy` come to: orders of convergence, also in words for a terminal."""
-from __future__ import annotations
-
 import json
 import math
 from typing import Any, Mapping, NamedTuple, Sequence

@@ -1,6 +1,4 @@
 """What `shaken-bench` calls to have its figures drawn: python3 -m shaken.plots."""
-from __future__ import annotations
-
 import argparse
 import logging
 import sys

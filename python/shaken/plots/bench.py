@@ -1,6 +1,4 @@
 """What shaken-bench has measured, drawn from the JSON that it writes."""
-from __future__ import annotations
-
 import json
 import sys
 from pathlib import Path

@@ -1,6 +1,4 @@
 """Runs, measurements of an experiment, and curves of a paper over each other, and how far they agree."""
-from __future__ import annotations
-
 import csv
 from dataclasses import replace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Maps: about topological defects (`measure.defect_maps`), the director on the density, and the flow; and of the
 density in time (`measure.density`)."""
-from __future__ import annotations
-
 from typing import Any, Iterator, Mapping, Sequence
 
 import numpy as np

@@ -1,6 +1,4 @@
 """How quantities are called in figures: names, symbols and units. Symbols are in matplotlib's mathtext."""
-from __future__ import annotations
-
 import math
 import re
 from typing import Any, Mapping, Sequence

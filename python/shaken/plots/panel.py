@@ -1,6 +1,4 @@
 """A panel of a figure: curves with their errors, what is known of their steadiness, references, maps."""
-from __future__ import annotations
-
 import math
 from typing import TYPE_CHECKING, Any, Sequence
 

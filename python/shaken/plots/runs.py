@@ -1,6 +1,4 @@
 """What runs have measured, a figure for each observable: S(t), P(S), P(θ), G₂(r), MSD and others."""
-from __future__ import annotations
-
 import json
 from dataclasses import dataclass, replace
 from pathlib import Path

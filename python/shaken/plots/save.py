@@ -1,6 +1,4 @@
 """Pictures and the numbers in them, with what they are made from. Equal figures give equal bytes: no time of day."""
-from __future__ import annotations
-
 import csv
 import io
 import math

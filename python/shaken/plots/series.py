@@ -1,6 +1,4 @@
 """Many curves in one figure: which of them share a panel, and what colours tell them apart."""
-from __future__ import annotations
-
 import json
 from typing import Any, Mapping, Sequence
 

@@ -1,6 +1,4 @@
 """A figure of one or several panels: where everything goes, so that nothing is cut and nothing is covered."""
-from __future__ import annotations
-
 import math
 import re
 from pathlib import Path

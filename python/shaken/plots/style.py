@@ -1,6 +1,4 @@
 """The look of all figures: sizes, fonts, colours."""
-from __future__ import annotations
-
 import contextlib
 import functools
 from typing import TYPE_CHECKING, Any, Callable, Iterator, Sequence

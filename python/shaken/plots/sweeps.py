@@ -1,6 +1,4 @@
 """A sweep in one figure: numbers against what was swept, and pictures of its runs over that."""
-from __future__ import annotations
-
 import math
 import subprocess
 from pathlib import Path

@@ -1,6 +1,4 @@
 """`shaken figures`: runs what the figures need, archives it, draws, judges."""
-from __future__ import annotations
-
 import argparse
 import json
 import math

@@ -1,6 +1,4 @@
 """What the runs have that the paper does not: the tables of docs/findings.md."""
-from __future__ import annotations
-
 import math
 from typing import Callable, Iterable, Sequence
 

@@ -1,6 +1,4 @@
 """The runs of a study, by the set (the sweep) that asked for them, and numbers at their state points."""
-from __future__ import annotations
-
 import contextlib
 import json
 import math

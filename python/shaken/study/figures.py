@@ -1,6 +1,4 @@
 """The figures: the paper's own by its numbers, and those beyond it by names."""
-from __future__ import annotations
-
 import difflib
 from dataclasses import dataclass
 from pathlib import Path

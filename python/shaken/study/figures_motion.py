@@ -1,6 +1,4 @@
 """Motion: how rods swim, diffuse and turn, and their defects."""
-from __future__ import annotations
-
 import math
 from functools import partial
 from typing import Any

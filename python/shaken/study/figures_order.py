@@ -1,6 +1,4 @@
 """Nematic order: where it sets in, how it fluctuates, on which box and start it depends."""
-from __future__ import annotations
-
 import numpy as np
 
 from ..plots import names

@@ -1,6 +1,4 @@
 """Structure: correlations in space, layers and what they depend on, the gap, elasticity."""
-from __future__ import annotations
-
 from typing import Any, Callable, Sequence
 
 import numpy as np

@@ -4,8 +4,6 @@ A run gives a number such as D an error of its own only at lags of up to about a
 independent stretches of it are compared. Here the same is read over the octave of lags that ends at half of the
 measured time, and the replicas give the error: each run has two independent stretches of that length.
 """
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Any, Callable

@@ -1,6 +1,4 @@
 """Layers at +-theta_m: whether there are any, and how angle and wavelength depend on rods, packing, gap and box."""
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from typing import Any, Callable

@@ -1,6 +1,4 @@
 """The wavelength of the layers, from the spectrum of the director across itself."""
-from __future__ import annotations
-
 import functools
 import math
 from typing import Any, Callable, Sequence

@@ -1,6 +1,4 @@
 """What figures are made of: the runs, the verdicts, and the pieces that several figures share."""
-from __future__ import annotations
-
 import functools
 import math
 from typing import Any, Callable, Iterable, Sequence

@@ -1,6 +1,4 @@
 """Swimming, diffusion, rotation, correlations in time, defects."""
-from __future__ import annotations
-
 import math
 from functools import partial
 from typing import Any

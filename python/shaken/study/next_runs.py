@@ -1,7 +1,5 @@
 """The runs to do next and their price: what would decide the statements that are open, and what docs/findings.md
 asks."""
-from __future__ import annotations
-
 import math
 import re
 from dataclasses import dataclass, replace

@@ -1,6 +1,4 @@
 """Where rods order, how sharply, from which start and in which box."""
-from __future__ import annotations
-
 import math
 from collections import Counter
 

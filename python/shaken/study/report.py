@@ -1,7 +1,5 @@
 """What is written about the runs of a study, in Markdown: verdicts, sets and their cost, versions; and the pages of the
 validation, one for each figure of the paper, with the statements that belong to it."""
-from __future__ import annotations
-
 import functools
 import json
 import math

@@ -4,8 +4,6 @@ Plates that are inclined by alpha pull at every rod with m g sin(alpha). In a st
 they lose their momentum within tau = v / (g sin(alpha)), and their mobility is tau / m. The same loss keeps the centre
 of mass of N rods wandering with a diffusion constant D_c. In equilibrium Einstein's relation has N D_c m / tau = T.
 """
-from __future__ import annotations
-
 import math
 
 from typing import Any

@@ -1,6 +1,4 @@
 """How runs are asked: yes, no, or open with the reason; and what several answers come to."""
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field
 from typing import Iterable, Sequence, Sized, TypeVar

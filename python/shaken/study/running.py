@@ -1,6 +1,4 @@
 """Running the sets of the study on a daemon, within a budget, each finished run into the archive."""
-from __future__ import annotations
-
 import contextlib
 import json
 import math

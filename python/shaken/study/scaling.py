@@ -5,8 +5,6 @@ being the constants of splay and bend in units of the (effective) temperature, a
 steeper than -1/8 pairs of defects come apart and there is no order: sqrt(K1 K3) is at least 8/pi (Kosterlitz &
 Thouless, J. Phys. C 6, 1181 (1973)). Where order is long-range x is 0 in large boxes.
 """
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,6 +1,4 @@
 """The sets of runs of the study: their sweeps, in order of worth, at three scales."""
-from __future__ import annotations
-
 import json
 import math
 import re

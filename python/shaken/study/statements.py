@@ -3,8 +3,6 @@
 Each check takes the Evidence and returns a Finding; the checks are in `order_checks`, `structure_checks`,
 `layer_checks` and `motion_checks`, by subject.
 """
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Any, Callable, Iterable

@@ -1,6 +1,4 @@
 """Correlations in space, isotropic and along and across the director, and what they say of elasticity."""
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 from functools import partial

@@ -3,8 +3,6 @@
 Some of the study's sets have, beside the runs at `accuracy` = "desk" (16 us), one run of the same scene at "paper"
 (4 us). Their differences say what the longer step does; the errors and CPU times of both say how long a run must be.
 """
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Any, Callable

@@ -3,8 +3,6 @@ python3 -m shaken.tables results|plot|export|pack|unpack|fields|inset OPTION...
 
 The options of users are described where the client declares them (client/verbs/results.cpp and so on). Names for the
 shell and the inset of pictures have no help."""
-from __future__ import annotations
-
 import argparse
 from typing import Sequence
 

@@ -1,6 +1,4 @@
 """Arrays and numbers of a run as tables in CSV, named as users name them."""
-from __future__ import annotations
-
 import json
 import os
 from typing import Any, Iterable, Iterator, Mapping, Sequence

@@ -1,6 +1,4 @@
 """The conditions of `--where`: which rows are kept."""
-from __future__ import annotations
-
 import operator
 import re
 import sys

@@ -1,6 +1,4 @@
 """`shaken export`: frames or curves of a run as files of other programs."""
-from __future__ import annotations
-
 import argparse
 import contextlib
 import json

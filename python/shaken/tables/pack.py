@@ -1,6 +1,4 @@
 """`shaken pack` and `shaken unpack`."""
-from __future__ import annotations
-
 import argparse
 import json
 from pathlib import Path

@@ -1,6 +1,4 @@
 """`shaken plot`: figures of a sweep, a job or a run directory."""
-from __future__ import annotations
-
 import argparse
 import os
 import sys

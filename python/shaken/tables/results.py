@@ -1,6 +1,4 @@
 """`shaken results`: one line of numbers per job, or per point."""
-from __future__ import annotations
-
 import argparse
 import json
 import math
