@@ -101,8 +101,8 @@ class Panel:
         if x.shape != y.shape:
             raise ShakenError(f"the curve '{label}' has {x.size} x and {y.size} y")
         errors = None if error is None else np.broadcast_to(np.asarray(error, dtype=float).ravel(), y.shape)
-        sure = np.broadcast_to(_are_true(steady), y.shape)
         said = list(steady) if isinstance(steady, (list, tuple, np.ndarray)) else [steady] * y.size
+        sure = np.broadcast_to(np.array([word == 1 for word in said], dtype=bool), y.shape)
         self.drawn.append(Drawn(self.letter, name or label, x, y, errors, said))
         self.is_used = True
         colour, mark = self._colour(label, colour)
@@ -184,46 +184,28 @@ class Panel:
         self._outlines.append((x, y, True))
 
     @styled
-    def reference(self, x: Any = None, y: Any = None, label: str = "", error: Any = None, points: bool = False,
-                  dashed: bool = True, colour: Any = GREY) -> "Panel":
-        """What is not measured here, in grey with a small grey label: a level (y alone), a place (x alone), a line or a
-        law (arrays x and y), or with `points` marks of another work with their errors."""
+    def reference(self, x: Any = None, y: Any = None, label: str = "", dashed: bool = True,
+                  colour: Any = GREY) -> "Panel":
+        """What is not measured here, in grey with a small grey label: a level (y alone), a place (x alone), or a line
+        or a law (arrays x and y)."""
+        if x is None and y is None:
+            raise ShakenError("a reference needs an x, a y, or both")
         self.is_used = True
-        line = (0, (4, 2)) if dashed else "-"
+        xs, ys = (np.array([]) if at is None else np.atleast_1d(np.asarray(at, dtype=float)) for at in (x, y))
+        look = {"color": colour, "linestyle": (0, (4, 2)) if dashed else "-", "zorder": 1.5}
         if x is None or y is None:
-            if (x is None) == (y is None):
-                raise ShakenError("a reference needs an x, a y, or both")
-            value = float(x if y is None else y)
+            name, value = ("x", xs[0]) if y is None else ("y", ys[0])
             if not math.isfinite(value):
                 return self
-            (self.axes.axvline if y is None else self.axes.axhline)(
-                value, color=colour, linewidth=0.7, linestyle=line, zorder=1.5)
-            level = np.array([value])
-            self._levels.append(("x" if y is None else "y", value))
-            self._reach.append((level, np.array([np.nan]), np.array([np.nan]), False) if y is None else
-                               (np.array([np.nan]), level, level, False))
-            self.drawn.append(Drawn(self.letter, f"reference: {label}", level if y is None else [math.inf],
-                                    level if x is None else [math.inf]))
-            if label:
-                self.labels.append((label, level if y is None else np.array([]), level if x is None else np.array([])))
-            return self
-        xs, ys = np.atleast_1d(np.asarray(x, dtype=float)), np.atleast_1d(np.asarray(y, dtype=float))
-        errors = None if error is None else np.broadcast_to(np.asarray(error, dtype=float), ys.shape)
-        self.drawn.append(Drawn(self.letter, f"reference: {label}", xs, ys, errors))
-        half = np.zeros_like(ys) if errors is None else np.nan_to_num(errors)
-        if not np.any(np.isfinite(xs) & np.isfinite(ys)):
-            return self
-        if points or xs.size == 1:
-            if errors is not None:
-                self.axes.errorbar(xs, ys, yerr=half, fmt="none", ecolor=colour, elinewidth=0.8, zorder=1.9)
-            self.axes.plot(xs, ys, linestyle="none", marker="s", markersize=3.2, markerfacecolor="white",
-                           markeredgecolor=colour, zorder=1.95)
+            (self.axes.axvline if y is None else self.axes.axhline)(value, linewidth=0.7, **look)
+            self._levels.append((name, value))
         else:
-            if errors is not None:
-                self.axes.fill_between(xs, ys - half, ys + half, color=colour, alpha=0.2, linewidth=0, zorder=1.4)
-            self.axes.plot(xs, ys, color=colour, linewidth=0.8, linestyle=line, zorder=1.5)
-        self._reach.append((xs, ys - half, ys + half, points or xs.size == 1))
-        self._outlines.append((xs, ys, not points))
+            if not np.any(np.isfinite(xs) & np.isfinite(ys)):
+                return self
+            self.drawn.append(Drawn(self.letter, f"reference: {label}", xs, ys))
+            self.axes.plot(xs, ys, linewidth=0.8, **look)
+            self._outlines.append((xs, ys, True))
+        self._reach.append((xs, ys, ys, False))
         if label:
             self.labels.append((label, xs, ys))
         return self
@@ -296,14 +278,11 @@ class Panel:
         return self
 
     @styled
-    def zero(self, x: bool = False, y: bool = True) -> "Panel":
-        """A thin line where y (x) is nothing."""
-        if y:
-            self.axes.axhline(0, color=GREY, linewidth=0.5, zorder=1.2)
-            self._levels.append(("y", 0.0))
-        if x:
-            self.axes.axvline(0, color=GREY, linewidth=0.5, zorder=1.2)
-            self._levels.append(("x", 0.0))
+    def zero(self, x: bool = False) -> "Panel":
+        """A thin line where y is nothing, and with `x` where x is."""
+        for name, line in (("y", self.axes.axhline), *([("x", self.axes.axvline)] if x else [])):
+            line(0, color=GREY, linewidth=0.5, zorder=1.2)
+            self._levels.append((name, 0.0))
         return self
 
     @styled
@@ -330,8 +309,7 @@ class Panel:
             most = float(np.max(np.abs(seen))) or 1.0
             limits = (-most, most) if diverging else (float(seen.min()), float(seen.max()))
         low, high = limits or (0.0, 1.0)
-        known = np.ma.masked_invalid(z)  # type: ignore[no-untyped-call]
-        drawn = self.axes.pcolormesh(_borders(x), _borders(y), known, vmin=low, vmax=high,
+        drawn = self.axes.pcolormesh(_borders(x), _borders(y), z, vmin=low, vmax=high,
                                      cmap="RdBu_r" if diverging else "viridis", rasterized=True, linewidth=0)
         self.axes.set_facecolor("#e8e8e8")
         if square:
@@ -397,32 +375,26 @@ class Panel:
 
     def _set_limits(self, name: str) -> None:
         log = getattr(self.axes, f"get_{name}scale")() == "log"
-        values, marked = [], []
-        for x, low, high, has_marks in self._reach:
-            for part in ((x,) if name == "x" else (low, high)):
-                kept = part[np.isfinite(part) & (part > 0 if log else True)]
-                values.append(kept)
-                if has_marks:
-                    marked.append(kept)
-        seen = np.concatenate(values) if values else np.array([])
-        if seen.size == 0:
-            return
-        marks = np.concatenate(marked) if marked else np.array([])
+
         def forward(number: Any) -> float:
             return math.log10(number) if log else float(number)
 
+        found = [(part[np.isfinite(part) & (part > 0 if log else True)], has_marks)
+                 for x, low, high, has_marks in self._reach for part in ((x,) if name == "x" else (low, high))]
+        seen = np.concatenate([part for part, _ in found])
+        if seen.size == 0:
+            return
+        marks = np.concatenate([np.array([]), *(part for part, has_marks in found if has_marks)])
         least, most = forward(seen.min()), forward(seen.max())
-        lower, upper = self._wanted[name]
-        bound_low = -math.inf if lower is None else forward(lower)
-        bound_high = math.inf if upper is None else forward(upper)
+        lower, upper = (None if end is None else forward(end) for end in self._wanted[name])
         if self._exact[name]:
-            self._apply(name, bound_low if lower is not None else least, bound_high if upper is not None else most, log)
+            self._apply(name, least if lower is None else lower, most if upper is None else upper, log)
             return
         if least == most:  # one point: axes around it
             pad = 0.3 if log else 0.1 * abs(least) or 1.0
             least, most = least - pad, most + pad
-        begin = least if lower is None else min(least, bound_low)
-        end = most if upper is None else max(most, bound_high)
+        begin = least if lower is None else min(least, lower)
+        end = most if upper is None else max(most, upper)
         span = end - begin
         pad = self.padding * (0.05 if name == "x" else 0.06) * span
         # A line may begin at an axis; a mark, or the end of a bar, may not. Above and below all keep some distance.
@@ -465,13 +437,6 @@ class Panel:
             places.append(np.column_stack([np.full(400, at[0]), box.y0 + across * box.height]) if name == "x" else
                           np.column_stack([box.x0 + across * box.width, np.full(400, at[1])]))
         return np.concatenate(places) if places else np.empty((0, 2))
-
-
-def _are_true(steady: Any) -> NDArray[Any]:
-    if isinstance(steady, (list, tuple, np.ndarray)):
-        return np.array([value is True or value is np.True_ or value == 1 and value is not None for value in steady],
-                        dtype=bool)
-    return np.array(steady is True or (isinstance(steady, np.bool_) and bool(steady)))
 
 
 def _borders(places: NDArray[Any]) -> NDArray[Any]:

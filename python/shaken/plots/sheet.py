@@ -1,4 +1,5 @@
 """A figure of one or several panels: where everything goes, so that nothing is cut and nothing is covered."""
+import itertools
 import math
 import re
 from pathlib import Path
@@ -221,6 +222,9 @@ class Sheet:
             made = axes.legend(handles, texts, loc=loc, ncol=n, **more)
             return made, made.get_window_extent(renderer)
 
+        def n_columns(room: float) -> int:
+            return next(n for n in range(len(texts), 0, -1) if n == 1 or legend("upper center", n)[1].width <= room)
+
         if not one.has_picture:
             for n in range(1, min(3, len(texts)) + 1):
                 made, extent = legend("upper right", n)
@@ -228,13 +232,10 @@ class Sheet:
                     continue
                 for loc in _CORNERS:
                     made, extent = legend(loc, n)
-                    if not _covers(extent, obstacles, 3 * dpi / 72):
+                    if not _covered(extent, obstacles, 3 * dpi / 72):
                         return made, 0.0, False
             if one.can_grow:
-                n = len(texts)
-                while n > 1 and legend("upper center", n)[1].width > 0.97 * box.width:
-                    n -= 1
-                made, extent = legend("upper center", n)
+                made, extent = legend("upper center", n_columns(0.97 * box.width))
                 share = (extent.height + 6 * dpi / 72) / box.height
                 if extent.width < 0.99 * box.width and share < 0.35:
                     _reach_higher(axes, share)
@@ -243,13 +244,10 @@ class Sheet:
         made, extent = legend("upper left", 1, bbox_to_anchor=(1.01, 1.02))
         if extent.width < 0.33 * slot and extent.height < 1.1 * box.height:
             return made, 0.0, True
-        n = len(texts)
-        while n > 1 and legend("upper center", n)[1].width > 0.98 * slot:
-            n -= 1
         from matplotlib.transforms import ScaledTranslation
         n_lines = one.axes.get_xlabel().count("\n")
         below = axes.transAxes + ScaledTranslation(0, -(_BELOW_AXES + 9 * n_lines) / 72, self.figure.dpi_scale_trans)
-        made, extent = legend("upper center", n, bbox_to_anchor=(0.5, 0), bbox_transform=below)
+        made, extent = legend("upper center", n_columns(0.98 * slot), bbox_to_anchor=(0.5, 0), bbox_transform=below)
         return made, extent.height / dpi, True
 
     def _place_labels(self, one: Panel, renderer: Any) -> None:
@@ -274,10 +272,9 @@ class Sheet:
                     bool(moved.overlaps(other)) for other in taken)
                 if cost < least:
                     best, least = place, cost
-            taken.append(size.translated(best[0] - size.x0, best[1] - size.y0))
-            text.set_transform(axes.transAxes)
-            at = axes.transAxes.inverted().transform((best[0] - (size.x0 - 0), best[1] - (size.y0 - 0)))
-            text.set_position(at)
+            to_best = (best[0] - size.x0, best[1] - size.y0)
+            taken.append(size.translated(*to_best))
+            text.set(transform=axes.transAxes, position=axes.transAxes.inverted().transform(to_best))
 
     @styled
     def save(self, path: str | Path, origin: Mapping[str, str] | None = None, data: bool = True) -> Path:
@@ -326,14 +323,8 @@ def _explanations(said: set[Any]) -> list[tuple[Any, str]]:
         (shapes[kind], words) for kind, words in sorted(one for one in said if isinstance(one, tuple))]
 
 
-def _covers(extent: Any, places: NDArray[Any], pad: float) -> bool:
-    return _covered(extent, places, pad) > 0
-
-
 def _covered(extent: Any, places: NDArray[Any], pad: float) -> int:
     """How many of the places are under an extent, or nearly so."""
-    if not len(places):
-        return 0
     x, y = places.T
     return int(np.count_nonzero((x > extent.x0 - pad) & (x < extent.x1 + pad) & (y > extent.y0 - pad) &
                                 (y < extent.y1 + pad)))
@@ -405,7 +396,7 @@ def _wrap(text: Any, most: float, renderer: Any, upright: bool = False) -> bool:
     words = _words(content)
     for n_lines in (2, 3):
         best: tuple[float, str] | None = None
-        for cut in _cuts(len(words), n_lines):
+        for cut in itertools.combinations(range(1, len(words)), n_lines - 1) if len(words) < 15 else ():
             lines = [" ".join(words[a:b]) for a, b in zip((0, *cut), (*cut, len(words)))]
             text.set_text("\n".join(lines))
             if best is None or length() < best[0]:
@@ -418,26 +409,9 @@ def _wrap(text: Any, most: float, renderer: Any, upright: bool = False) -> bool:
     return before != text.get_text()
 
 
-def _cuts(n: int, n_lines: int) -> list[tuple[int, ...]]:
-    if n < n_lines or n > 14:
-        return []
-    if n_lines == 2:
-        return [(k,) for k in range(1, n)]
-    return [(j, k) for j in range(1, n - 1) for k in range(j + 1, n)]
-
-
 def _words(content: str) -> list[str]:
     """Words; a space within $...$, beside "=" or between a number and its unit does not part them, and a unit stays
     with other words only by its brackets."""
     parts = content.split("$")
     parts[::2] = [re.sub(r" (?==)|(?<==) |(?<=[0-9]) (?=(?:mm|s|Hz|µs)\b)", "\u00a0", part) for part in parts[::2]]
-    words, current, in_math = [], "", False
-    for letter in "$".join(parts):
-        if letter == "$":
-            in_math = not in_math
-        if letter == " " and not in_math:
-            words.append(current)
-            current = ""
-        else:
-            current += letter
-    return [word for word in [*words, current] if word]
+    return re.findall(r"(?:[^ $]|\$[^$]*(?:\$|$))+", "$".join(parts))
