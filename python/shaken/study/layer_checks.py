@@ -16,6 +16,7 @@ from .layer_wavelength import TWO_PEAKS, mean_wavelength, wavelength
 from .order_checks import ORDERED
 from .rules import (AGREES, CONSISTENT, NO, NOT_RUN, YES, Answer, Finding, above, all_of, below, close_to, conclude,
                    larger, listed, needed, refutable, text, trend, unknown)
+from .statement import states
 
 #: Change of the dip from one half of the time to the other below which layers count as formed.
 STILL = 0.1
@@ -118,6 +119,7 @@ def _gap_text(runs: Runs) -> str:
             f"Bragg peak {text(runs.number('bragg_peak'))}")
 
 
+@states("layers", "8", "Layers at ±θ_m, about 10°, for ℓ = 4.5 mm from 0.80 on, and none at 0.75")
 def layers_when_dense(evidence: Evidence) -> Finding:
     answers, found = [], []
     for packing in (0.75, 0.80, 0.85):
@@ -152,6 +154,7 @@ def _crest(run: Run) -> Estimate:
                     number_of(run, "S").steady)
 
 
+@states("g2-oscillates", "8", "Where there are layers, G₂ oscillates across the director")
 def g2_oscillates(evidence: Evidence) -> Finding:
     answers, found, short = [], [], []
     for name in ("layers", "layer-trends", "strip"):
@@ -174,6 +177,8 @@ def g2_oscillates(evidence: Evidence) -> Finding:
     return finding
 
 
+@states("gap", "gap", "No layers at gaps of 1.4 and 1.6 mm",
+        "asked of P(θ): whether it has one peak, and is less flat there than at 1.2 mm")
 def no_layers_at_wide_gaps(evidence: Evidence) -> Finding:
     reference = needed(evidence["layers"].at(4.5, 0.80))
     answers, found = [], [_gap_text(reference)]
@@ -191,6 +196,7 @@ def no_layers_at_wide_gaps(evidence: Evidence) -> Finding:
     return conclude(answers, "; ".join(found))
 
 
+@states("gap-order", "gap", "At a gap of 1.4 mm the system is ordered still", "in a box narrower than the paper's")
 def ordered_at_a_wider_gap(evidence: Evidence) -> Finding:
     runs = evidence["gaps"].at(gap=1.4)
     s = runs.number("S")
@@ -203,6 +209,8 @@ def taper_angle(run: Run) -> float:
     return 2 * math.degrees(math.atan((middle - end) / (length - end)))
 
 
+@states("taper", "taper", "The layers are due to the tapered shape",
+        "asked of θ_m: whether it is the same part of the angle between two tapered flanks at every length")
 def taper_makes_layers(evidence: Evidence) -> Finding:
     """Whether theta_m is the same part of the angle of the taper at every length, as where flanks lie on flanks."""
     parts = []
@@ -226,6 +234,8 @@ def taper_makes_layers(evidence: Evidence) -> Finding:
     return refutable(all_of(answers), found, how)
 
 
+@states("crystal", "gap", "At a gap of 0.9 mm a crystal, without layers",
+        "all runs start as a crystal: one that melts would refute it")
 def crystal_at_a_narrow_gap(evidence: Evidence) -> Finding:
     reference, narrow = needed(evidence["layers"].at(4.5, 0.80)), needed(evidence["gaps"].at(gap=0.9))
     found = f"{_gap_text(reference)}; {_gap_text(narrow)}"
@@ -244,17 +254,6 @@ def _goes_far(runs: Runs) -> bool:
     measured = min(float(run.summary["sim_seconds"]) - float(run.summary.get("t_steady_s") or 0) for run in runs)
     way = math.sqrt(max(2 * runs.number("diffusion_along_mm2_s").value * measured, 0))
     return not way < 2 * key_of(runs[0], LENGTH)
-
-
-def angle_trend(series: Callable[[Evidence], list[tuple[Runs, str]]], rising: bool) -> Callable[[Evidence], Finding]:
-    """Whether theta_m rises, or falls, in some series."""
-    return lambda evidence: _trend(series(evidence), mean_angle, rising, "°")
-
-
-def wavelength_trend(series: Callable[[Evidence], list[tuple[Runs, str]]],
-                     rising: bool) -> Callable[[Evidence], Finding]:
-    """Whether the wavelength rises, or falls, in some series."""
-    return lambda evidence: _trend(series(evidence), mean_wavelength, rising, " mm")
 
 
 def _symbol(path: str) -> str:
@@ -307,6 +306,14 @@ def by_end(evidence: Evidence) -> list[tuple[Runs, str]]:
     return [(runs, END) for runs in (*dense, evidence["strip"].at(4.0, 0.825))]
 
 
+angle_packing = states("angle-packing", "layer-trends", "θ_m grows with packing")(
+    lambda evidence: _trend(by_packing(evidence), mean_angle, rising=True, unit="°"))
+angle_length = states("angle-length", "layer-trends", "θ_m falls with rod length")(
+    lambda evidence: _trend(by_length(evidence), mean_angle, rising=False, unit="°"))
+angle_end = states("angle-end", "layer-trends", "θ_m falls with the end radius")(
+    lambda evidence: _trend(by_end(evidence), mean_angle, rising=False, unit="°"))
+
+
 def _two_peaks_in_order(runs: Runs) -> Answer:
     """As two_peaks, of rods that have an order to which layers could be turned."""
     return two_peaks(runs) if runs.number("S").value > ORDERED else unknown("the rods froze without order")
@@ -319,6 +326,7 @@ def _whatever_the_start(answers: list[Answer]) -> Answer:
     return open_[0] if open_ else answers[0] if same else unknown("it depends on start and packing")
 
 
+@states("peaks-end", "layer-trends", "P(θ) has two peaks at every end radius")
 def two_peaks_at_every_end(evidence: Evidence) -> Finding:
     answers, found = [], []
     series = [runs for runs, _ in by_end(evidence)]
@@ -333,6 +341,15 @@ def two_peaks_at_every_end(evidence: Evidence) -> Finding:
     return conclude(answers, "; ".join(found), everywhere=True)
 
 
+wavelength_packing = states("wavelength-packing", "layer-trends", "The wavelength grows from 0.85 to 0.80")(
+    lambda evidence: _trend(by_packing(evidence), mean_wavelength, rising=False, unit=" mm"))
+wavelength_length = states("wavelength-length", "layer-trends", "The wavelength grows with rod length")(
+    lambda evidence: _trend(by_length(evidence), mean_wavelength, rising=True, unit=" mm"))
+wavelength_end = states("wavelength-end", "layer-trends", "The wavelength grows with the end radius")(
+    lambda evidence: _trend(by_end(evidence), mean_wavelength, rising=True, unit=" mm"))
+
+
+@states("larger-box", "larger-box", "In a larger box the wavelength is larger and θ_m smaller")
 def larger_box(evidence: Evidence) -> Finding:
     small, large = (needed(evidence[name].at(4.0, 0.85, end=0.4)) for name in ("layer-trends", "larger-box"))
     lam = [mean_wavelength(layered(runs)) for runs in (small, large)]

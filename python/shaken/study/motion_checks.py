@@ -8,10 +8,11 @@ import numpy as np
 from ..estimate import Estimate
 from ..run import Run
 from . import late_lags
-from .evidence import LENGTH, PACKING, SIDE, Evidence, Runs, by, key_of, mean_of_places, number_of, points_of
+from .evidence import LENGTH, PACKING, SIDE, Evidence, Runs, key_of, mean_of_places, number_of, points_of
 from .late_lags import long_time_diffusion
 from .rules import (NO, YES, Answer, Finding, above, below, close_to, conclude, doubt, larger, listed, needed, text,
                    trend, unknown)
+from .statement import CALIBRATES, HARDLY_FAILS, states
 
 #: Change of the slope of the MSD from one octave of lags to the next, as a part of it, below which motion is diffusive.
 SAME_SLOPE = 0.1
@@ -19,8 +20,6 @@ SAME_SLOPE = 0.1
 NEAR_ONE = 0.85 ** 2
 #: Change of C2 from one octave of lags to the next below which it has levelled off.
 LEVEL = 0.05
-
-
 #: D0 [mm2/s], C [mm2/s] and phi0 of the paper's fit D0 + C (phi - phi0)^2 to D of rods of 2.5 mm.
 PAPERS_PARABOLA = (1.7, 480.0, 0.64)
 
@@ -60,6 +59,7 @@ def beyond_reversal(run: Run) -> Estimate:
     return speed_between(run, 0.31, 0.40)
 
 
+@states("tilt", "10", "Rods swim against their tilt, fastest near n_z = ±0.2")
 def tilt_and_velocity(evidence: Evidence) -> Finding:
     runs = needed(evidence["mechanism"].at(packing=0.60))
     speed = runs.number("tilt_fastest_mm_s")
@@ -73,12 +73,15 @@ def tilt_and_velocity(evidence: Evidence) -> Finding:
                     f"fastest at n_z = ±{text(place)}, {text(speed)} mm/s along the tilt")
 
 
+@states("reversal", "10", "Beyond n_z = ±0.3 they swim the other way",
+        "one of the two reasons for which 200 Hz is assumed", CALIBRATES)
 def velocity_reverses(evidence: Evidence) -> Finding:
     runs = evidence["mechanism"].at(packing=0.60)
     beyond = runs.of(beyond_reversal)
     return conclude([above(beyond, 0)] if runs else [], f"{text(beyond)} mm/s along the tilt beyond ±0.31")
 
 
+@states("no-tilt", "10", "A rod without tilt does not swim", "by symmetry", HARDLY_FAILS)
 def no_velocity_without_tilt(evidence: Evidence) -> Finding:
     runs = needed(evidence["mechanism"].at(packing=0.60))
 
@@ -92,6 +95,7 @@ def no_velocity_without_tilt(evidence: Evidence) -> Finding:
                     f"{text(speed)} mm/s at n_z = 0, where the fastest is {fastest:.2f} mm/s")
 
 
+@states("sideways", "10", "Across the rod ⟨v⟩ = 0 at every tilt", "by symmetry", HARDLY_FAILS)
 def no_motion_sideways(evidence: Evidence) -> Finding:
     runs = needed(evidence["mechanism"].at(packing=0.60))
     chi2, noise, n = 0.0, 0.0, 0
@@ -112,6 +116,8 @@ def no_motion_sideways(evidence: Evidence) -> Finding:
                               f"{speed:.2f} mm/s")
 
 
+@states("switching", "10", "The tilt of a rod switches from one sign to the other",
+        "the paper follows rods for 30 s, hundreds of times as long", HARDLY_FAILS)
 def tilt_switches(evidence: Evidence) -> Finding:
     points = evidence["mechanism"].points(PACKING, "n_z_switching_time_s")
     # several times within the 30 s over which the paper follows a rod
@@ -119,27 +125,8 @@ def tilt_switches(evidence: Evidence) -> Finding:
                     f"n_z keeps its sign for {listed(points, 'φ', ' s')}")
 
 
-def forgets_the_start(evidence: Evidence) -> Finding:
-    """Whether the kinetic temperature in the plane is, within a tenth, what it is in the end, from one to three periods
-    of the plates after the start."""
-    answers, found = [], []
-
-    def over_the_end(run: Run, name: str) -> Estimate:
-        t = run[name]
-        time, values = np.asarray(t.axis), np.asarray(t)
-        first = values[(time >= 0.005) & (time < 0.015)]
-        late = values[time >= time[-1] / 2]
-        return Estimate(float(first.mean() / late.mean()), steady=True) if len(first) else Estimate(reason="too rare")
-
-    for runs in by(evidence["forgetting"], LENGTH, PACKING):
-        plane, vertical = (runs.of(partial(over_the_end, name=f"/temperatures/{name}_pJ"))
-                           for name in ("horizontal", "vertical"))
-        where = f"ℓ = {key_of(runs[0], LENGTH):g} mm, φ = {key_of(runs[0], PACKING):g}"
-        answers.append(close_to(plane, 1, 0.1).placed(where))
-        found.append(f"{text(plane)} in the plane and {text(vertical)} across it at {where}")
-    return conclude(answers, "kinetic temperature over that of the end: " + "; ".join(found))
-
-
+@states("persistence", "11", "Ways of single rods persist longer at 0.85 than at 0.65",
+        "0.2 s below φ = 0.70 is half the window of 400 ms over which velocities are averaged: no memory is seen there")
 def persists_when_dense(evidence: Evidence) -> Finding:
     answers, found = [], []
     for name, unit in (("persistence_time_s", " s"), ("persistence_length_mm", " mm")):
@@ -150,6 +137,8 @@ def persists_when_dense(evidence: Evidence) -> Finding:
     return conclude(answers, ". ".join(found))
 
 
+@states("persistence-noise", "11", "They persist because rotational noise is less",
+        "rods of 4.5 mm, which turn still less, are asked too. That neighbours move together is another cause")
 def persists_for_want_of_noise(evidence: Evidence) -> Finding:
     """Whether ways could persist because rods turn less: not if they persist longer than directions are kept, 1/D_r."""
     turning = dict(points_of(evidence["short-rods"], PACKING, lambda here: here.number("rotational_diffusion_rad2_s")))
@@ -170,34 +159,6 @@ def persists_for_want_of_noise(evidence: Evidence) -> Finding:
     return conclude(answers, "; ".join(found))
 
 
-def diffusion_rises(evidence: Evidence) -> Finding:
-    points = points_of(short_rods(evidence), PACKING, long_time_diffusion)
-    parts = [(where, [(at, e) for at, e in points if low < at < high])
-             for where, low, high in (("up to 0.65", 0, 0.66), ("from 0.65 on", 0.64, 1))]
-    return conclude([trend(part, rising=True).placed(where) for where, part in parts if len(part) > 1],
-                    f"D = {listed(points, 'φ')} mm²/s")
-
-
-def diffusion_level(evidence: Evidence) -> Finding:
-    runs = short_rods(evidence).at(packing=0.65)
-    d = long_time_diffusion(runs)
-    return conclude([close_to(d, papers_diffusion(0.65), 0.2 * papers_diffusion(0.65))] if runs else [],
-                    f"D = {text(d)} mm²/s (the paper's fit: {papers_diffusion(0.65):.1f})")
-
-
-def diffusion_law(evidence: Evidence) -> Finding:
-    points = [(at, e) for at, e in points_of(short_rods(evidence), PACKING, long_time_diffusion) if at > 0.66]
-
-    def holds(d: Estimate, at: float) -> Answer:
-        return close_to(d, papers_diffusion(at), 0.2 * papers_diffusion(at)).placed(f"{at:g}")
-
-    printed = [f"{at:g}" for at, e in points if holds(e * 2, at).word]
-    found = "; ".join(f"{text(e)} or {text(e * 2)} ({papers_diffusion(at):.1f}) at {at:g}" for at, e in points)
-    return conclude([holds(e, at) for at, e in points],
-                    f"D in mm²/s from MSD = 4Dt, or from MSD = 2Dt as printed (the paper's fit): {found}; as printed "
-                    f"it holds at {', '.join(printed) or 'none of them'}")
-
-
 def _grows_linearly(runs: Runs, curve: str, exponent: str) -> tuple[Answer, str]:
     """Whether a square displacement grows linearly in time, and the number behind it: its exponent is 1 at the lags at
     which single runs have an error, or its slope no longer changes at the longest ones."""
@@ -215,17 +176,8 @@ def _linear_growth(runs: Runs, curve: str, exponent: str) -> tuple[list[Answer],
     return [answer.placed(at) for at, answer, _ in known], [f"{numbers} at φ = {at}" for at, _, numbers in known]
 
 
-def diffusion_is_normal(evidence: Evidence) -> Finding:
-    runs = short_rods(evidence)
-    points = runs.points(PACKING, "alpha_short")
-    answers = [close_to(e, 1, 0.1).placed(f"short times, {at:g}") for at, e in points]
-    found = [f"exponents at short times: {listed(points, 'φ')}"] if points else []
-    grows, late = _linear_growth(runs, "/msd/total_mm2", "alpha_long")
-    if late:
-        found.append("at long times, as exponent or as slope over that at half the lag: " + "; ".join(late))
-    return conclude([*answers, *(answer.placed(f"long times, {answer.at}") for answer in grows)], ". ".join(found))
-
-
+@states("diffusion-both", "9", "Rods diffuse normally in both the disordered and the ordered phase (ℓ = 4.5 mm)",
+        "that C_v stays above 0 for seconds, as the paper's figure 12 has it at 0.85, is an exponent above 1")
 def normal_in_both_phases(evidence: Evidence) -> Finding:
     answers, found = [], []
     for phase, name, disordered in (("disorder", "total", True), ("along the director", "along", False),
@@ -240,6 +192,56 @@ def normal_in_both_phases(evidence: Evidence) -> Finding:
     return conclude(answers, "at long times, as exponent or as slope over that at half the lag, " + ". ".join(found))
 
 
+@states("diffusion-rises", "9", "Short rods diffuse faster when denser", "the paper's own fit has its minimum at 0.64")
+def diffusion_rises(evidence: Evidence) -> Finding:
+    points = points_of(short_rods(evidence), PACKING, long_time_diffusion)
+    parts = [(where, [(at, e) for at, e in points if low < at < high])
+             for where, low, high in (("up to 0.65", 0, 0.66), ("from 0.65 on", 0.64, 1))]
+    return conclude([trend(part, rising=True).placed(where) for where, part in parts if len(part) > 1],
+                    f"D = {listed(points, 'φ')} mm²/s")
+
+
+@states("diffusion-level", "9", "At 0.65 D is what the paper's fit has there, 1.7 mm²/s (ℓ = 2.5 mm)",
+        "the other reason for which 200 Hz, and MSD = 4Dt, are assumed", CALIBRATES)
+def diffusion_level(evidence: Evidence) -> Finding:
+    runs = short_rods(evidence).at(packing=0.65)
+    d = long_time_diffusion(runs)
+    return conclude([close_to(d, papers_diffusion(0.65), 0.2 * papers_diffusion(0.65))] if runs else [],
+                    f"D = {text(d)} mm²/s (the paper's fit: {papers_diffusion(0.65):.1f})")
+
+
+@states("diffusion-law", "9", "D = 1.7 + 480 (φ − 0.64)² mm²/s for ℓ = 2.5 mm",
+        "from 0.70 on. The paper prints MSD = 2Dt; the verdict is for 4Dt, which is D in the plane")
+def diffusion_law(evidence: Evidence) -> Finding:
+    points = [(at, e) for at, e in points_of(short_rods(evidence), PACKING, long_time_diffusion) if at > 0.66]
+
+    def holds(d: Estimate, at: float) -> Answer:
+        return close_to(d, papers_diffusion(at), 0.2 * papers_diffusion(at)).placed(f"{at:g}")
+
+    printed = [f"{at:g}" for at, e in points if holds(e * 2, at).word]
+    found = "; ".join(f"{text(e)} or {text(e * 2)} ({papers_diffusion(at):.1f}) at {at:g}" for at, e in points)
+    return conclude([holds(e, at) for at, e in points],
+                    f"D in mm²/s from MSD = 4Dt, or from MSD = 2Dt as printed (the paper's fit): {found}; as printed "
+                    f"it holds at {', '.join(printed) or 'none of them'}")
+
+
+@states("diffusion-normal", "9", "Short rods diffuse normally at short and at long times",
+        "the paper contradicts itself: C_v above 0 beyond its averaging window is an exponent above 1")
+def diffusion_is_normal(evidence: Evidence) -> Finding:
+    runs = short_rods(evidence)
+    points = runs.points(PACKING, "alpha_short")
+    answers = [close_to(e, 1, 0.1).placed(f"short times, {at:g}") for at, e in points]
+    found = [f"exponents at short times: {listed(points, 'φ')}"] if points else []
+    grows, late = _linear_growth(runs, "/msd/total_mm2", "alpha_long")
+    if late:
+        found.append("at long times, as exponent or as slope over that at half the lag: " + "; ".join(late))
+    return conclude([*answers, *(answer.placed(f"long times, {answer.at}") for answer in grows)], ". ".join(found))
+
+
+@states("diffusion-along", "9",
+        "Along the director D rises up to 0.80, then falls; across it D falls, and is smaller (ℓ = 4.5 mm)",
+        "along it D is half the slope of the MSD, which is not linear: it depends on the lag, and so does whether it "
+        "falls beyond 0.80")
 def diffusion_along_the_director(evidence: Evidence) -> Finding:
     runs = evidence["diffusion-along"]
     across = dict(points_of(runs, PACKING, lambda here: long_time_diffusion(here, "across")))
@@ -261,6 +263,8 @@ def diffusion_along_the_director(evidence: Evidence) -> Finding:
     return conclude(answers, ". ".join(found) + f". Across: {listed(list(across.items()), 'φ')} (mm²/s)")
 
 
+@states("diffusion-across", "9",
+        "Across the director nothing is super-diffusive, and dense rods are sub-diffusive at short times")
 def no_superdiffusion_across(evidence: Evidence) -> Finding:
     runs = long_rods(evidence).beyond(PACKING, 0.59)
     short = runs.points(PACKING, "alpha_across_short")
@@ -278,6 +282,8 @@ def no_superdiffusion_across(evidence: Evidence) -> Finding:
     return conclude(answers, "exponents across at times that are " + "; ".join(found))
 
 
+@states("memory", "12", "C₂ and C_v decay more slowly when denser (ℓ = 2.5 mm)",
+        "C_v from 0.65 on: below, its decay is that of the averaging window")
 def slower_when_denser(evidence: Evidence) -> Finding:
     runs = short_rods(evidence)
     c2 = needed(runs.points(PACKING, "c2_decay_s"), 2)
@@ -294,6 +300,16 @@ def late_c2(runs: Runs) -> Estimate:
     return late_lags.best(runs, late_lags.level("/rotation/c2"), "c2_plateau")
 
 
+@states("c2-decay", "12", "C₂ of short rods decays to 0 (ℓ = 2.5 mm)")
+def c2_forgets(evidence: Evidence) -> Finding:
+    points = points_of(short_rods(evidence), PACKING, late_c2)
+    return conclude([close_to(e, 0, LEVEL).placed(f"{at:g}") for at, e in points],
+                    f"C₂ at the longest lags: {listed(points, 'φ')}")
+
+
+@states("c2-plateau", "12", "C₂ of long rods levels off, near 1 when dense",
+        "whatever the dynamics C₂ is S² at late times: near 1 is from the square of 0.85 on, the least S that is about "
+        "1")
 def c2_levels_off(evidence: Evidence) -> Finding:
     runs = long_rods(evidence).beyond(PACKING, 0.59)
     points = needed(points_of(runs, PACKING, late_c2), 2)
@@ -303,12 +319,6 @@ def c2_levels_off(evidence: Evidence) -> Finding:
                      *(above(e, NEAR_ONE).placed(f"near 1 at {at:g}") for at, e in points if at > 0.79)],
                     f"{listed(points, 'φ')}" + (f"; over the last octave of lags it changes by {listed(changes, 'φ')}"
                                                 if changes else ""))
-
-
-def c2_forgets(evidence: Evidence) -> Finding:
-    points = points_of(short_rods(evidence), PACKING, late_c2)
-    return conclude([close_to(e, 0, LEVEL).placed(f"{at:g}") for at, e in points],
-                    f"C₂ at the longest lags: {listed(points, 'φ')}")
 
 
 #: Over which velocities are averaged, as in the paper [s]. Where rods have no memory beyond it, correlations
@@ -327,6 +337,9 @@ def late_velocity_correlation(run: Run) -> Estimate:
     return mean_of_places(np.asarray(product)[late], np.asarray(product.error)[late], run)
 
 
+@states("velocity-along", "12", "C_v along the director grows with packing up to 0.80 (ℓ = 4.5 mm)",
+        "of lags beyond the 400 ms over which velocities are averaged, from which the paper concludes D; C_v(0), the "
+        "rattling in the cage, falls")
 def velocity_along_grows(evidence: Evidence) -> Finding:
     runs = long_rods(evidence)
     points = [(at, e) for at, e in runs.points(PACKING, late_velocity_correlation) if at > 0.59]
@@ -338,22 +351,27 @@ def velocity_along_grows(evidence: Evidence) -> Finding:
                     f"C_v(0): {listed(at_zero, 'φ')}")
 
 
+@states("rotation", "13", "The rotational diffusion constant falls with packing (ℓ = 2.5 mm)")
 def rotation_slows(evidence: Evidence) -> Finding:
     points = needed(evidence["short-rods"].points(PACKING, "rotational_diffusion_rad2_s"), 2)
     return conclude([trend(points, rising=False)], f"D_r = {listed(points, 'φ')} rad²/s")
 
 
+@states("rotation-short", "13", "At short times rotation is sub-diffusive, the more so the denser")
 def rotation_subdiffusive(evidence: Evidence) -> Finding:
     points = needed(evidence["short-rods"].points(PACKING, "alpha_rotation_short"), 2)
     return conclude([trend(points, rising=False).placed("falls with packing"),
                      *(below(e, 1).placed(f"{at:g}") for at, e in points)], f"exponent {listed(points, 'φ')}")
 
 
+@states("rotation-normal", "13", "At long times rotation is diffusive (ℓ = 2.5 mm)")
 def turning_diffuses(evidence: Evidence) -> Finding:
     answers, found = _linear_growth(short_rods(evidence), "/rotation/msad_rad2", "alpha_rotation_long")
     return conclude(answers, "at long times: " + "; ".join(found))
 
 
+@states("rotation-saturates", "13",
+        "The angle turned levels off in the nematic and grows linearly in disorder (ℓ = 4.5 mm)")
 def turning_saturates(evidence: Evidence) -> Finding:
     runs, curve, own = long_rods(evidence), "/rotation/msad_rad2", "alpha_rotation_long"
     answers, found = [], []
@@ -372,6 +390,8 @@ def turning_saturates(evidence: Evidence) -> Finding:
     return conclude(answers, "at long times: " + "; ".join(found))
 
 
+@states("defects", "14", "Defects of a system that is ordered here and there move by themselves (ℓ = 3.0 mm at 0.85)",
+        "the paper's text has ℓ = 0.3 mm, its caption 3.0 mm")
 def defects_move(evidence: Evidence) -> Finding:
     runs = needed(evidence["no-order"].at(3.0, 0.85))
     plus, minus, along = (runs.number(f"lasting_defect_speed_{name}_mm_s") for name in ("plus", "minus", "plus_along"))

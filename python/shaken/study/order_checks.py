@@ -1,7 +1,7 @@
 """Where rods order, how sharply, from which start and in which box."""
 import math
 from collections import Counter
-
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -10,11 +10,12 @@ from numpy.typing import NDArray
 from ..estimate import Estimate
 from ..run import Run
 from . import scaling
-from .evidence import (GAMMA, LENGTH, PACKING, PAPERS_BOX, SIDE, SMALL_DRIFT, Evidence, Runs, crossing, key_of,
-                       points_of)
+from .evidence import (GAMMA, LENGTH, PACKING, PAPERS_BOX, SIDE, SMALL_DRIFT, Evidence, Runs, by, crossing,
+                       key_of, points_of)
 from .late_lags import long_time_diffusion
 from .rules import (NO, NOT_RUN, YES, Answer, Finding, above, all_of, below, close_to, conclude, doubt, larger, listed,
                    needed, refutable, text, trend, unknown)
+from .statement import HARDLY_FAILS, states
 from .structure_checks import far_g2
 
 #: <S> above which a state counts as ordered, as the paper draws the line.
@@ -35,6 +36,7 @@ def transition(runs: Runs) -> Estimate:
     return crossing(runs.points(PACKING, "S"), ORDERED)
 
 
+@states("steady-state", "2", "Rods start aligned, S(0) = 1, and are steady after 400 to 600 s (ℓ = 4.5 mm)")
 def steady_after_the_start(evidence: Evidence) -> Finding:
     longest_wait = 600.0  # [s], the paper's
     runs = evidence["long-rods"]
@@ -60,12 +62,15 @@ def steady_after_the_start(evidence: Evidence) -> Finding:
                     "the latest", everywhere=True)
 
 
+@states("ordered", "3", "Long rods (ℓ = 4.5 mm) at area fraction 0.75 are ordered, S about 0.9",
+        "in a box narrower than the paper's, which orders more easily")
 def ordered_when_dense(evidence: Evidence) -> Finding:
     runs = needed(evidence["long-rods"].at(packing=0.75))
     s = runs.number("S")
     return conclude([close_to(s, 0.9, 0.05)], f"S = {text(s)}")
 
 
+@states("disordered", "3", "At 0.45 they are not: ⟨S⟩ < 0.5, and nothing of it far away or in larger boxes")
 def disordered_when_dilute(evidence: Evidence) -> Finding:
     everywhere = evidence.joined("long-rods", "dilute").at(length=4.5, packing=0.45)
     runs = needed(everywhere.largest(SIDE))
@@ -79,6 +84,8 @@ def disordered_when_dilute(evidence: Evidence) -> Finding:
                     f"x = {text(power)} (disorder: −1)")
 
 
+@states("short", "3", "Rods shorter than 3.5 mm do not order at any packing",
+        "a narrow box orders its rods: there only disorder counts")
 def short_rods_do_not_order(evidence: Evidence) -> Finding:
     runs = evidence.joined("short-rods", "phases", "no-order", "diffusion", "mechanism")
     answers, found = [], []
@@ -104,6 +111,7 @@ def short_rods_do_not_order(evidence: Evidence) -> Finding:
     return conclude(answers, "; ".join(found), everywhere=True)
 
 
+@states("transition", "3", "The area fraction at which order sets in falls with the length")
 def transition_falls_with_length(evidence: Evidence) -> Finding:
     runs = phase_diagram(evidence)
     points = [(length, transition(runs.at(length))) for length in (3.5, 4.0, 4.5) if runs.at(length)]
@@ -111,19 +119,9 @@ def transition_falls_with_length(evidence: Evidence) -> Finding:
     return conclude([trend(points, rising=False)], "S = 0.5 is passed at φ = " + listed(passed, "ℓ", ""))
 
 
-def longer_rods_order(evidence: Evidence) -> Finding:
-    answers, found = [], []
-    for packing in (0.60, 0.70):
-        points = phase_diagram(evidence).at(packing=packing).points(LENGTH, "S")
-        if len(points) < 2:
-            continue
-        answers += [trend(points, rising=True).placed(f"S grows with length at φ = {packing:g}"),
-                    below(points[0][1], ORDERED).placed(f"disorder of the shortest at φ = {packing:g}"),
-                    above(points[-1][1], ORDERED).placed(f"order of the longest at φ = {packing:g}")]
-        found.append(f"φ = {packing:g}: S = {listed(points, 'ℓ')}")
-    return conclude(answers, "; ".join(found))
-
-
+@states("saturates", "3", "⟨S⟩ of rods longer than 3.5 mm rises with packing to about 1",
+        "whether it rises continuously takes runs from disorder too, which these are not; the box is narrower than the "
+        "paper's")
 def saturates(evidence: Evidence) -> Finding:
     answers, found = [], []
     for length in (4.0, 4.5):
@@ -141,6 +139,23 @@ def saturates(evidence: Evidence) -> Finding:
     return conclude(answers, "; ".join(found))
 
 
+@states("longer-order", "3", "At the same area fraction rods order when they are made longer",
+        "S grows by a factor of ten; the box is narrower than the paper's", HARDLY_FAILS)
+def longer_rods_order(evidence: Evidence) -> Finding:
+    answers, found = [], []
+    for packing in (0.60, 0.70):
+        points = phase_diagram(evidence).at(packing=packing).points(LENGTH, "S")
+        if len(points) < 2:
+            continue
+        answers += [trend(points, rising=True).placed(f"S grows with length at φ = {packing:g}"),
+                    below(points[0][1], ORDERED).placed(f"disorder of the shortest at φ = {packing:g}"),
+                    above(points[-1][1], ORDERED).placed(f"order of the longest at φ = {packing:g}")]
+        found.append(f"φ = {packing:g}: S = {listed(points, 'ℓ')}")
+    return conclude(answers, "; ".join(found))
+
+
+@states("transition-size", "scaling", "The area fraction at which order sets in rises with the box",
+        "S of a finite system always falls with the box", HARDLY_FAILS)
 def transition_rises_with_size(evidence: Evidence) -> Finding:
     runs = evidence.joined("long-rods", "size").at(length=4.5)
     points = [(side, transition(runs.at(side=side))) for side in runs.values(SIDE)
@@ -150,6 +165,9 @@ def transition_rises_with_size(evidence: Evidence) -> Finding:
     return conclude([trend(points, rising=True)], "S = 0.5 is passed at φ = " + listed(passed, "L", ""))
 
 
+@states("long-range", "scaling", "The order is long-range",
+        "S(L) against what the waves of the director make of it without a free parameter. That S falls so in these "
+        "boxes does not show that it never levels off in wider ones")
 def long_range(evidence: Evidence) -> Finding:
     """Whether S stays as the box grows and does not fall as the director's waves would make it fall (yes), or does fall
     (no), at the packings at which rods are ordered in the largest box."""
@@ -208,6 +226,8 @@ def n_peaks(density: NDArray[Any]) -> int:
     return peaks
 
 
+@states("unimodal", "4", "P[S] has one peak at every packing (ℓ = 4.5 mm)",
+        "independent samples of all replicas are added up; 50 are asked for")
 def one_peak(evidence: Evidence) -> Finding:
     answers, found = [], []
     runs = evidence["long-rods"]
@@ -227,6 +247,7 @@ def one_peak(evidence: Evidence) -> Finding:
     return conclude(answers, "peaks (independent samples): " + ", ".join(found), everywhere=True)
 
 
+@states("broadest", "4", "S fluctuates most near the transition")
 def broadest_at_the_transition(evidence: Evidence) -> Finding:
     runs = evidence["long-rods"]
     points, phi = needed(runs.points(PACKING, "S_std"), 3), transition(runs)
@@ -259,6 +280,9 @@ def angle_to_side(run: Run) -> Estimate:
                     drift_error=drift_error, unit="deg")
 
 
+@states("oblique", "steady", "ℓ = 3.5 mm at 0.85 orders along an oblique axis",
+        "asked of runs that start turned by 30 degrees: whether such an axis lasts. Those that start along a side stay "
+        "along it, so that none is seen to come about")
 def oblique_axis(evidence: Evidence) -> Finding:
     turned = evidence["turned"].at(length=3.5, packing=0.85)
     straight = evidence["layer-trends"].at(length=3.5, packing=0.85)
@@ -276,6 +300,9 @@ def oblique_axis(evidence: Evidence) -> Finding:
     return refutable(all_of([above(s, ORDERED), above(angle, 10)]), found, "such an axis lasts" + comes_about)
 
 
+@states("activity", "shaking", "Γ is a measure of the activity, and at Γ = 0 there is none",
+        "at Γ = 0: that the plates give no energy and what the rods had at the start falls; rolling rods go on",
+        HARDLY_FAILS)
 def activity(evidence: Evidence) -> Finding:
     runs = evidence["shaking"].at(length=2.5)
     still = runs.where(GAMMA, 0.0)
@@ -291,3 +318,26 @@ def activity(evidence: Evidence) -> Finding:
         found += (f"; at Γ = 0 the plates give {energy['given_by_plates']:g} pJ, and "
                   f"{100 * energy['left'] / energy['start']:.2g} % of the energy of the start is left")
     return conclude(answers, found)
+
+
+@states("forgetting", "2", "Velocities forget the start within about a period of the plates",
+        "asked of the velocities in the plane, from one to three periods after the start")
+def forgets_the_start(evidence: Evidence) -> Finding:
+    """Whether the kinetic temperature in the plane is, within a tenth, what it is in the end, from one to three periods
+    of the plates after the start."""
+    answers, found = [], []
+
+    def over_the_end(run: Run, name: str) -> Estimate:
+        t = run[name]
+        time, values = np.asarray(t.axis), np.asarray(t)
+        first = values[(time >= 0.005) & (time < 0.015)]
+        late = values[time >= time[-1] / 2]
+        return Estimate(float(first.mean() / late.mean()), steady=True) if len(first) else Estimate(reason="too rare")
+
+    for runs in by(evidence["forgetting"], LENGTH, PACKING):
+        plane, vertical = (runs.of(partial(over_the_end, name=f"/temperatures/{name}_pJ"))
+                           for name in ("horizontal", "vertical"))
+        where = f"ℓ = {key_of(runs[0], LENGTH):g} mm, φ = {key_of(runs[0], PACKING):g}"
+        answers.append(close_to(plane, 1, 0.1).placed(where))
+        found.append(f"{text(plane)} in the plane and {text(vertical)} across it at {where}")
+    return conclude(answers, "kinetic temperature over that of the end: " + "; ".join(found))

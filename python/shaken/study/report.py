@@ -21,7 +21,8 @@ from .figures import FIGURES, Figure
 from .next_runs import open_questions, open_statements
 from .rules import AGREES, CONSISTENT, CONTRADICTS, DISAGREES, IN_PART, NO_DATA, OPEN, SIGMAS, markdown, text
 from .sets import ORDER
-from .statements import CALIBRATES, HARDLY_FAILS, STATEMENTS, Statement, Verdict, as_table, judged
+from .statement import CALIBRATES, HARDLY_FAILS, Statement
+from .statements import STATEMENTS, Verdict, as_table, judged
 from .time_step import differences, prices
 
 

@@ -9,6 +9,7 @@ from ..estimate import Estimate, derived
 from ..run import Run
 from .evidence import LENGTH, PACKING, PAPERS_BOX, SIDE, Evidence, Runs, key_of, mean_of_places
 from .rules import (CONTRADICTS, NOT_RUN, Finding, above, close_to, conclude, larger, listed, needed, text, unknown)
+from .statement import states
 
 #: G2 that counts as none at half a box.
 NO_CORRELATION = 0.05
@@ -60,6 +61,7 @@ def unevenness(run: Run, cut: str) -> Estimate:
     return mean_of_places((away**2 - np.nan_to_num(error)**2)[far], (2 * abs(away) * error)[far], run)
 
 
+@states("g2", "5", "G₂(r) decays to 0 for ℓ = 2.5 mm at every packing, and levels off for ℓ = 4.5 mm when dense")
 def g2_decays_or_levels(evidence: Evidence) -> Finding:
     answers, found = [], []
     short = evidence.joined("short-rods", "no-order", "diffusion").at(length=2.5)
@@ -83,6 +85,9 @@ def g2_decays_or_levels(evidence: Evidence) -> Finding:
     return conclude(answers, "G₂ at half a box, " + ". ".join(found) if found else "", everywhere=True)
 
 
+@states("isotropic", "6", "G₂ is isotropic at 0.45 (ℓ = 4.5 mm)",
+        "asked of its contour at 0.2, in the frame of the director of the same rods, which finds some order in any "
+        "number of them: the ratio less 1 goes as S, and its value at S = 0 counts")
 def g2_isotropic_when_dilute(evidence: Evidence) -> Finding:
     runs = evidence.joined("dilute", "long-rods").at(4.5, 0.45)
     boxes = [(side, here.number("S"), here.of(contour_ratio)) for side in runs.values(SIDE)
@@ -103,12 +108,15 @@ def g2_isotropic_when_dilute(evidence: Evidence) -> Finding:
     return conclude([close_to(round_, 1, ROUND)], found)
 
 
+@states("anisotropy", "6", "G₂ falls faster across the director than along it")
 def g2_anisotropic(evidence: Evidence) -> Finding:
     runs = needed(evidence["layers"].at(packing=0.75))
     difference = runs.of(far_anisotropy)
     return conclude([above(difference, 0)], f"along − across, far out at φ = 0.75: {text(difference)}")
 
 
+@states("g-flattens", "7", "g(r) flattens sooner along the director than across it",
+        "the sentence says the contrary in its second half")
 def g_flattens(evidence: Evidence) -> Finding:
     runs = needed(evidence["layers"].at(packing=0.75))
     along, across = (runs.of(partial(unevenness, cut=cut)) for cut in ("g_along", "g_across"))
@@ -176,6 +184,10 @@ def ordered_in_large_boxes(evidence: Evidence) -> Runs:
     return Runs(run for packing in runs.values(PACKING) for run in runs.at(packing=packing).largest(SIDE))
 
 
+@states("splay-bend", "elasticity", "Splay costs more than bend, K₁ > K₃",
+        "the paper concludes it from G₂ falling faster across the director; in linear theory, ⟨δθ²⟩ ~ 1/(K₁q_across² + "
+        "K₃q_along²), that means the reverse. Asked of waves of the director along and across it, of the same length: "
+        "if both are driven alike, what costs more fluctuates less")
 def splay_stiffer_than_bend(evidence: Evidence) -> Finding:
     runs = ordered_in_large_boxes(evidence)
     answers, found = [], []
