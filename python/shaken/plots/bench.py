@@ -17,14 +17,7 @@ from .sheet import Sheet
 Figures = Iterator[tuple[str, Sheet]]
 
 _RATE = "simulated rod-seconds per CPU-second"
-_STEPS = (0.25, 1.0, 4.0, 16.0, 64.0)
-
-
-def _step_axis(panel: Panel) -> None:
-    """A logarithmic axis of steps [us], which are halved and doubled."""
-    from matplotlib import ticker
-    low, high = panel.axes.get_xlim()
-    panel.axes.xaxis.set_major_locator(ticker.FixedLocator([step for step in _STEPS if low <= step <= high]))
+_STEPS = (0.25, 1.0, 4.0, 16.0, 64.0)  # [us], which are halved and doubled
 
 
 def _dots_height(n: int, n_series: int = 1) -> float:
@@ -163,12 +156,8 @@ def convergence(report: Row, width: str | None) -> Figures:
                     cost.curve(column(rows, f"{stepper}_cpu_s", 1e6), column(rows, "error/position/median"),
                                look="points", label=stepper if one else f"{rows[0]['variant']}, {stepper}")
                     n += 1
-        panel.scale("log", "log")
+        panel.scale("log", "log").axes.set_xticks(_STEPS)
         cost.scale("log", "log")
-    for sheet in (errors, work):
-        for panel in sheet:
-            if panel.is_used and sheet is errors:
-                panel.then(_step_axis)
     yield "convergence", errors
     yield "work_precision", work
 

@@ -318,7 +318,7 @@ def _explanations(said: set[Any]) -> list[tuple[Any, str]]:
              panels_of.HOLLOW: (drawn(marker="o", markerfacecolor="white", linestyle="none"), panels_of.HOLLOW),
              panels_of.DASHED: (drawn(linestyle=panels_of._FINE_DASHES), panels_of.DASHED),
              panels_of.NO_ERROR: (crossed, panels_of.NO_ERROR)}
-    shapes = {"grey": grey, "band": band, "bar": bar, "line": line}
+    shapes = {"grey": grey, "band": band, "line": line}
     return [found for what, found in known.items() if what in said] + [
         (shapes[kind], words) for kind, words in sorted(one for one in said if isinstance(one, tuple))]
 

@@ -8,8 +8,6 @@ import matplotlib
 if TYPE_CHECKING:
     from .sheet import Sheet
 
-#: Widths of a column, of one and a half, and of a page [mm].
-WIDTHS = (89.0, 120.0, 183.0)
 #: Named curves, of Okabe & Ito's colours that are told apart with any eyes (*Color Universal Design*, 2008).
 PALETTE = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#000000")
 #: A mark for each of them, so that they can be told apart without colours too.

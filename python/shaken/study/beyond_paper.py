@@ -85,8 +85,8 @@ def beads(evidence: Evidence) -> str:
         key("beads", BEADS), PACKED, BOX, SEEDS, ("rods per cm²", lambda here: f"{100 * rods_per_area(here):.1f}"),
         number("D (mm²/s)", "diffusion_mm2_s"), number("v beyond n_z = 0.31 (mm/s)", beyond_reversal),
         ("D of 9 beads, as many rods", lambda here: text(at_same_number(here))), ("ratio", compared)])
-    fewest, most = runs.smallest(BEADS), runs.largest(BEADS)
-    if fewest and most:
+    if runs:
+        fewest, most = (runs.where(BEADS, runs.values(BEADS)[k]) for k in (0, -1))
         found += f"\nD of the fewest beads over D of the most, at the same area fraction: " \
                  f"{text(fewest.number('diffusion_mm2_s') / most.number('diffusion_mm2_s'))}.\n"
     return found

@@ -154,10 +154,6 @@ class Runs(list[Run]):
         width = max((box_of(run)[1] for run in self), default=0.0)
         return Runs(run for run in self if box_of(run)[1] > 0.99 * width)
 
-    def smallest(self, path: str) -> "Runs":
-        values = self.values(path)
-        return self.where(path, values[0]) if values else self
-
     def number(self, name: str) -> Estimate:
         """The mean of a number over these runs; the runs in which it could not be measured do not count."""
         return self.of(lambda run: number_of(run, name))

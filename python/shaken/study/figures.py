@@ -20,7 +20,6 @@ class Figure:
     name:   "defects"
     title:  what it shows
     sets:   what it is drawn from (sets.ORDER)
-    lacks:  what the paper's has and this has not, with the reason
     """
 
     number: str
@@ -28,7 +27,6 @@ class Figure:
     title: str
     sets: tuple[str, ...]
     draw: Callable[[Material], Sheet]
-    lacks: str = ""
 
     @property
     def id(self) -> str:

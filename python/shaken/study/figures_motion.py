@@ -13,7 +13,7 @@ from ..run import Array, Run
 from .beyond_paper import dense_diffusion, more_rods, parabola, swimming_defects
 from .evidence import FREQUENCY, LENGTH, PACKING, Evidence, Runs, number_of, place_on, points_of
 from .late_lags import long_time_diffusion
-from .material import Material, angle_bar, draw_against, draw_curve, draw_curves, draw_points, draw_rods, packing_scale
+from .material import Material, draw_against, draw_curve, draw_curves, draw_points, draw_snapshots, packing_scale
 from .motion_checks import (FREE_OF_THE_WINDOW, VELOCITY_WINDOW, beyond_reversal, late_c2, late_velocity_correlation,
                             long_rods, papers_diffusion, short_rods)
 from .order_checks import phase_diagram
@@ -212,9 +212,7 @@ def defects(material: Material) -> Sheet:
     """14: defects of rods of 3 mm that are ordered here and there."""
     runs = material.evidence["no-order"].at(3.0, 0.85)
     sheet = material.sheet(4, columns=2, height=66)
-    draw_rods(sheet[0], runs, "ℓ = 3 mm, φ = 0.85", 1, defects=True)
-    if sheet[0].is_used:
-        angle_bar(sheet, [sheet[0]])
+    draw_snapshots(sheet, [(runs, "ℓ = 3 mm, φ = 0.85")], k=1, defects=True)
     panel = sheet[1].titles(names.axis_title("/defects/time_s"), "defects of charge +1/2", "as many of −1/2")
     for run in runs:
         if "/defects/n_plus" in run:
@@ -260,29 +258,26 @@ def model(material: Material) -> Sheet:
         draw_curve(panel, shaken.where(FREQUENCY, frequency), "/tilt/folded/v_along_mm_s",
                    names.value_label(FREQUENCY, frequency), k, seen=lambda e: e < 0.25)
     panel.zero()
-    draw_against(sheet[1], FREQUENCY, beyond_reversal, [(shaken, "")], "reversed where > 0",
+    draw_against(sheet[1], FREQUENCY, lambda here: here.of(beyond_reversal), [(shaken, "")], "reversed where > 0",
                  "velocity beyond $n_z$ = 0.31 (mm/s)").zero()
     panel = draw_against(sheet[2], FREQUENCY, "diffusion_mm2_s", [(shaken, "measured")], "φ = 0.6",
                          "D, as MSD/4t (mm²/s)")
     panel.reference(y=papers_diffusion(0.60), label="the paper's fit, MSD = 4Dt")
     panel.reference(y=papers_diffusion(0.60) / 2, label="the paper's fit, MSD = 2Dt")
     panel.range(y=(0, None))
-    panel = sheet[3].titles(names.axis_title(PACKING), "D (mm²/s)", "moments of inertia")
     usual = [(at, e) for at, e in points_of(short_rods(evidence), PACKING, long_time_diffusion) if at > 0.59]
-    draw_points(panel, usual, "a uniform solid's", 0)
-    draw_points(panel, points_of(evidence["inertia"], PACKING, long_time_diffusion), "those of the beads", 1)
+    beads = points_of(evidence["inertia"], PACKING, long_time_diffusion)
     phi = np.linspace(0.60, 0.85, 40)
-    panel.reference(phi, papers_diffusion(phi), "the paper's fit")
-    panel.range(y=(0, None))
-    panel = sheet[4].titles(names.axis_title(PACKING), "D (mm²/s)", "3.3 % more rods")
-    draw_points(panel, usual, "N of the area fraction", 0)
-    draw_points(panel, more_rods(evidence), "N × 1.033", 1)
-    panel.reference(phi, papers_diffusion(phi), "the paper's fit")
-    panel.range(y=(0, None))
-    panel = sheet[5].titles("beads of a rod", "D (mm²/s)", "φ = 0.75")
+    for panel, title, one, points, another in (
+            (sheet[3], "moments of inertia", "a uniform solid's", beads, "those of the beads"),
+            (sheet[4], "3.3 % more rods", "N of the area fraction", more_rods(evidence), "N × 1.033")):
+        panel.titles(names.axis_title(PACKING), "D (mm²/s)", title)
+        draw_points(panel, usual, one, 0)
+        draw_points(panel, points, another, 1)
+        panel.reference(phi, papers_diffusion(phi), "the paper's fit").range(y=(0, None))
+    panel = sheet[5].titles("beads of a rod", "D (mm²/s)", "φ = 0.75").range(y=(0, None))
     draw_points(panel, evidence["beads"].points("rods.beads", "diffusion_mm2_s"))
     panel.reference(y=papers_diffusion(0.75), label="the paper's fit")
-    panel.range(y=(0, None))
     return sheet
 
 

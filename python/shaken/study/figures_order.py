@@ -7,7 +7,7 @@ from . import scaling
 from .evidence import GAMMA, LENGTH, PACKING, SIDE, Runs, by, key_of, points_of
 from .layer_checks import two_peaks
 from .late_lags import long_time_diffusion
-from .material import (Material, angle_bar, draw_against, draw_curves, draw_points, draw_rods, labelled,
+from .material import (Material, draw_against, draw_curves, draw_points, draw_rods, draw_snapshots, labelled,
                        packing_scale)
 from .order_checks import ORDERED, phase_diagram, pooled_density, transition
 from .structure_checks import far_g2
@@ -17,11 +17,8 @@ def start(material: Material) -> Sheet:
     """2: rods as they lie, and S(t) from the aligned start."""
     runs = material.evidence["long-rods"]
     sheet = material.sheet(3, height=58)
-    for panel, packing in zip(sheet, (0.45, 0.75)):
-        draw_rods(panel, runs.at(packing=packing), f"φ = {packing:g}")
-    angle_bar(sheet, sheet.panels[:2])
-    panel = sheet[2]
-    panel.titles(names.axis_title("/order/time_s"), names.axis_title("/order/order"), "S(t)")
+    draw_snapshots(sheet, [(runs.at(packing=packing), f"φ = {packing:g}") for packing in (0.45, 0.75)])
+    panel = sheet[2].titles(names.axis_title("/order/time_s"), names.axis_title("/order/order"), "S(t)")
     scale = packing_scale(runs)
     for packing in runs.values(PACKING):
         order = runs.at(packing=packing)[0]["/order/order"]
@@ -95,12 +92,9 @@ def order_statistics(material: Material) -> Sheet:
 
 def steady(material: Material) -> Sheet:
     """The axis along which rods of 3.5 mm order at 0.85: from a start along a side, and from one that is turned."""
-    straight = material.evidence["layer-trends"].at(3.5, 0.85)
-    turned = material.evidence["turned"].at(3.5, 0.85)
+    straight, turned = (material.evidence[name].at(3.5, 0.85) for name in ("layer-trends", "turned"))
     sheet = material.sheet(4, columns=2, height=58)
-    for panel, runs, title in ((sheet[0], straight, "started along a side"), (sheet[1], turned, "started at 30°")):
-        draw_rods(panel, runs, title)
-    angle_bar(sheet, [panel for panel in sheet.panels[:2] if panel.is_used] or sheet.panels[:1])
+    draw_snapshots(sheet, [(straight, "started along a side"), (turned, "started at 30°")])
     for panel, name, title in ((sheet[2], "/order/order", "order"), (sheet[3], "/order/director_rad", "director")):
         panel.titles(names.axis_title("/order/time_s"),
                      "director (° from a side)" if "director" in name else names.axis_title(name), title)
@@ -119,12 +113,8 @@ def shaking(material: Material) -> Sheet:
     runs = material.evidence["shaking"].beyond(GAMMA, 0)
     sheet = material.sheet(3)
     for panel, name in zip(sheet, ("S", "diffusion_mm2_s", "rotational_diffusion_rad2_s")):
-        panel.titles(names.axis_title(GAMMA), names.axis_title(name))
-        for k, length in enumerate(runs.values(LENGTH)):
-            here = runs.at(length)
-            late = name == "diffusion_mm2_s"
-            points = points_of(here, GAMMA, long_time_diffusion) if late else here.points(GAMMA, name)
-            draw_points(panel, points, names.value_label(LENGTH, length), k)
+        of = {"diffusion_mm2_s": long_time_diffusion}.get(name, name)
+        draw_against(panel, GAMMA, of, labelled(runs, LENGTH), y=names.axis_title(name))
         panel.range(y=(0, 1 if name == "S" else None)).reference(x=7, label="the paper's")
     material.stamp(sheet[1], "activity")
     return sheet

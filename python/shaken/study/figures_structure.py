@@ -7,10 +7,10 @@ from numpy.typing import NDArray
 from ..plots import names
 from ..plots.panel import Panel
 from ..plots.sheet import Sheet
-from .layer_checks import layered, theta_m
+from .layer_checks import layered, mean_angle
 from .layer_wavelength import mean_wavelength
-from .evidence import END, GAP, LENGTH, PACKING, SIDE, Runs, box_text, key_of, points_of
-from .material import Material, angle_bar, draw_against, draw_curve, draw_curves, draw_points, draw_rods, packing_scale
+from .evidence import END, GAP, LENGTH, PACKING, SIDE, Runs, box_text, key_of
+from .material import Material, draw_against, draw_curve, draw_curves, draw_points, draw_snapshots, packing_scale
 from .structure_checks import mean_waves, ordered_in_large_boxes
 
 
@@ -109,14 +109,9 @@ def _angles(panel: Panel, runs: Runs, path: str, title: str, scale: Callable[[fl
 
 
 def _against(panel: Panel, series: list[tuple[Runs, str]], path: str, name: str, title: str) -> None:
-    panel.titles(names.axis_title(path), names.axis_title(name), title)
-    for k, (runs, label) in enumerate(series):
-        here = layered(runs)
-        points = points_of(here, path, mean_wavelength) if name == "wavelength_mm" else \
-            here.points(path, theta_m if name == "theta_m_deg" else name)
-        if points:
-            draw_points(panel, points, label, k)
-    panel.range(y=(0, None))
+    of = {"theta_m_deg": mean_angle, "wavelength_mm": mean_wavelength}[name]
+    formed = [(layered(runs), label) for runs, label in series]
+    draw_against(panel, path, of, formed, title, names.axis_title(name)).range(y=(0, None))
 
 
 def layers(material: Material) -> Sheet:
@@ -126,9 +121,7 @@ def layers(material: Material) -> Sheet:
     sheet = material.sheet(9, height=48)
     long_ = evidence["layers"].at(4.5)
     dense = long_.at(packing=0.85) or evidence["long-rods"].at(packing=0.85)
-    draw_rods(sheet[0], dense, "φ = 0.85")
-    if sheet[0].is_used:
-        angle_bar(sheet, [sheet[0]])
+    draw_snapshots(sheet, [(dense, "φ = 0.85")])
     everything = evidence["long-rods"]
     scale = packing_scale(everything)
     _angles(sheet[1], everything, PACKING, "ℓ = 4.5 mm", scale)
@@ -156,14 +149,12 @@ def layers(material: Material) -> Sheet:
     _against(sheet[7], starts, END, "wavelength_mm", "wavelength, ℓ = 4 mm")
     material.stamp(sheet[7], "wavelength-end")
     panel = sheet[8].titles("wave number $q_⊥$ (1/mm)", "spectrum of sin 2(θ − θ$_N$)", "across the director")
-    panel.scale(y="log")
-    draw_curves(panel, long_, "/layers/spectrum_across", scale, keep=lambda q, s: q < 2, errors=False)
+    draw_curves(panel.scale(y="log"), long_, "/layers/spectrum_across", scale, keep=lambda q, s: q < 2, errors=False)
     return sheet
 
 
-def _cuts_across(panel: Panel, runs: Runs, scale: Callable[[float], object] | None, path: str = PACKING,
-                 title: str = "across") -> None:
-    panel.titles("distance across the director (mm)", names.axis_title("/pairs/g2"), title)
+def _cuts_across(panel: Panel, runs: Runs, scale: Callable[[float], object] | None, path: str = PACKING) -> None:
+    panel.titles("distance across the director (mm)", names.axis_title("/pairs/g2"), "across")
     for k, value in enumerate(runs.values(path)):
         here = runs.where(path, value)
         draw_curve(panel, here, "/pairs/cut/g2_across", "" if scale else names.value_label(path, value),
@@ -188,15 +179,14 @@ def layer_trends(material: Material) -> Sheet:
 
 def larger_box(material: Material) -> Sheet:
     """Layers of 4 mm rods in a box twice as wide."""
-    small = material.evidence["layer-trends"].at(4.0, 0.85, end=0.4)
-    large = material.evidence["larger-box"].at(4.0, 0.85, end=0.4)
+    small, large = (material.evidence[name].at(4.0, 0.85, end=0.4) for name in ("layer-trends", "larger-box"))
     both = Runs([*small, *large])
     sheet = material.sheet(4, columns=2, height=58)
-    for panel, runs, title in ((sheet[0], small, "the desk's box"), (sheet[1], large, "twice as wide")):
-        draw_rods(panel, runs, f"L = {key_of(runs[0], SIDE):.1f} mm" if runs else "", timed=False)
+    draw_snapshots(sheet, [(runs, f"L = {key_of(runs[0], SIDE):.1f} mm" if runs else "") for runs in (small, large)],
+                   timed=False)
+    for panel, title in zip(sheet, ("the desk's box", "twice as wide")):
         if not panel.is_used:
             panel.titles(title=title).absent = "no runs yet"
-    angle_bar(sheet, sheet.panels[:2])
     _angles(sheet[2], both, SIDE, "P(θ)")
     _cuts_across(sheet[3], both, None, SIDE)
     material.stamp(sheet[3], "larger-box")
@@ -209,9 +199,7 @@ def ends(material: Material) -> Sheet:
     sheet = material.sheet(6, columns=3, height=58)
     shown = [(rows.at(end=end), f"{names.plain(names.value_label(END, end))}, from rows") for end in (0.4, 0.5)]
     shown += [(fluid.at(end=end), f"{names.plain(names.value_label(END, end))}, from a fluid") for end in (0.5, 0.6)]
-    for panel, (runs, title) in zip(sheet, shown):
-        draw_rods(panel, runs, title, timed=False)
-    angle_bar(sheet, [panel for panel in sheet.panels[:4] if panel.is_used] or sheet.panels[:1])
+    draw_snapshots(sheet, shown, timed=False)
     for panel, runs, title in ((sheet[4], rows, "P(θ), from rows"), (sheet[5], fluid, "P(θ), from a fluid")):
         _angles(panel, runs, END, title)
     material.stamp(sheet[5], "peaks-end")
@@ -222,9 +210,7 @@ def taper(material: Material) -> Sheet:
     """Rods of 4.5 mm with and without a taper at 0.80: the last rods, and P(theta) of both."""
     tapered, plain = material.evidence["layers"].at(4.5, 0.80), material.evidence["taper"].at(4.5, 0.80)
     sheet = material.sheet(3, height=58)
-    for panel, runs, title in zip(sheet, (tapered, plain), ("tapered", "untapered")):
-        draw_rods(panel, runs, f"{title}, φ = 0.80", timed=False)
-    angle_bar(sheet, sheet.panels[:2])
+    draw_snapshots(sheet, [(tapered, "tapered, φ = 0.80"), (plain, "untapered, φ = 0.80")], timed=False)
     _angles(sheet[2], Runs([*tapered, *plain]), END, "P(θ)")
     material.stamp(sheet[2], "taper")
     return sheet
@@ -275,7 +261,6 @@ def fluctuations(material: Material) -> Sheet:
     scale = packing_scale(*(runs for runs, _ in material.both))
     for panel, (runs, title) in zip(sheet, material.both):
         panel.titles("mean number ⟨N⟩", "ΔN / √⟨N⟩", title).scale("log", "linear")
-        draw_curves(panel, runs, "/fluctuations/std_n", scale, y=lambda n, std: std / np.sqrt(n))
-        panel.range(y=(0, None))
+        draw_curves(panel, runs, "/fluctuations/std_n", scale, over=np.sqrt).range(y=(0, None))
     sheet.colourbar(scale)
     return sheet

@@ -12,7 +12,7 @@ from ..plots import names, style
 from ..plots.panel import Panel
 from ..plots.sheet import Sheet
 from ..run import Run, axes_of
-from .evidence import PACKING, Evidence, Runs
+from .evidence import PACKING, Evidence, Runs, points_of
 from .rules import Finding
 from .statements import STATEMENTS
 
@@ -56,12 +56,11 @@ def packing_scale(*sets: Runs) -> style.ColourScale | None:
 
 
 def draw_curves(panel: Panel, runs: Runs, array: str, scale: style.ColourScale | None, path: str = PACKING, *,
-                x: Callable[[NDArray[Any]], NDArray[Any]] = lambda x: x,
-                y: Callable[[NDArray[Any], NDArray[Any]], NDArray[Any]] = lambda x, y: y,
-                keep: Callable[[NDArray[Any], NDArray[Any]], NDArray[Any]] | None = None, labels: bool = False,
-                errors: bool = True, look: str = "line", title: str | None = None) -> Panel:
-    """An array against its axis, the mean over replicas, a curve for each value of a key. What `keep` leaves out within
-    it is a gap. With a title the axes have theirs, too."""
+                keep: Callable[[NDArray[Any], NDArray[Any]], NDArray[Any]] | None = None,
+                over: Callable[[NDArray[Any]], NDArray[Any]] = np.ones_like, labels: bool = False,
+                errors: bool = True, title: str | None = None) -> Panel:
+    """An array, divided by a function of its axis, against that, the mean over replicas, a curve for each value of a
+    key. What `keep` leaves out within it is a gap. With a title the axes have theirs, too."""
     if title is not None:
         panel.titles(names.axis_title(axes_of(array)[-1]), names.axis_title(array), title)
     for k, value in enumerate(runs.values(path)):
@@ -69,34 +68,34 @@ def draw_curves(panel: Panel, runs: Runs, array: str, scale: style.ColourScale |
         found = here.curve(array)
         if found is None:
             continue
-        xs, ys, es = found
-        factor = np.where(np.abs(ys) > 0, np.abs(y(xs, ys) / np.where(ys == 0, 1, ys)), 1.0)
-        shown = keep(xs, ys) if keep else np.ones(len(xs), dtype=bool)
+        x, y, error = found
+        shown = keep(x, y) if keep else np.ones(len(x), dtype=bool)
         if not shown.any():
             continue
         part = slice(np.argmax(shown), len(shown) - np.argmax(shown[::-1]))
-        panel.curve(x(xs)[part], np.where(shown, y(xs, ys), np.nan)[part], (es * factor)[part] if errors else None,
+        panel.curve(x[part], (np.where(shown, y, np.nan) / over(x))[part], (error / over(x))[part] if errors else None,
                     here.number("S").steady if "S" in here[0] else True,
                     label=names.value_label(path, value) if labels else "",
-                    colour=scale(value) if scale else k, look=look)
+                    colour=scale(value) if scale else k, look="line")
     return panel
 
 
 def draw_curve(panel: Panel, runs: Runs, array: str, label: str = "", colour: Any = None, look: str = "line",
-               seen: Callable[[NDArray[Any]], NDArray[Any]] | None = None, **more: Any) -> None:
+               seen: Callable[[NDArray[Any]], NDArray[Any]] | None = None, **more: Any) -> Panel:
     """An array against its axis, the mean over these runs, if one has it; `seen`: where its errors let it be seen."""
     found = runs.curve(array)
     if found is not None:
         x, y, error = found
         chosen: Any = seen(error) if seen else slice(None)
         panel.curve(x[chosen], y[chosen], error[chosen], label=label, colour=colour, look=look, **more)
+    return panel
 
 
 def draw_points(panel: Panel, points: Sequence[tuple[float, Estimate]], label: str = "", colour: Any = None,
-                **more: Any) -> None:
+                **more: Any) -> Panel:
     """Numbers against a key, with their errors; hollow where they are not known to be steady."""
-    panel.curve([at for at, _ in points], [e.value for _, e in points], [e.error for _, e in points],
-                [e.steady for _, e in points], label=label, colour=colour, look="points", **more)
+    return panel.curve([at for at, _ in points], [e.value for _, e in points], [e.error for _, e in points],
+                       [e.steady for _, e in points], label=label, colour=colour, look="points", **more)
 
 
 def labelled(runs: Runs, path: str) -> list[tuple[Runs, str]]:
@@ -104,12 +103,13 @@ def labelled(runs: Runs, path: str) -> list[tuple[Runs, str]]:
     return [(runs.where(path, value), names.value_label(path, value)) for value in runs.values(path)]
 
 
-def draw_against(panel: Panel, path: str, of: str | Callable[[Run], Estimate],
+def draw_against(panel: Panel, path: str, of: str | Callable[[Runs], Estimate],
                  series: Iterable[tuple[Runs, str]], title: str = "", y: str = "") -> Panel:
-    """A number of runs against a key, of several series, each with its label; y: its title in place of its name."""
+    """A number of the runs at each value of a key, of several series, each with its label; y: its title in place of its
+    name."""
     panel.titles(names.axis_title(path), y or names.axis_title(str(of)), title)
     for k, (runs, label) in enumerate(series):
-        draw_points(panel, runs.points(path, of), label, k)
+        draw_points(panel, runs.points(path, of) if isinstance(of, str) else points_of(runs, path, of), label, k)
     return panel
 
 
@@ -177,11 +177,11 @@ def _rim(width: float) -> list[Any]:
     return [patheffects.withStroke(linewidth=width, foreground="white")]
 
 
-def defects_of(snapshot: Snapshot, smoothing: float, cells: int | None = None) -> NDArray[Any]:
+def defects_of(snapshot: Snapshot, smoothing: float) -> NDArray[Any]:
     """(n, 3) x, y [mm] and charge (+-1/2) of the defects of the director field: exp(2i theta) of the rods, smoothed by
-    a Gaussian of width `smoothing` [mm] on a periodic grid of `cells` along x, turns by +-pi around them."""
+    a Gaussian of width `smoothing` [mm] on a periodic grid, turns by +-pi around them."""
     from scipy.ndimage import gaussian_filter
-    per_mm = (cells or max(8, int(snapshot.box[0] / smoothing * 4))) / snapshot.box[0]
+    per_mm = max(8, int(snapshot.box[0] / smoothing * 4)) / snapshot.box[0]
     n = np.rint(snapshot.box * per_mm).astype(int)
     at = np.minimum((snapshot.positions / snapshot.box * n).astype(int), n - 1)
     field = np.zeros(n, dtype=complex)
@@ -204,7 +204,11 @@ def _draw_defects(panel: Panel, snapshot: Snapshot, smoothing: float) -> None:
         panel.record(f"defects {label}", here[:, 0], here[:, 1])
 
 
-def angle_bar(sheet: Sheet, panels: Sequence[Panel]) -> None:
-    """The colours of rods, beside the panels that show some."""
-    bar = sheet.colourbar(angle_colours(), panels, "angle to the director (°)")
-    bar.set_ticks([-90, -45, 0, 45, 90])
+def draw_snapshots(sheet: Sheet, shown: Sequence[tuple[Sequence[Run], str]], **how: Any) -> None:
+    """The rods of several runs, each with its title, as draw_rods has them, in the first panels of a figure, and what
+    their colours mean."""
+    for panel, (runs, title) in zip(sheet, shown):
+        draw_rods(panel, runs, title, **how)
+    if panels := [panel for panel in sheet.panels[:len(shown)] if panel.is_used]:
+        bar = sheet.colourbar(angle_colours(), panels, "angle to the director (°)")
+        bar.set_ticks([-90, -45, 0, 45, 90])

@@ -159,7 +159,7 @@ class Finding:
     verdict: one of the words above
     found:   numbers with errors, in words
     why:     what is open, or where it does not hold
-    points:  (where, Estimate, n of runs) behind it
+    answers: to the questions that it asks
     """
 
     verdict: str = NO_DATA
