@@ -6,7 +6,7 @@ import re
 import socket
 import struct
 from dataclasses import dataclass
-from typing import Any, Callable, Iterator
+from typing import Any, BinaryIO, Callable, Iterator
 
 import numpy as np
 from numpy.typing import NDArray
@@ -117,12 +117,9 @@ _FRAME, _OBSERVABLES = 0x0D06D91756EFF7D0, 0x59B43E22B4B3C113
 def _decode_observables(data: bytes) -> LiveObservables:
     message = _Payload(data, _OBSERVABLES)
     message.numbers("qq")
-    job = message.text()
-    time, total, n_rods, order, mean, director, xy, z, n_z, energy, overlap = message.numbers("ddi8d")
-    rods, base, lid, rate, eta = message.numbers("qqqdd")
+    found = LiveObservables(message.text(), *message.numbers("ddi8d3q2d"))
     message.end()
-    return LiveObservables(job, time, total, n_rods, order, mean, director, xy, z, n_z, energy, overlap, rods, base,
-                           lid, rate, eta)
+    return found
 
 
 #: What is kept of frames that are not whole [bytes]: anybody may send some, and never the rest.
@@ -195,7 +192,8 @@ def live(job: str = "", relay: str = "127.0.0.1:7700", *, observables: bool = Fa
         channels = "SHAKEN_FRAME|SHAKEN_OBSERVABLES" if observables else "SHAKEN_FRAME"
         connection.sendall(struct.pack(">II", _CLIENT, _VERSION) +
                            struct.pack(">II", _SUBSCRIBE, len(channels)) + channels.encode())
-        if struct.unpack(">II", _exactly(connection, 8)) != (_SERVER, _VERSION):
+        stream = connection.makefile("rb")
+        if struct.unpack(">II", _exactly(stream, 8)) != (_SERVER, _VERSION):
             raise ShakenError(f"what answers at {relay} is no relay")
         connection.settimeout(timeout)
         frames = _FrameParts(job)
@@ -203,7 +201,7 @@ def live(job: str = "", relay: str = "127.0.0.1:7700", *, observables: bool = Fa
                                                      "SHAKEN_OBSERVABLES": _decode_observables}
         while True:
             try:
-                channel, payload = _message(connection)
+                channel, payload = _message(stream)
             except (TimeoutError, EOFError):
                 return
             try:
@@ -214,22 +212,19 @@ def live(job: str = "", relay: str = "127.0.0.1:7700", *, observables: bool = Fa
                 yield found
 
 
-def _message(connection: socket.socket) -> tuple[str, bytes]:
-    kind, length = struct.unpack(">II", _exactly(connection, 8))
+def _message(stream: BinaryIO) -> tuple[str, bytes]:
+    kind, length = struct.unpack(">II", _exactly(stream, 8))
     if kind != _PUBLISH or length > _LONGEST_CHANNEL:
         raise EOFError
-    channel = _exactly(connection, length).decode(errors="replace")
-    (length,) = struct.unpack(">I", _exactly(connection, 4))
+    channel = _exactly(stream, length).decode(errors="replace")
+    (length,) = struct.unpack(">I", _exactly(stream, 4))
     if length > _LONGEST_PAYLOAD:
         raise EOFError
-    return channel, _exactly(connection, length)
+    return channel, _exactly(stream, length)
 
 
-def _exactly(connection: socket.socket, n: int) -> bytes:
-    data = bytearray()
-    while len(data) < n:
-        piece = connection.recv(n - len(data))
-        if not piece:
-            raise EOFError
-        data += piece
-    return bytes(data)
+def _exactly(stream: BinaryIO, n: int) -> bytes:
+    data = stream.read(n)
+    if len(data) < n:
+        raise EOFError
+    return data

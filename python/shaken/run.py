@@ -157,26 +157,15 @@ class Arrays(Mapping[str, Array]):
         return f"<{len(self)} arrays: {', '.join(self._names)}>"
 
 
-class Numbers(Mapping[str, Estimate]):
+class Numbers(dict[str, Estimate]):
     """The numbers of a run by their names, as in summary.json: "S" (the mean order), "diffusion_mm2_s", ...
     Raises UnknownName for others."""
 
-    def __init__(self, numbers: dict[str, Estimate]) -> None:
-        self._numbers = numbers
-
-    def __getitem__(self, name: str) -> Estimate:
-        if name in self._numbers:
-            return self._numbers[name]
-        raise UnknownName(f"'{name}' was not measured", name, self._numbers, "the run has")
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._numbers)
-
-    def __len__(self) -> int:
-        return len(self._numbers)
+    def __missing__(self, name: str) -> Estimate:
+        raise UnknownName(f"'{name}' was not measured", name, self, "the run has")
 
     def __repr__(self) -> str:
-        return "\n".join(f"{name} = {estimate}" for name, estimate in self._numbers.items())
+        return "\n".join(f"{name} = {estimate}" for name, estimate in self.items())
 
 
 def numbers_of(summary: Mapping[str, Any]) -> Numbers:

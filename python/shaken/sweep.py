@@ -89,6 +89,10 @@ class Sweep:
             return self.column(k)
         return Sweep(self.points[k], self.name) if isinstance(k, slice) else self.points[k]
 
+    def _names(self) -> list[str]:
+        """Of the numbers that at least one point has."""
+        return list(dict.fromkeys(name for point in self.points for name in point.names()))
+
     @property
     def parameters(self) -> list[str]:
         """The swept keys that have more than one value."""
@@ -132,7 +136,7 @@ class Sweep:
     def column(self, name: str) -> list[Any]:
         """A number (Estimate) or a key of the scene at each point; an Estimate without a value where it is missing.
         Raises UnknownName for what no point has."""
-        measured = list(dict.fromkeys(known for point in self.points for known in point.names()))
+        measured = self._names()
         if name in measured:
             return [point[name] if name in point.names() else Estimate(reason="not measured") for point in self.points]
         try:
@@ -157,18 +161,14 @@ class Sweep:
 
     def records(self) -> list[dict[str, Any]]:
         """The same as a list of dicts, for which pandas is not needed."""
-        measured = list(dict.fromkeys(name for point in self.points for name in point.names()))
         several = len({point.version for point in self.points if point.runs}) > 1
         records = []
         for point in self.points:
             record: dict[str, Any] = {**point.parameters, **({"version": point.version} if several else {}),
                                       "n_done": len(point.runs), "n_replicas": point.n_replicas}
-            for name in measured:
-                if name not in point.names():
-                    continue
+            for name in filter(point.names().__contains__, self._names()):
                 estimate = point[name]
-                record.update({name: estimate.value, name + ":error": estimate.error,
-                               name + ":steady": estimate.steady})
+                record |= {name: estimate.value, name + ":error": estimate.error, name + ":steady": estimate.steady}
             records.append(record)
         return records
 
@@ -202,7 +202,7 @@ class Sweep:
         """The points that both sweeps have: (parameters, this, other, difference in standard errors). Raises
         ShakenError where one of them has a point of several versions (`where(version=...)` chooses), and UnknownName
         for a number that no point has."""
-        measured = dict.fromkeys(known for point in (*self, *other) for known in point.names())
+        measured = dict.fromkeys([*self._names(), *other._names()])
         if name not in measured:
             raise UnknownName(f"'{name}' was measured at no point", name, measured)
         ours, theirs = self._by_parameters(), other._by_parameters()
@@ -240,7 +240,7 @@ class Sweep:
                                   f"{self._differing(taken[place], point)}: choose one, as in sweep.where(...)")
         data = xarray.Dataset(coords={key: (key, axis, {"units": KEYS.get(key, {}).get("unit", "1")})
                                       for key, axis in zip(keys, axes)})
-        for name in dict.fromkeys(name for point in self for name in point.names()):
+        for name in self._names():
             found = {place: point[name] for place, point in taken.items() if name in point.names()}
             units = {"units": next(iter(found.values())).unit or ""}
             for end, part in (("", "value"), ("_error", "error")):
@@ -267,27 +267,21 @@ def _equal(a: Any, b: Any) -> bool:
 def grouped(runs: Iterable[tuple[Mapping[str, Any], Run | None]], name: str = "") -> Sweep:
     """Runs, each with the parameters of its point, put together: what different versions of the program or of the
     physics computed is never averaged, and a run counts once. None stands for one that is not done."""
-    parameters_of: dict[str, dict[str, Any]] = {}
-    by_version: dict[str, dict[tuple[str, int], dict[str, Run]]] = {}
-    waiting: dict[str, int] = {}
+    of_points: dict[str, tuple[Mapping[str, Any], list[Run | None]]] = {}
     for parameters, run in runs:
-        key = json.dumps(parameters, sort_keys=True)
-        parameters_of.setdefault(key, dict(parameters))
-        versions = by_version.setdefault(key, {})
-        if run is None:
-            waiting[key] = waiting.get(key, 0) + 1
-            continue
-        made_by = run.summary.get("versions") or {}
-        version = (str(made_by.get("shaken")), int(made_by.get("physics") or 0))
-        versions.setdefault(version, {}).setdefault(run.id or run.where, run)
+        of_points.setdefault(json.dumps(parameters, sort_keys=True), (parameters, []))[1].append(run)
     points: list[Point] = []
-    for key, versions in by_version.items():
-        newest = max(versions, default=None, key=newness)
-        if newest is None:
-            points.append(Point(parameters_of[key], [], waiting[key]))
-        for version, found in versions.items():
-            to_come = waiting.get(key, 0) if version == newest else 0
-            points.append(Point(parameters_of[key], list(found.values()), len(found) + to_come))
+    for parameters, found in of_points.values():
+        versions: dict[tuple[str, int], dict[str, Run]] = {}
+        for run in (run for run in found if run is not None):
+            made_by = run.summary.get("versions") or {}
+            version = (str(made_by.get("shaken")), int(made_by.get("physics") or 0))
+            versions.setdefault(version, {}).setdefault(run.id or run.where, run)
+        waiting, newest = sum(run is None for run in found), max(versions, default=None, key=newness)
+        points += [Point(parameters, list(done.values()), len(done) + (waiting if version == newest else 0))
+                   for version, done in versions.items()]
+        if not versions:
+            points.append(Point(parameters, [], waiting))
     return Sweep(points, name)
 
 

@@ -153,12 +153,9 @@ def read_run(directory: str | Path, parameters: Mapping[str, Any], state: str = 
     wanted = {name for one in OF_EVERY_SPECIES
               for name in (one.x, *one.ys, error_name(one.ys[0]), one.array(one.rows)) if name}
     wanted |= {species + name for species in ("", "/rods_2", "/rods_3") for name in maps.ARRAYS + maps.DENSITY}
-    arrays = {}
     try:
         with open_file(path) as file:
-            for name in wanted:
-                if name in file:
-                    arrays[name] = np.asarray(file[name][()], dtype=float).ravel()
+            arrays = {name: np.asarray(file[name][()], dtype=float).ravel() for name in wanted if name in file}
     except OSError:
         raise Unreadable(f"{path} is no file of HDF5, or is damaged") from None
     except ShakenError as problem:

@@ -170,12 +170,11 @@ class Sheet:
         return legend, extent.height / self.figure.dpi
 
     def _share(self) -> None:
-        used = [one for one in self.panels if one.is_used]
+        shown = [one.axes for one in self.panels if one.is_used and one.has_data]
         for name in ("x", "y"):
-            limits = [getattr(one.axes, f"get_{name}lim")() for one in used if one.has_data]
-            for one in used:
-                if limits and one.has_data:
-                    getattr(one.axes, f"set_{name}lim")(min(low for low, _ in limits), max(high for _, high in limits))
+            limits = [getattr(axes, f"get_{name}lim")() for axes in shown]
+            for axes in shown:
+                getattr(axes, f"set_{name}lim")(min(low for low, _ in limits), max(high for _, high in limits))
         for k, one in enumerate(self.panels):
             below = k + self.columns < len(self.panels) and self.panels[k + self.columns].is_used
             if k % self.columns:

@@ -1,7 +1,7 @@
 """Motion: how rods swim, diffuse and turn, and their defects."""
 import math
 from functools import partial
-from typing import Any
+from typing import Any, Callable
 
 import numpy as np
 
@@ -9,7 +9,7 @@ from ..estimate import Estimate
 from ..plots import names
 from ..plots.panel import Panel
 from ..plots.sheet import Sheet
-from ..run import Array, Run
+from ..run import Run
 from .beyond_paper import dense_diffusion, more_rods, parabola, swimming_defects
 from .evidence import FREQUENCY, LENGTH, PACKING, Evidence, Runs, number_of, place_on, points_of
 from .late_lags import long_time_diffusion
@@ -72,23 +72,19 @@ def paths(material: Material) -> Sheet:
     return sheet
 
 
-def _half_slope(curve: Array, low: float, high: float, steady: bool | None) -> Estimate:
-    """Half of what a mean square rises by from one lag to another, over the time between: D in one direction."""
-    t, values, errors = np.asarray(curve.axis), np.asarray(curve), np.asarray(curve.error)
-    first, last = place_on(t, low), place_on(t, high)
-    if first is None or last is None or first == last:
-        return Estimate(reason="no short lags")
-    dt = t[last] - t[first]
-    return Estimate((values[last] - values[first]) / (2 * dt),
-                    float(np.hypot(errors[first], errors[last])) / (2 * dt), steady)
-
-
-def _short_limit(direction: str) -> Any:
-    """D in one direction over the lags that are short for the run: those of D at short lags in the plane."""
+def _short_limit(name: str, kind: str, like: str) -> Callable[[Run], Estimate]:
+    """Half of what a mean square rises by over the lags that are short for the run, over the time between: D in one
+    direction. These are the lags of the short limit of this kind, "diffusion" or "rotation"; `like`: a number that is
+    as steady."""
     def of(run: Run) -> Estimate:
-        name = f"/msd/{direction}_mm2"
-        low, high = (number_of(run, f"diffusion_short_lag_{end}_s").value for end in ("from", "to"))
-        return _half_slope(run[name], low, high, number_of(run, "diffusion_mm2_s").steady)
+        curve = run[name]
+        t, values, errors = np.asarray(curve.axis), np.asarray(curve), np.asarray(curve.error)
+        first, last = (place_on(t, number_of(run, f"{kind}_short_lag_{end}_s").value) for end in ("from", "to"))
+        if first is None or last is None or first == last:
+            return Estimate(reason="no short lags")
+        twice = 2 * (t[last] - t[first])
+        return Estimate((values[last] - values[first]) / twice,
+                        float(np.hypot(errors[first], errors[last])) / twice, number_of(run, like).steady)
 
     return of
 
@@ -117,8 +113,10 @@ def diffusion(material: Material) -> Sheet:
     sheet = material.sheet(6, columns=2, height=50)
     rows: tuple[tuple[Runs, str, str, Any, tuple[str, ...]], ...] = (
         (short, "total", "ℓ = 2.5 mm, in the plane", "diffusion_short_mm2_s", ("diffusion-law",)),
-        (long_, "along", "ℓ = 4.5 mm, along the director", _short_limit("along"), ("diffusion-along",)),
-        (long_, "across", "ℓ = 4.5 mm, across", _short_limit("across"), ("diffusion-across",)))
+        (long_, "along", "ℓ = 4.5 mm, along the director",
+         _short_limit("/msd/along_mm2", "diffusion", "diffusion_mm2_s"), ("diffusion-along",)),
+        (long_, "across", "ℓ = 4.5 mm, across",
+         _short_limit("/msd/across_mm2", "diffusion", "diffusion_mm2_s"), ("diffusion-across",)))
     for k, (runs, direction, title, short_limit, statements) in enumerate(rows):
         draw_curves(sheet[2 * k].scale("log", "log"), runs, f"/msd/{direction}_mm2", scale, title=title)
         panel = sheet[2 * k + 1].titles(names.axis_title(PACKING), "D (mm²/s)", title)
@@ -193,13 +191,9 @@ def rotation(material: Material) -> Sheet:
         draw_curves(panel.scale("log", "log"), runs, "/rotation/msad_rad2", scale, title=title)
         material.stamp(panel, *statement)
     sheet.colourbar(scale, sheet.panels[:2])
-
-    def short_limit(run: Run) -> Estimate:
-        low, high = (number_of(run, f"rotation_short_lag_{end}_s").value for end in ("from", "to"))
-        return _half_slope(run["/rotation/msad_rad2"], low, high, number_of(run, "S").steady)
-
     panel = sheet[2].titles(names.axis_title(PACKING), names.axis_title("rotational_diffusion_rad2_s"), "ℓ = 2.5 mm")
-    draw_points(panel.scale(y="log"), short.points(PACKING, short_limit), "t → 0", 0)
+    draw_points(panel.scale(y="log"), short.points(PACKING, _short_limit("/rotation/msad_rad2", "rotation", "S")),
+                "t → 0", 0)
     draw_points(panel, short.points(PACKING, "rotational_diffusion_rad2_s"), "t → ∞", 1)
     material.stamp(panel, "rotation")
     draw_against(sheet[3], PACKING, "alpha_rotation_short", [(short, "")], "ℓ = 2.5 mm",

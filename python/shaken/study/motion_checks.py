@@ -8,7 +8,7 @@ import numpy as np
 from ..estimate import Estimate
 from ..run import Run
 from . import late_lags
-from .evidence import LENGTH, PACKING, SIDE, Evidence, Runs, key_of, mean_of_places, number_of, points_of
+from .evidence import PACKING, SIDE, Evidence, Runs, key_of, mean_of_places, number_of, points_of
 from .late_lags import long_time_diffusion
 from .rules import (NO, YES, Answer, Finding, above, below, close_to, conclude, doubt, larger, listed, needed, text,
                    trend, unknown)

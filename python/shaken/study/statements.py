@@ -39,10 +39,9 @@ class Basis:
     def of(taken: Iterable[Read]) -> "Basis":
         taken = list(taken)
         runs = [run for read in taken for run in read.runs]
-        boxes = sorted({box_of(run) for run in runs}, key=math.prod)
         named = {box_of(run): box_text(run) for run in runs}
         return Basis(_ends(read.number.n_eff for read in taken if math.isfinite(read.number.n_eff)),
-                     _ends(len(read.runs) for read in taken), tuple(named[box] for box in _ends_of_list(boxes)),
+                     _ends(len(read.runs) for read in taken), tuple(named[box] for box in _ends(named, math.prod)),
                      _ends(run.summary["sim_seconds"] for run in runs))
 
     def cells(self) -> list[str]:
@@ -51,12 +50,9 @@ class Basis:
                 _range((f"{t:.0f} s" for t in self.seconds), " s")]
 
 
-def _ends(values: Iterable[Any]) -> tuple[Any, ...]:
-    return _ends_of_list(sorted(set(values)))
-
-
-def _ends_of_list(values: list[Any]) -> tuple[Any, ...]:
-    return (values[0], values[-1]) if len(values) > 1 else tuple(values)
+def _ends(values: Iterable[Any], size: Callable[[Any], Any] | None = None) -> tuple[Any, ...]:
+    found = sorted(set(values), key=size)
+    return (found[0], found[-1]) if len(found) > 1 else tuple(found)
 
 
 def _range(words: Iterable[str], unit: str = "") -> str:
