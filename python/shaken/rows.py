@@ -4,7 +4,7 @@ import math
 import re
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Iterable, Mapping, Protocol, Sequence
+from typing import Any, Iterable, Mapping, Sequence
 
 from .catalogue import KEYS
 from .daemon import Daemon, quoted
@@ -180,18 +180,11 @@ def short_name(name: str) -> str:
     return found[1] if found else name
 
 
-class _Point(Protocol):
-    """A row, or what else has parameters."""
-
-    @property
-    def parameters(self) -> Mapping[str, Any]: ...
-
-
-def swept(rows: Iterable[_Point]) -> list[str]:
-    """Parameters that differ between rows."""
+def swept(points: Iterable[Mapping[str, Any]]) -> list[str]:
+    """The keys in which the parameters of points differ."""
     values: dict[str, set[str]] = {}
-    for row in rows:
-        for path, value in row.parameters.items():
+    for parameters in points:
+        for path, value in parameters.items():
             values.setdefault(path, set()).add(json.dumps(value))
     return [path for path, found in values.items() if len(found) > 1]
 
@@ -200,7 +193,7 @@ def axes_of(rows: Sequence[Row]) -> list[str]:
     """The axes of a diagram of a sweep: the first two swept keys that are numbers, of which the second is more than
     another name of the first, as the number of rods is of their length. Raises ShakenError where there is none."""
     axes: list[str] = []
-    for path in swept(rows):
+    for path in swept(row.parameters for row in rows):
         values = [tuple(row.number(name) for name in (*axes[:1], path)) for row in rows]
         if all(map(math.isfinite, (value[-1] for value in values))) and (
                 not axes or len(set(values)) > len({first for first, _ in values})):

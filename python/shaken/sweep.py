@@ -96,7 +96,7 @@ class Sweep:
     @property
     def parameters(self) -> list[str]:
         """The swept keys that have more than one value."""
-        return swept(self.points)
+        return swept(point.parameters for point in self.points)
 
     def where(self, **conditions: Any) -> "Sweep":
         """The points whose keys have these values: `sweep.where(**{"rods.length": 4.5})`, or with a part of the name

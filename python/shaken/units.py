@@ -45,11 +45,8 @@ def unit_of(name: str) -> str:
     words = split_unit(_OF_VALUE.sub("", name.rsplit("/", 1)[-1]))[1].split("_")
     per = words[0] == "per"
     units = [(match[1], int(match[2] or 1)) for word in words if (match := _UNIT.match(word))]
-    return " ".join(_power(unit, -power if per or k > 0 else power) for k, (unit, power) in enumerate(units)) or "1"
-
-
-def _power(unit: str, power: int) -> str:
-    return unit if power == 1 else f"{unit}{power}"
+    powers = [(unit, -power if per or k > 0 else power) for k, (unit, power) in enumerate(units)]
+    return " ".join(unit if power == 1 else f"{unit}{power}" for unit, power in powers) or "1"
 
 
 #: Times of people and of their computers, too.

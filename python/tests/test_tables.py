@@ -329,7 +329,7 @@ def test_measured_numbers_go_by_their_names():
     for slip, hint in (("theta_m", "theta_m_deg"), ("tehta_m_deg", "theta_m_deg"), ("order.maen", "order.mean")):
         with pytest.raises(ShakenError, match=f"did you mean {hint}?"):
             rows.resolved(made, slip)
-    assert rows.swept([rows.Row({"rods.length": length, "box.gap": 1.2}, "", {}) for length in (2.5, 3.5)]) == [
+    assert rows.swept({"rods.length": length, "box.gap": 1.2} for length in (2.5, 3.5)) == [
         "rods.length"]
 
 

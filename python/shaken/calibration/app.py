@@ -15,7 +15,6 @@ from .rods import Level, Measuring, NotDiffusive, Species, Unmet
 from .search import Calibrated, noise_for
 
 
-
 def parser() -> argparse.ArgumentParser:
     """The options that client/verbs/calibrate.cpp hands on, where they are described."""
     found = Options()
@@ -91,17 +90,13 @@ def calibrated(one: Species, options: argparse.Namespace) -> tuple[list[Calibrat
     return found, sorted(measuring.levels.values(), key=lambda level: level.noise), refused
 
 
-def key_of(one: Species, found: Calibrated) -> str:
-    return f"{one.key} = {found.noise:g} rad/mm"
-
-
 def table(rows: Sequence[tuple[Species, Calibrated]]) -> str:
     """Of every species and wanted D_r the noise, D_r as measured with it and without noise, and the key to set."""
     lines = []
     for one, found in rows:
         digits = max(0, 1 - math.floor(math.log10(found.error))) if found.error > 0 else 4
         lines.append([one.name, f"{found.wanted:g}", number(found.level), number(found.own) if found.own else "-",
-                      f"{found.noise:g} ± {found.error:.{digits}f}", key_of(one, found)])
+                      f"{found.noise:g} ± {found.error:.{digits}f}", f"{one.key} = {found.noise:g} rad/mm"])
     titles = ("SPECIES", "WANTED rad^2/s", "D_r rad^2/s", "WITHOUT NOISE", "NOISE rad/mm", "KEY")
     return texts.table([texts.Column(title, list(cells)) for title, cells in zip(titles, zip(*lines))], 0)[0]
 

@@ -6,7 +6,6 @@ through long lags has the slope 2 D_r and meets zero at the lag tau.
 """
 import math
 from dataclasses import dataclass
-
 from typing import Any
 
 import numpy as np

@@ -150,14 +150,17 @@ class Panel:
                           markeredgecolor=colour, zorder=2.6)
                 if face == "white":
                     self.explained.add(HOLLOW)
-        if errors is not None:
-            self._cross_out(x, y, np.flatnonzero(np.isfinite(x) & np.isfinite(y) & ~np.isfinite(errors)), colour)
+        self._cross_out(x, y, errors, colour)
         self._reach.append((x, low, high, True))
         self._outlines.append((x, y, joined))
 
-    def _cross_out(self, x: NDArray[Any], y: NDArray[Any], which: NDArray[Any], colour: Any) -> None:
-        """Crosses over points whose error is not known."""
+    def _cross_out(self, x: NDArray[Any], y: NDArray[Any], errors: NDArray[Any] | None, colour: Any,
+                   is_line: bool = False) -> None:
+        """Crosses over points whose error is not known, a few of a line."""
+        which = np.flatnonzero(np.isfinite(x) & np.isfinite(y) & ~np.isfinite(y if errors is None else errors))
         if which.size:
+            if is_line:
+                which = which[np.unique(np.linspace(0, which.size, 6)[:-1].astype(int))]
             self.axes.plot(x[which], y[which], linestyle="none", marker="x", markersize=5.5, markeredgewidth=0.7,
                            color=colour, zorder=2.7)
             self.explained.add(NO_ERROR)
@@ -170,10 +173,7 @@ class Panel:
             self.axes.fill_between(x, low, high, color=colour, alpha=0.25, linewidth=0, zorder=2.0)
             self.explained.add("bands")
             self._outlines += [(x, low, True), (x, high, True)]
-        if errors is not None:  # a few crosses say it of a line
-            unknown = np.flatnonzero(np.isfinite(x) & np.isfinite(y) & ~np.isfinite(errors))
-            self._cross_out(x, y, unknown[np.unique(np.linspace(0, unknown.size, 6)[:-1].astype(int))]
-                            if unknown.size else unknown, colour)
+        self._cross_out(x, y, errors, colour, is_line=True)
         unsure = not np.all(sure[np.isfinite(y)])
         self._lines += self.axes.plot(x, y, linestyle=_FINE_DASHES if unsure else "-", color=colour, zorder=2.4,
                                       linewidth=0.9 if y.size < 400 else 0.7)
@@ -226,8 +226,7 @@ class Panel:
                           zorder=2.2)
             self.explained.add("bars")
         axes.plot(values[shown], places[shown], linestyle="none", marker=MARKERS[colour], color=paint, zorder=2.6)
-        if error is not None:
-            self._cross_out(values, places, np.flatnonzero(shown & ~np.isfinite(np.asarray(error, dtype=float))), paint)
+        self._cross_out(values, places, None if error is None else np.asarray(error, dtype=float), paint)
         for k in np.flatnonzero(shown):
             self.drawn.append(Drawn(self.letter, f"{label}: {categories[k]}" if label else categories[k],
                                     values[k:k + 1], places[k:k + 1], None if error is None else errors[k:k + 1]))

@@ -54,11 +54,8 @@ class Arrangement:
 
     def _key_of_colours(self, swept: Sequence[str]) -> str:
         """The key with the most values among those that are numbers, or among all."""
-        def count(key: str) -> int:
-            return len({_text(point.get(key)) for point in self.points})
-
         numeric = [key for key in swept if all(np.isfinite(leading_number(point.get(key))) for point in self.points)]
-        return max(numeric or swept, key=count)
+        return max(numeric or swept, key=lambda key: len({_text(point.get(key)) for point in self.points}))
 
     def _colour_by(self, key: str) -> None:
         values = [point.get(key) for point in self.points]

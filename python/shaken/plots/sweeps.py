@@ -11,7 +11,6 @@ from . import names, style
 from .series import VERSION, WAY, Arrangement, label_of
 from .sheet import Sheet
 
-
 #: The parameter that numbers the runs of a protocol, from 1.
 STAGE = "stage"
 _OF_COURSE = {STAGE, "time.steady", "time.measure"}

@@ -4,7 +4,7 @@ import json
 import math
 from collections import Counter
 from contextvars import ContextVar
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, Callable, Iterable, Iterator, Sequence
 
 import numpy as np
@@ -72,14 +72,8 @@ def _hardly_drifts(order: Estimate) -> bool | None:
     return True if abs(order.drift) + 2 * order.drift_error < SMALL_DRIFT else None
 
 
-@dataclass(frozen=True)
-class Read:
-    """A number that was taken from some runs."""
-
-    runs: "Runs"
-    number: Estimate
-
-
+#: Some runs, and a number that was taken from them.
+Read = tuple["Runs", Estimate]
 _reads: ContextVar[list[Read] | None] = ContextVar("_reads", default=None)
 
 
@@ -164,7 +158,7 @@ class Runs(list[Run]):
         found = mean([_measured(value, run) for run in self])
         noted = _reads.get()
         if noted is not None and found.is_known:
-            noted.append(Read(self, found))
+            noted.append((self, found))
         if found.is_known and found.steady is not True and not math.isfinite(found.drift):
             order = mean([run.numbers.get("S", Estimate()) for run in self])
             if math.isfinite(order.drift_error):

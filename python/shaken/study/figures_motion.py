@@ -285,7 +285,7 @@ def accuracy(material: Material) -> Sheet:
         x, ratios, errors, sigmas = [], [], [], []
         for place, (set_name, controls) in enumerate(sorted(material.evidence.controls.items())):
             for control in controls:
-                twin = _twins(material.evidence[set_name], control)
+                twin = Runs(run for run in material.evidence[set_name] if scene_of(run) == scene_of(control))
                 a, b = twin.number(name), number_of(control, name)
                 if not (twin and a.is_known and b.is_known and a.value):
                     continue
@@ -304,8 +304,3 @@ def accuracy(material: Material) -> Sheet:
     panel.reference(y=1)
     other.reference(y=-2).reference(y=2)
     return sheet
-
-
-def _twins(runs: Runs, control: Run) -> Runs:
-    """The runs at the state point of a control."""
-    return Runs(run for run in runs if scene_of(run) == scene_of(control))

@@ -56,23 +56,19 @@ def _cuts(panel: Panel, runs: Runs, name: str, title: str, level: float) -> None
 
 def g2_map(material: Material) -> Sheet:
     """6: G2 along and across the director, in disorder, in the nematic, and with layers."""
-    return _maps_and_cuts(material, "g2", {0.45: ("isotropic",), 0.75: ("anisotropy",), 0.85: ("g2-oscillates",)}, 0.0)
-
-
-def _maps_and_cuts(material: Material, name: str, stamps: dict[float, tuple[str, ...]], level: float) -> Sheet:
-    sets = {0.45: material.evidence["dilute"], 0.75: material.evidence["layers"], 0.85: material.evidence["layers"]}
-    chosen = [(sets[packing].at(packing=packing), packing) for packing in stamps]
+    chosen = [(material.evidence[name].at(packing=packing), packing, statement) for name, packing, statement in (
+        ("dilute", 0.45, "isotropic"), ("layers", 0.75, "anisotropy"), ("layers", 0.85, "g2-oscillates"))]
     n = len(chosen)
     sheet = material.sheet(2 * n, columns=n)
     # where the page is narrow there are two panels a row, and a map lies beside its cuts
     narrow = sheet.columns < n
     upper = [sheet[2 * k] if narrow else sheet[k] for k in range(n)]
     lower = [sheet[2 * k + 1] if narrow else sheet[n + k] for k in range(n)]
-    _maps(sheet, upper, [(runs, f"φ = {packing:g}") for runs, packing in chosen], f"/pairs/{name}")
-    for panel, (runs, packing) in zip(lower, chosen):
+    _maps(sheet, upper, [(runs, f"φ = {packing:g}") for runs, packing, _ in chosen], "/pairs/g2")
+    for panel, (runs, packing, statement) in zip(lower, chosen):
         if runs:
-            _cuts(panel, runs, name, f"cuts, φ = {packing:g}", level)
-            material.stamp(panel, *stamps[packing])
+            _cuts(panel, runs, "g2", f"cuts, φ = {packing:g}", 0.0)
+            material.stamp(panel, statement)
     return sheet
 
 

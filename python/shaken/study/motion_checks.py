@@ -1,6 +1,5 @@
 """Swimming, diffusion, rotation, correlations in time, defects."""
 import math
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -42,21 +41,17 @@ def long_rods(evidence: Evidence) -> Runs:
     return Runs([*followed, *(run for run in others if key_of(run, PACKING) not in followed.values(PACKING))])
 
 
-def speed_between(run: Run, low: float, high: float) -> Estimate:
-    """Weighted mean of v along the rod [mm/s] over tilts from `low` to `high`, both hands taken together."""
+def beyond_reversal(run: Run) -> Estimate:
+    """Weighted mean of v along the rod [mm/s] over tilts beyond 0.31, both hands taken together: above 0 where it is
+    reversed, as the paper draws it."""
     v = run["/tilt/folded/v_along_mm_s"]
     n_z, errors = np.asarray(v.axis), np.asarray(v.error)
-    good = (n_z >= low) & (n_z <= high) & (errors > 0) & np.isfinite(v)
+    good = (n_z >= 0.31) & (n_z <= 0.40) & (errors > 0) & np.isfinite(v)
     if not good.any():
         return Estimate(reason="no rod tilts so far")
     weights = 1 / errors[good]**2
     return Estimate(float((np.asarray(v)[good] * weights).sum() / weights.sum()), float(weights.sum()**-0.5),
                     number_of(run, "tilt_fastest_mm_s").steady)
-
-
-def beyond_reversal(run: Run) -> Estimate:
-    """Mean velocity along the rod at tilts beyond 0.31 [mm/s]: above 0 where it is reversed, as the paper draws it."""
-    return speed_between(run, 0.31, 0.40)
 
 
 @states("tilt", "10", "Rods swim against their tilt, fastest near n_z = ±0.2")

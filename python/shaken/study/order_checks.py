@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.signal import find_peaks
 
 from ..estimate import Estimate
 from ..run import Run
@@ -211,19 +212,7 @@ def n_peaks(density: NDArray[Any]) -> int:
     if not len(density):
         return 0
     smooth = np.convolve(density, np.ones(5) / 5, mode="same")
-    step = smooth.max() / 3
-    peaks, low, high, climbing = 0, 0.0, 0.0, True
-    for value in np.append(smooth, 0.0):
-        if climbing:
-            high = max(high, value)
-            if value < high - step:
-                peaks += high - low >= step
-                climbing, low = False, value
-        else:
-            low = min(low, value)
-            if value > low + step:
-                climbing, high = True, value
-    return peaks
+    return len(find_peaks(np.pad(smooth, 1), prominence=smooth.max() / 3)[0])
 
 
 @states("unimodal", "4", "P[S] has one peak at every packing (ℓ = 4.5 mm)",

@@ -5,7 +5,6 @@ they lose their momentum within tau = v / (g sin(alpha)), and their mobility is 
 of mass of N rods wandering with a diffusion constant D_c. In equilibrium Einstein's relation has N D_c m / tau = T.
 """
 import math
-
 from typing import Any
 
 import numpy as np

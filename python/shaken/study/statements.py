@@ -38,10 +38,10 @@ class Basis:
     @staticmethod
     def of(taken: Iterable[Read]) -> "Basis":
         taken = list(taken)
-        runs = [run for read in taken for run in read.runs]
+        runs = [run for read, _ in taken for run in read]
         named = {box_of(run): box_text(run) for run in runs}
-        return Basis(_ends(read.number.n_eff for read in taken if math.isfinite(read.number.n_eff)),
-                     _ends(len(read.runs) for read in taken), tuple(named[box] for box in _ends(named, math.prod)),
+        return Basis(_ends(number.n_eff for _, number in taken if math.isfinite(number.n_eff)),
+                     _ends(len(read) for read, _ in taken), tuple(named[box] for box in _ends(named, math.prod)),
                      _ends(run.summary["sim_seconds"] for run in runs))
 
     def cells(self) -> list[str]:

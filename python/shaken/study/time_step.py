@@ -13,8 +13,6 @@ from .evidence import BEADS, END, FREQUENCY, GAMMA, GAP, LENGTH, PACKING, SIDE, 
 from .rules import judged_error, markdown, text
 
 _SCENE = (LENGTH, PACKING, SIDE, END, GAP, GAMMA, FREQUENCY, BEADS, "plates.inclination")
-
-
 _WHERE = ("ℓ", "φ", "box", "gap", "Γ", "runs")
 
 

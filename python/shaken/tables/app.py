@@ -4,6 +4,7 @@ python3 -m shaken.tables results|plot|export|pack|unpack|fields|inset OPTION...
 The options of users are described where the client declares them (client/verbs/results.cpp and so on). Names for the
 shell and the inset of pictures have no help."""
 import argparse
+import importlib
 from typing import Sequence
 
 from ..errors import Failed, ShakenError
@@ -31,22 +32,17 @@ def _options(words: Sequence[str]) -> argparse.Namespace:
     return options
 
 
+#: What works for each verb: the module, and what it needs that not everybody has.
+_WORK = {"plot": ("plot", "matplotlib", "numpy", "h5py"), "export": ("export", "numpy", "h5py"),
+         **dict.fromkeys(("pack", "unpack"), ("pack", "numpy", "h5py")),
+         **dict.fromkeys(("results", "fields", "inset"), ("results",))}
+
+
 def _run(verb: str, options: argparse.Namespace) -> None:
-    if verb == "plot":
-        if missing := not_installed("matplotlib", "numpy", "h5py"):
-            raise ShakenError(missing)
-        from .plot import plot
-        plot(options)
-        return
-    if verb in ("export", "pack", "unpack"):
-        if missing := not_installed("numpy", "h5py"):
-            raise ShakenError(missing)
-        from . import export, pack
-        getattr(export if verb == "export" else pack, verb)(options)
-        return
-    from . import results
-    verbs = {"results": results.results, "fields": results.fields, "inset": results.inset}
-    verbs[verb](options)
+    module, *needed = _WORK[verb]
+    if missing := not_installed(*needed):
+        raise ShakenError(missing)
+    getattr(importlib.import_module(f".{module}", __package__), verb)(options)
 
 
 def main(words: Sequence[str]) -> int:

@@ -46,7 +46,7 @@ def _shown(rows: Sequence[Row], aggregate: bool) -> list[tuple[str, str, int]]:
     found: list[tuple[str, str, int]] = []
     if not aggregate:
         found = [("JOB", "job", 0), ("STATE", "state", 3 if all(row.state == "done" for row in rows) else 0)]
-    found += [(path, path, 0) for path in swept(rows)]
+    found += [(path, path, 0) for path in swept(row.parameters for row in rows)]
     if has_several_versions(rows):
         found += [("SHAKEN", "versions.shaken", 0), ("PHYSICS", "versions.physics", 0)]
     if any(row.number("replica") > 1 for row in rows):
