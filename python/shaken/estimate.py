@@ -121,7 +121,7 @@ class Estimate:
         return derived(ratio, [(1 / divisor.value, self), (-ratio / divisor.value, divisor)], unit)
 
     def __rtruediv__(self, dividend: float) -> "Estimate":
-        return Estimate(dividend, 0.0, True, drift=0.0, drift_error=0.0) / self
+        return exactly(dividend) / self
 
     def __str__(self) -> str:
         if not self.is_known:

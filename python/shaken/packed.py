@@ -53,8 +53,11 @@ def unpack(file: str | Path, folder: str | Path) -> list[Path]:
     with tempfile.TemporaryDirectory(prefix=".unpacked-", dir=place) as beside:
         names = _extracted(file, Path(beside))
         for name in names:
-            _check(file, Path(beside, name))
+            if DirectoryRun(Path(beside, name)).id != name:
+                raise ShakenError(f"{file}: what is called {name} is another run")
             for path in Path(beside, name).iterdir():
+                if path.suffix == ".h5":
+                    open_file(path).close()
                 there = place / name / path.name
                 if there.exists() and not filecmp.cmp(there, path, shallow=False):
                     raise ShakenError(f"{there} is there, and is another file: unpack into another folder")
@@ -86,10 +89,3 @@ def _extracted(file: str | Path, folder: Path) -> list[str]:
     if not names:
         raise ShakenError(f"{file} has no runs")
     return list(names)
-
-
-def _check(file: str | Path, directory: Path) -> None:
-    if DirectoryRun(directory).id != directory.name:
-        raise ShakenError(f"{file}: what is called {directory.name} is another run")
-    for path in directory.glob("*.h5"):
-        open_file(path).close()

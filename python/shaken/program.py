@@ -10,7 +10,6 @@ from .errors import ShakenError
 from .text import json_text, printable
 
 OK, FAILED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
-_DEBIAN = {name: f"python3-{name}" for name in ("matplotlib", "numpy", "h5py", "scipy")}
 _Words = TypeVar("_Words")
 
 
@@ -18,7 +17,7 @@ def not_installed(*modules: str) -> str:
     """In words which of these modules are not installed, and how they are; "" where all are."""
     missing = [name for name in modules if importlib.util.find_spec(name) is None]
     return (f"{' and '.join(missing)} of {sys.executable} {'are' if len(missing) > 1 else 'is'} not installed: "
-            f"`apt install {' '.join(_DEBIAN[name] for name in missing)}`") if missing else ""
+            f"`apt install {' '.join(f'python3-{name}' for name in missing)}`") if missing else ""
 
 
 class Options(argparse.ArgumentParser):

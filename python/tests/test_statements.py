@@ -765,7 +765,7 @@ def test_the_power_of_size_is_read_three_ways(x):
 def test_what_chose_the_model_is_not_counted_and_what_could_hardly_fail_is_named():
     verdicts = judged(Evidence(swim() + runs("long-rods", 0.75, S=0.91)), [CHECKS[name] for name in (
         "ordered", "tilt", "reversal", "sideways", "memory")])
-    assert " ".join(report._tally(verdicts).split()) == (
+    assert " ".join(report.tally(verdicts).split()) == (
         "Of the paper's 5 statements 1 was used to choose the model; of the other 4, 3 agree (1 of them could hardly "
         "fail) and 1 has no runs yet.")
     assert [v.words for v in verdicts[2:4]] == ["agrees (used for calibration)", "agrees (could hardly fail)"]
@@ -825,10 +825,10 @@ def test_a_verdict_tells_the_samples_seeds_boxes_and_times_that_it_stands_on():
     runs("layers", 0.80)], ids=["in the paper's box", "without a run of its own"])
 def test_the_phase_diagram_is_drawn_in_the_box_that_most_runs_have(evidence):
     evidence = Evidence(evidence)
-    sheet = figures_order.order(Material(evidence, 183.0))
+    sheet = figures_order.order.draw(Material(evidence, 183.0))
     assert {run.key("box.side") for run in order_checks.phase_diagram(evidence)} <= {83.73}
     assert sheet[1].has_picture == bool(order_checks.phase_diagram(evidence))
-    melting = figures_motion.melting(Material(evidence, 183.0))
+    melting = figures_motion.melting.draw(Material(evidence, 183.0))
     assert bool(melting[0].drawn) == bool(order_checks.phase_diagram(evidence))
 
 

@@ -1,7 +1,6 @@
 """The look of all figures: sizes, fonts, colours."""
-import contextlib
 import functools
-from typing import TYPE_CHECKING, Any, Callable, Iterator, Sequence
+from typing import TYPE_CHECKING, Any, Callable, Sequence
 
 import matplotlib
 
@@ -36,15 +35,6 @@ _RC: dict[str, Any] = {
 }
 
 
-@contextlib.contextmanager
-def context() -> Iterator[None]:
-    """matplotlib's settings are those of Shaken's figures inside, and are what they were behind."""
-    with matplotlib.rc_context():
-        matplotlib.rcParams.update(matplotlib.rcParamsDefault)
-        matplotlib.rcParams.update(_RC)
-        yield
-
-
 _inside = False
 
 
@@ -57,7 +47,7 @@ def styled(function: Callable[..., Any]) -> Callable[..., Any]:
             return function(*arguments, **options)
         _inside = True
         try:
-            with context():
+            with matplotlib.rc_context({**matplotlib.rcParamsDefault, **_RC}):  # and then what they were
                 return function(*arguments, **options)
         finally:
             _inside = False

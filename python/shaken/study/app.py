@@ -14,8 +14,9 @@ from ..plots.style import inches
 from ..program import BAD_INPUT, FAILED, OK, Options, failed, run
 from ..units import seconds
 from . import running
-from .figures import FIGURES, Figure, chosen, draw
+from .figures import FIGURES, chosen, draw
 from .evidence import Evidence
+from .material import Figure
 from .report import tally, write_report
 from .sets import ORDER, SCALES, sweeps
 from .statements import as_json, as_table, judged, of_figures
@@ -196,7 +197,7 @@ def _draw(options: argparse.Namespace, figures: list[Figure], evidence: Evidence
     else:
         print("\n".join(map(str, [*made, out / "statements.md"])))
         if not options.figures:
-            print(tally(evidence), end="")
+            print(tally(found), end="")
 
 
 def _list(figures: list[Figure], options: argparse.Namespace) -> int:

@@ -13,15 +13,16 @@ from ..run import Run
 from .beyond_paper import dense_diffusion, more_rods, parabola, swimming_defects
 from .evidence import FREQUENCY, LENGTH, PACKING, Evidence, Runs, number_of, place_on, points_of
 from .late_lags import long_time_diffusion
-from .material import Material, draw_against, draw_curve, draw_curves, draw_points, draw_snapshots, packing_scale
+from .material import Material, draw_against, draw_curve, draw_curves, draw_points, draw_snapshots, packing_scale, shows
 from .motion_checks import (FREE_OF_THE_WINDOW, VELOCITY_WINDOW, beyond_reversal, late_c2, late_velocity_correlation,
                             long_rods, papers_diffusion, short_rods)
 from .order_checks import phase_diagram
 from .time_step import scene_of
 
 
+@shows("10", "mechanism")
 def tilt(material: Material) -> Sheet:
-    """10: velocity along and across the rod against its tilt, how often a tilt occurs, and the tilt of one rod."""
+    """How a rod swims: velocity against tilt"""
     runs = material.evidence["mechanism"]
     first = runs.at(packing=0.60)
     sheet = material.sheet(4, columns=2, height=52)
@@ -50,8 +51,10 @@ def tilt(material: Material) -> Sheet:
     return sheet
 
 
+@shows("11", "mechanism")
 def paths(material: Material) -> Sheet:
-    """11: ways of single rods, and how long they persist."""
+    """Paths of single rods, and how long they persist; 0.2 s, below 0.70, is half the window of 400 ms over which
+    velocities are averaged"""
     runs = material.evidence["mechanism"]
     sheet = material.sheet(3, height=56)
     for panel, packing in zip(sheet, (0.65, 0.85)):
@@ -66,8 +69,7 @@ def paths(material: Material) -> Sheet:
     panel = sheet[2].titles(names.axis_title(PACKING), "time (s)", "how long")
     draw_points(panel, runs.points(PACKING, "persistence_time_s"), "a way persists", 0)
     draw_points(panel, runs.points(PACKING, "n_z_switching_time_s"), "a tilt keeps its sign", 1)
-    panel.range(y=(0, None))
-    panel.reference(y=VELOCITY_WINDOW / 2, label="half the window of 400 ms")
+    panel.range(y=(0, None)).reference(y=VELOCITY_WINDOW / 2, label="half the window of 400 ms")
     material.stamp(panel, "persistence")
     return sheet
 
@@ -106,8 +108,9 @@ def _draw_readings(panel: Panel, evidence: Evidence, late: list[tuple[float, Est
                         name=f"parabola, MSD = {4 // factor}Dt")
 
 
+@shows("9", "diffusion", "short-rods", "diffusion-along", "long-rods")
 def diffusion(material: Material) -> Sheet:
-    """9: mean square displacement and D at short and at long times: short rods, long rods along and across."""
+    """Mean square displacement, D at short and at long times"""
     short, long_ = short_rods(material.evidence), long_rods(material.evidence)
     scale = packing_scale(short, long_)
     sheet = material.sheet(6, columns=2, height=50)
@@ -136,16 +139,16 @@ def diffusion(material: Material) -> Sheet:
     return sheet
 
 
+@shows("", "diffusion", "short-rods", "diffusion-along", "long-rods")
 def diffusion_more(material: Material) -> Sheet:
-    """MSD over time: whether it levels off; and exponents."""
+    """Whether MSD/t levels off, and exponents"""
     short, long_ = short_rods(material.evidence), long_rods(material.evidence)
     scale = packing_scale(short, long_)
     sheet = material.sheet(4, columns=2, height=50)
     for panel, runs, name, title, d in ((sheet[0], short, "total", "ℓ = 2.5 mm", 4), (sheet[1], long_, "along",
                                         "ℓ = 4.5 mm, along", 2), (sheet[2], long_, "across", "ℓ = 4.5 mm, across", 2)):
         panel.titles(names.axis_title("/msd/lag_s"), f"MSD/{d}t (mm²/s)", title).scale("log", "linear")
-        draw_curves(panel, runs, f"/msd/d_{name}_mm2_s", scale, keep=lambda t, d: t > 0.1)
-        panel.range(y=(0, None))
+        draw_curves(panel, runs, f"/msd/d_{name}_mm2_s", scale, keep=lambda t, d: t > 0.1).range(y=(0, None))
     sheet.colourbar(scale, sheet.panels[:3])
     panel = sheet[3].titles(names.axis_title(PACKING), "exponent of the MSD, short times", "normal diffusion: 1")
     draw_points(panel, short.points(PACKING, "alpha_short"), "ℓ = 2.5 mm", 0)
@@ -155,8 +158,9 @@ def diffusion_more(material: Material) -> Sheet:
     return sheet
 
 
+@shows("12", "short-rods", "long-rods", "diffusion-along")
 def memory(material: Material) -> Sheet:
-    """12: correlations in time: orientation, velocity."""
+    """Correlations in time: orientation C₂, velocity C_v"""
     short, long_ = material.evidence["short-rods"], material.evidence["long-rods"]
     scale = packing_scale(short, long_)
     sheet = material.sheet(6)
@@ -165,8 +169,7 @@ def memory(material: Material) -> Sheet:
         draw_curves(panel.scale("log"), runs, "/rotation/c2", scale, title=title).range(y=(0, 1)).zero()
         material.stamp(panel, statement)
     panel = sheet[2].titles(names.axis_title(PACKING), names.axis_title("c2_plateau"), "what stays, ℓ = 4.5 mm")
-    draw_points(panel, points_of(long_rods(material.evidence), PACKING, late_c2))
-    panel.range(y=(0, 1))
+    draw_points(panel, points_of(long_rods(material.evidence), PACKING, late_c2)).range(y=(0, 1))
     for panel, runs, name, title in ((sheet[3], short, "c_v", "velocity, ℓ = 2.5 mm"),
                                      (sheet[4], long_, "c_v_along", "along, ℓ = 4.5 mm")):
         draw_curves(panel, runs, f"/velocity/{name}", scale, keep=lambda t, c: t < 2.05, title=title)
@@ -181,8 +184,9 @@ def memory(material: Material) -> Sheet:
     return sheet
 
 
+@shows("13", "short-rods", "long-rods")
 def rotation(material: Material) -> Sheet:
-    """13: mean square angular displacement, D_r at short and long times, and the exponent at short times."""
+    """Mean square angular displacement and rotational diffusion"""
     short, long_ = material.evidence["short-rods"], material.evidence["long-rods"]
     scale = packing_scale(short, long_)
     sheet = material.sheet(4, columns=2, height=52)
@@ -202,8 +206,9 @@ def rotation(material: Material) -> Sheet:
     return sheet
 
 
+@shows("14", "no-order")
 def defects(material: Material) -> Sheet:
-    """14: defects of rods of 3 mm that are ordered here and there."""
+    """Defects of rods that are ordered here and there"""
     runs = material.evidence["no-order"].at(3.0, 0.85)
     sheet = material.sheet(4, columns=2, height=66)
     draw_snapshots(sheet, [(runs, "ℓ = 3 mm, φ = 0.85")], k=1, defects=True)
@@ -223,8 +228,9 @@ def defects(material: Material) -> Sheet:
     return sheet
 
 
+@shows("", "long-rods", "short-rods", "crossings", "phases")
 def melting(material: Material) -> Sheet:
-    """Defects against packing and order, and how those that last move."""
+    """Defects against packing and order, and how +1/2 defects move"""
     runs = phase_diagram(material.evidence)
     sheet = material.sheet(3, height=55)
     three = sheet[2].titles(names.axis_title(PACKING), "velocity of +1/2 (mm/s)", "head first where > 0")
@@ -242,8 +248,9 @@ def melting(material: Material) -> Sheet:
     return sheet
 
 
+@shows("", "frequency", "density", "beads", "diffusion", "short-rods", "inertia")
 def model(material: Material) -> Sheet:
-    """What the paper leaves open: frequency, number of rods, number of beads, moments of inertia."""
+    """What the paper leaves open: frequency, number of rods, beads, moments of inertia"""
     evidence = material.evidence
     shaken = evidence["frequency"].at(packing=0.60)
     sheet = material.sheet(6)
@@ -275,8 +282,9 @@ def model(material: Material) -> Sheet:
     return sheet
 
 
+@shows("", "long-rods")
 def accuracy(material: Material) -> Sheet:
-    """The controls: the same points at the paper's time step, beside those at the longer step of a desk."""
+    """The same points at the paper's time step and at the desk's"""
     numbers = ("S", "diffusion_mm2_s", "rotational_diffusion_rad2_s", "theta_m_deg", "velocity_rms_mm_s", "c2_decay_s")
     sheet = material.sheet(2, columns=1, height=70)
     panel = sheet[0].titles("", "4 µs over 16 µs", "ratio of the same number")

@@ -3,18 +3,19 @@ import numpy as np
 
 from ..plots import names
 from ..plots.sheet import Sheet
-from . import scaling
 from .evidence import GAMMA, LENGTH, PACKING, SIDE, Runs, by, key_of, points_of
 from .layer_checks import two_peaks
 from .late_lags import long_time_diffusion
 from .material import (Material, draw_against, draw_curves, draw_points, draw_rods, draw_snapshots, labelled,
-                       packing_scale)
+                       packing_scale, shows)
 from .order_checks import ORDERED, phase_diagram, pooled_density, transition
+from .scaling import LEAST_STIFFNESS, STEEPEST, boxes, power, predicted, reading_of_g2, stiffness
 from .structure_checks import far_g2
 
 
+@shows("2", "long-rods", "forgetting")
 def start(material: Material) -> Sheet:
-    """2: rods as they lie, and S(t) from the aligned start."""
+    """Rods as they lie, and S(t) from the aligned start"""
     runs = material.evidence["long-rods"]
     sheet = material.sheet(3, height=58)
     draw_snapshots(sheet, [(runs.at(packing=packing), f"φ = {packing:g}") for packing in (0.45, 0.75)])
@@ -29,8 +30,9 @@ def start(material: Material) -> Sheet:
     return sheet
 
 
+@shows("3", "long-rods", "short-rods", "crossings", "phases", "layers", "layer-trends")
 def order(material: Material) -> Sheet:
-    """3: mean order against area fraction, and the phase diagram."""
+    """Mean order against area fraction, and the phase diagram"""
     runs = phase_diagram(material.evidence)
     sheet = material.sheet(2, height=62, columns=2)
     draw_against(sheet[0], PACKING, "S", labelled(runs, LENGTH), "mean order")
@@ -64,8 +66,9 @@ def order(material: Material) -> Sheet:
     return sheet
 
 
+@shows("4", "long-rods", "short-rods")
 def order_statistics(material: Material) -> Sheet:
-    """4: the distribution of S, its width, the Binder cumulant."""
+    """Fluctuations of the order: P[S], standard deviation, Binder cumulant"""
     runs, both = material.evidence["long-rods"], material.both[::-1]
     scale = packing_scale(runs)
     sheet = material.sheet(3)
@@ -90,8 +93,9 @@ def order_statistics(material: Material) -> Sheet:
     return sheet
 
 
+@shows("", "layer-trends", "turned")
 def steady(material: Material) -> Sheet:
-    """The axis along which rods of 3.5 mm order at 0.85: from a start along a side, and from one that is turned."""
+    """The axis along which rods of 3.5 mm order"""
     straight, turned = (material.evidence[name].at(3.5, 0.85) for name in ("layer-trends", "turned"))
     sheet = material.sheet(4, columns=2, height=58)
     draw_snapshots(sheet, [(straight, "started along a side"), (turned, "started at 30°")])
@@ -108,8 +112,9 @@ def steady(material: Material) -> Sheet:
     return sheet
 
 
+@shows("", "shaking")
 def shaking(material: Material) -> Sheet:
-    """Order and motion against the strength of shaking."""
+    """Order and motion against the strength of shaking"""
     runs = material.evidence["shaking"].beyond(GAMMA, 0)
     sheet = material.sheet(3)
     for panel, name in zip(sheet, ("S", "diffusion_mm2_s", "rotational_diffusion_rad2_s")):
@@ -120,10 +125,10 @@ def shaking(material: Material) -> Sheet:
     return sheet
 
 
-def scaling_with_size(material: Material) -> Sheet:
-    """Order against the size of the box: the crossing of S = 0.5, Binder cumulants, S, its power and the stiffness of
-    the director that predicts it, and G2 far away."""
-    runs = scaling.boxes(material.evidence)
+@shows("", "long-rods", "size", "dilute", "elasticity", "long-range")
+def scaling(material: Material) -> Sheet:
+    """Order against the size of the box, and what the director's waves predict of it"""
+    runs = boxes(material.evidence)
     sheet = material.sheet(6)
     for panel, name, title in ((sheet[0], "S", "several boxes"), (sheet[1], "binder", "Binder cumulant")):
         several = [(here if len(here.values(PACKING)) > 1 else Runs(), label) for here, label in labelled(runs, SIDE)]
@@ -141,27 +146,28 @@ def scaling_with_size(material: Material) -> Sheet:
         draw_points(far, here.points(SIDE, far_g2), label, k)
         if packing < 0.54:
             continue  # no director
-        draw_points(stiff, points_of(here, SIDE, scaling.stiffness), label, k)
-        (first, s), x = order[0], scaling.predicted(here.largest(SIDE)).value
+        draw_points(stiff, points_of(here, SIDE, stiffness), label, k)
+        (first, s), x = order[0], predicted(here.largest(SIDE)).value
         sides = np.array([side for side, _ in order])
         panel.curve(sides, s.value * (sides / first) ** x, colour=k)
-    stiff.reference(y=scaling.LEAST_STIFFNESS, label="8/π")
+    stiff.reference(y=LEAST_STIFFNESS, label="8/π")
     material.stamp(panel, "long-range")
     far.zero()
 
     panel = sheet[3].titles(names.axis_title(PACKING), "x of S ~ Lˣ", "three readings of the power")
     ordered = [here for here in by(runs, PACKING) if key_of(here[0], PACKING) > 0.54]
-    readings = (("S(L)", scaling.power), ("−1/(π√(K₁K₃))", lambda here: scaling.predicted(here.largest(SIDE))),
-                ("half the power of G₂", scaling.reading_of_g2))
+    readings = (("S(L)", power), ("−1/(π√(K₁K₃))", lambda here: predicted(here.largest(SIDE))),
+                ("half the power of G₂", reading_of_g2))
     for k, (label, of) in enumerate(readings):
         points = [(key_of(here[0], PACKING), of(here)) for here in ordered]
         draw_points(panel, [(at, x) for at, x in points if x.is_known], label, k)
-    panel.reference(y=scaling.STEEPEST, label="−1/8").zero()
+    panel.reference(y=STEEPEST, label="−1/8").zero()
     return sheet
 
 
+@shows("", "equilibrium", "short-rods", "long-rods", "crossings", "phases")
 def equilibrium(material: Material) -> Sheet:
-    """The equilibrium reference: nothing lost in a collision, no friction, no gravity, plates at rest."""
+    """The equilibrium reference: e = 1, no friction"""
     quiet, shaken = material.evidence["equilibrium"], phase_diagram(material.evidence)
     sheet = material.sheet(3)
     panel = sheet[0].titles(names.axis_title(PACKING), names.axis_title("S"), "order")
@@ -178,8 +184,9 @@ def equilibrium(material: Material) -> Sheet:
     return sheet
 
 
-def films(material: Material) -> Sheet:
-    """The last rods of the films S1 to S7."""
+@shows("", "movies")
+def movies(material: Material) -> Sheet:
+    """Films S1 to S7, as they are made"""
     runs = material.evidence["movies"]
     sheet = material.sheet(max(len(runs), 1), columns=4)
     for panel, run in zip(sheet, runs):

@@ -7,15 +7,17 @@ from numpy.typing import NDArray
 from ..plots import names
 from ..plots.panel import Panel
 from ..plots.sheet import Sheet
+from ..plots.style import ColourScale
 from .layer_checks import layered, mean_angle
 from .layer_wavelength import mean_wavelength
 from .evidence import END, GAP, LENGTH, PACKING, SIDE, Runs, box_text, key_of
-from .material import Material, draw_against, draw_curve, draw_curves, draw_points, draw_snapshots, packing_scale
+from .material import Material, draw_against, draw_curve, draw_curves, draw_points, draw_snapshots, packing_scale, shows
 from .structure_checks import mean_waves, ordered_in_large_boxes
 
 
+@shows("5", "short-rods", "long-rods")
 def g2(material: Material) -> Sheet:
-    """5: G2(r) on logarithmic axes."""
+    """Orientational correlation G₂(r) on logarithmic axes"""
     sheet = material.sheet(2, height=58, columns=2)
     scale = packing_scale(*(runs for runs, _ in material.both))
     for panel, (runs, title) in zip(sheet, material.both):
@@ -54,8 +56,9 @@ def _cuts(panel: Panel, runs: Runs, name: str, title: str, level: float) -> None
     panel.zero() if level == 0 else panel.reference(y=level)
 
 
+@shows("6", "dilute", "layers")
 def g2_map(material: Material) -> Sheet:
-    """6: G2 along and across the director, in disorder, in the nematic, and with layers."""
+    """G₂ along and across the director: disorder, nematic, layers"""
     chosen = [(material.evidence[name].at(packing=packing), packing, statement) for name, packing, statement in (
         ("dilute", 0.45, "isotropic"), ("layers", 0.75, "anisotropy"), ("layers", 0.85, "g2-oscillates"))]
     n = len(chosen)
@@ -72,8 +75,9 @@ def g2_map(material: Material) -> Sheet:
     return sheet
 
 
+@shows("7", "short-rods", "long-rods", "layers")
 def distances(material: Material) -> Sheet:
-    """7: the pair correlation g, and g along and across the director."""
+    """Pair correlation g: against distance, along and across the director"""
     evidence = material.evidence
     sheet = material.sheet(6)
     scale = packing_scale(*(runs for runs, _ in material.both))
@@ -110,8 +114,9 @@ def _against(panel: Panel, series: list[tuple[Runs, str]], path: str, name: str,
     draw_against(panel, path, of, formed, title, names.axis_title(name)).range(y=(0, None))
 
 
+@shows("8", "layers", "layer-trends", "long-rods", "strip", "fluid-start")
 def layers(material: Material) -> Sheet:
-    """8: layers turned by +-theta: rods, P(theta) by packing and by end, angle and wavelength by length and by end."""
+    """Layers turned by ±θ, their angle and their wavelength"""
     evidence = material.evidence
     trends = evidence.joined("layers", "layer-trends")
     sheet = material.sheet(9, height=48)
@@ -149,16 +154,14 @@ def layers(material: Material) -> Sheet:
     return sheet
 
 
-def _cuts_across(panel: Panel, runs: Runs, scale: Callable[[float], object] | None, path: str = PACKING) -> None:
+def _cuts_across(panel: Panel, runs: Runs, scale: ColourScale | None, path: str = PACKING) -> None:
     panel.titles("distance across the director (mm)", names.axis_title("/pairs/g2"), "across")
-    for k, value in enumerate(runs.values(path)):
-        here = runs.where(path, value)
-        draw_curve(panel, here, "/pairs/cut/g2_across", "" if scale else names.value_label(path, value),
-                   scale(value) if scale else k, steady=here.number("S").steady)
+    draw_curves(panel, runs, "/pairs/cut/g2_across", scale, path, labels=scale is None)
 
 
+@shows("", "layers", "layer-trends", "strip")
 def layer_trends(material: Material) -> Sheet:
-    """Angle, wavelength and order of the layers against packing."""
+    """Angle, wavelength and order of the layers against packing"""
     trends = material.evidence.joined("layers", "layer-trends")
     series = [(trends.at(length, end=0.4), names.value_label(LENGTH, length)) for length in (4.0, 4.5)]
     for length in (4.0, 4.5):
@@ -173,8 +176,9 @@ def layer_trends(material: Material) -> Sheet:
     return sheet
 
 
+@shows("", "layer-trends", "larger-box")
 def larger_box(material: Material) -> Sheet:
-    """Layers of 4 mm rods in a box twice as wide."""
+    """Layers in a larger box"""
     small, large = (material.evidence[name].at(4.0, 0.85, end=0.4) for name in ("layer-trends", "larger-box"))
     both = Runs([*small, *large])
     sheet = material.sheet(4, columns=2, height=58)
@@ -189,8 +193,9 @@ def larger_box(material: Material) -> Sheet:
     return sheet
 
 
+@shows("", "layer-trends", "fluid-start", "strip")
 def ends(material: Material) -> Sheet:
-    """Rods of 4 mm at 0.85, sharp as the paper's and blunter, from rows and from a fluid: the last rods, P(theta)."""
+    """Blunt rods, from rows and from a fluid"""
     rows, fluid = (material.evidence[name].at(4.0, 0.85) for name in ("layer-trends", "fluid-start"))
     sheet = material.sheet(6, columns=3, height=58)
     shown = [(rows.at(end=end), f"{names.plain(names.value_label(END, end))}, from rows") for end in (0.4, 0.5)]
@@ -202,8 +207,9 @@ def ends(material: Material) -> Sheet:
     return sheet
 
 
+@shows("", "strip", "layers", "taper")
 def taper(material: Material) -> Sheet:
-    """Rods of 4.5 mm with and without a taper at 0.80: the last rods, and P(theta) of both."""
+    """Tapered and untapered rods, from a fluid"""
     tapered, plain = material.evidence["layers"].at(4.5, 0.80), material.evidence["taper"].at(4.5, 0.80)
     sheet = material.sheet(3, height=58)
     draw_snapshots(sheet, [(tapered, "tapered, φ = 0.80"), (plain, "untapered, φ = 0.80")], timed=False)
@@ -212,8 +218,9 @@ def taper(material: Material) -> Sheet:
     return sheet
 
 
+@shows("", "gaps", "layers")
 def gap(material: Material) -> Sheet:
-    """The gap between the plates: G2 across the director and its maps, P(theta), g(r), crystalline order."""
+    """The gap between the plates: crystal, layers, no layers"""
     runs = Runs([*material.evidence["gaps"], *material.evidence["layers"].at(4.5, 0.80)])
     gaps = runs.values(GAP)
     sheet = material.sheet(8, columns=4 if material.width > 150 else 2, height=44)
@@ -231,8 +238,9 @@ def gap(material: Material) -> Sheet:
     return sheet
 
 
+@shows("", "elasticity", "size", "long-range")
 def elasticity(material: Material) -> Sheet:
-    """Fluctuations of the director in waves along and across it, which bend and splay it."""
+    """Director fluctuations: bend against splay"""
     runs = ordered_in_large_boxes(material.evidence)
     sheet = material.sheet(2, columns=2, height=55)
     panel = sheet[0].titles("wave number q (1/mm)", "power of the director (mm²)", "φ = 0.65").scale("log", "log")
@@ -251,8 +259,9 @@ def elasticity(material: Material) -> Sheet:
     return sheet
 
 
+@shows("", "short-rods", "long-rods")
 def fluctuations(material: Material) -> Sheet:
-    """Fluctuations of the number of rods in parts of the box."""
+    """Number fluctuations"""
     sheet = material.sheet(2, columns=2, height=55)
     scale = packing_scale(*(runs for runs, _ in material.both))
     for panel, (runs, title) in zip(sheet, material.both):

@@ -9,7 +9,7 @@ from scipy.optimize import least_squares
 
 from ..estimate import Estimate, mean_of_samples, student_factor
 from ..plots import names
-from ..run import Array, Run
+from ..run import Run
 from .evidence import (END, GAP, LENGTH, PACKING, SIDE, Evidence, Runs, box_text, by, is_from_a_fluid, key_of,
                        number_of, place_on, points_of)
 from .layer_wavelength import TWO_PEAKS, mean_wavelength, wavelength
@@ -20,33 +20,28 @@ from .statement import states
 
 #: Change of the dip from one half of the time to the other below which layers count as formed.
 STILL = 0.1
+_DENSITY = "/angles/density_per_rad"  # P(theta)
 
 
 def dip(runs: Runs) -> Estimate:
     """P(0) over the maximum of P(theta). It is at most 1: where all runs have just that, the scatter of P(0) among them
     stands in for its error."""
-    found = runs.number("dip")
-    heights = [float(np.interp(0.0, np.asarray(p.axis), np.asarray(p))) for p in _densities(runs)]
+    found, densities = runs.number("dip"), [run[_DENSITY] for run in runs if _DENSITY in run]
+    heights = [float(np.interp(0.0, np.asarray(p.axis), np.asarray(p))) for p in densities]
     if found.error == 0 and len(heights) > 1:
         mean, error = mean_of_samples(heights)
         return replace(found, error=student_factor(len(heights)) * error / mean, dof=len(heights) - 1)
     return found
 
 
-def _densities(runs: Runs) -> list[Array]:
-    """P(theta) of those runs that have it."""
-    return [run["/angles/density_per_rad"] for run in runs if "/angles/density_per_rad" in run]
-
-
 def kurtosis(run: Run) -> Estimate:
     """<theta^4> / <theta^2>^2 of P(theta): 3 of a normal distribution, less of one that is flatter or has two peaks."""
-    for p in _densities(Runs([run])):
-        theta, weight = np.asarray(p.axis), np.asarray(p) / np.sum(p)
-        theta = theta - np.angle(np.sum(weight * np.exp(2j * theta))) / 2
-        theta = (theta + math.pi / 2) % math.pi - math.pi / 2
-        return Estimate(float(np.sum(weight * theta**4) / np.sum(weight * theta**2) ** 2),
-                        steady=number_of(run, "S").steady)
-    return Estimate(reason="not measured")
+    p = run[_DENSITY]
+    theta, weight = np.asarray(p.axis), np.asarray(p) / np.sum(p)
+    theta = theta - np.angle(np.sum(weight * np.exp(2j * theta))) / 2
+    theta = (theta + math.pi / 2) % math.pi - math.pi / 2
+    return Estimate(float(np.sum(weight * theta**4) / np.sum(weight * theta**2) ** 2),
+                    steady=number_of(run, "S").steady)
 
 
 def two_peaks(runs: Runs) -> Answer:
@@ -78,9 +73,9 @@ def theta_m(run: Run) -> Estimate:
     is from the same fit, of two Gaussians at +-theta_m and a background, and without an error.
     """
     known = number_of(run, "theta_m_deg")
-    if known.is_known or not number_of(run, "dip").value < TWO_PEAKS or not _densities(Runs([run])):
+    if known.is_known or not number_of(run, "dip").value < TWO_PEAKS or _DENSITY not in run:
         return known
-    density = _densities(Runs([run]))[0]
+    density = run[_DENSITY]
     theta, p = np.asarray(density.axis), (np.asarray(density) + np.asarray(density)[::-1]) / 2
     spread = math.sqrt(float(np.sum(p * theta**2) / np.sum(p)))
 

@@ -1,6 +1,7 @@
 """What figures are made of: the runs, the verdicts, and the pieces that several figures share."""
 import functools
 import math
+from dataclasses import dataclass
 from typing import Any, Callable, Iterable, Sequence
 
 import numpy as np
@@ -47,6 +48,38 @@ class Material:
         words = [word for word in dict.fromkeys(words) if word != "no data"]
         if words:
             panel.verdict(", ".join(words))
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A figure of the paper, or one beyond it.
+
+    number: in the paper, "14"; empty for all others
+    name:   "defects"
+    title:  what it shows
+    sets:   what it is drawn from (sets.ORDER)
+    """
+
+    number: str
+    name: str
+    title: str
+    sets: tuple[str, ...]
+    draw: Callable[[Material], Sheet]
+
+    @property
+    def id(self) -> str:
+        return self.number or self.name
+
+    @property
+    def file(self) -> str:
+        """The name of its files without the suffix: "fig14-defects", or "gap"."""
+        return f"fig{int(self.number):02d}-{self.name}" if self.number else self.name
+
+
+def shows(number: str, *sets: str) -> Callable[[Callable[[Material], Sheet]], Figure]:
+    """Makes of the function below it the figure of that number, which is drawn from these sets. Its name is that of the
+    function, its title the text."""
+    return lambda draw: Figure(number, draw.__name__.replace("_", "-"), " ".join(str(draw.__doc__).split()), sets, draw)
 
 
 def packing_scale(*sets: Runs) -> style.ColourScale | None:

@@ -192,18 +192,13 @@ def long_range(evidence: Evidence) -> Finding:
 
 def pooled_density(runs: Runs) -> tuple[NDArray[Any], NDArray[Any], float]:
     """P[S] of several runs together, weighted by their independent samples: (S, density, samples)."""
-    total, samples, places = np.zeros(0), 0.0, np.zeros(0)
-    for run in runs:
-        if "/order/pdf/density" not in run:
-            continue
-        weight = run["S"].n_eff
-        if not math.isfinite(weight):
-            continue
-        density = np.asarray(run["/order/pdf/density"])
-        places = np.asarray(run["/order/pdf/order"])
-        total = density * weight + (total if len(total) else 0)
-        samples += weight
-    return places, total / samples if samples else total, samples
+    known = [(run["/order/pdf/density"], run["S"].n_eff) for run in runs
+             if "/order/pdf/density" in run and math.isfinite(run["S"].n_eff)]
+    samples = sum(weight for _, weight in known)
+    if not samples:
+        return np.zeros(0), np.zeros(0), 0.0
+    total = sum(np.asarray(density) * weight for density, weight in known)
+    return np.asarray(known[0][0].axis), total / samples, samples
 
 
 def n_peaks(density: NDArray[Any]) -> int:

@@ -17,7 +17,8 @@ from ..estimate import Estimate
 from ..run import Run
 from .beyond_paper import SECTIONS, strip
 from .evidence import Evidence
-from .figures import FIGURES, Figure
+from .figures import FIGURES
+from .material import Figure
 from .next_runs import open_questions, open_statements
 from .rules import AGREES, CONSISTENT, CONTRADICTS, DISAGREES, IN_PART, NO_DATA, OPEN, SIGMAS, markdown, text
 from .sets import ORDER
@@ -103,12 +104,8 @@ def sets_table(evidence: Evidence) -> str:
                     [*rows, ["", "together", f"{len(everything)}", "", *times(everything)]])
 
 
-def tally(evidence: Evidence) -> str:
+def tally(found: list[Verdict]) -> str:
     """How many statements agree, and so on, in a sentence."""
-    return _tally(judged(evidence))
-
-
-def _tally(found: list[Verdict]) -> str:
     calibrating = [verdict for verdict in found if verdict.statement.role == CALIBRATES]
     counted = [verdict for verdict in found if verdict.statement.role != CALIBRATES]
     counts = Counter(verdict.finding.verdict for verdict in counted)
@@ -225,7 +222,7 @@ def sections(evidence: Evidence, folder: str = "figures", pages: str = "validati
     def page_of_statements(page: Page) -> str:
         return content(page, images(evidence, page.drawn, folder), found())
 
-    return {"origin": lambda: origin(evidence), "tally": lambda: _tally(found()),
+    return {"origin": lambda: origin(evidence), "tally": lambda: tally(found()),
             "questions": lambda: questions(found()),
             "claims": lambda: as_table(found(), link), "phases": lambda: phases(evidence),
             "sweeps": lambda: sets_table(evidence), "index": lambda: index(found(), pages),

@@ -67,18 +67,14 @@ def scaled(sweep: dict[str, Any], scale: Scale) -> dict[str, Any]:
     found["name"] = found["name"].rpartition("-")[0] + "-" + scale.name
     scene = found["scene"]
     box = scene.get("box", {})
-    aspect = box.get("aspect", 1.0)
-    side = box.get("side", SIDE_OF_COUNTS)
+    aspect, side = box.get("aspect", 1.0), box.get("side", SIDE_OF_COUNTS)
     area = (leading_number(_side(side, scale, aspect)) / leading_number(side)) ** 2
-    if "side" in box:
-        box["side"] = _side(side, scale, aspect)
+    for block, of_scene in (("box.", box), ("time.", scene.get("time", {})), ("", scene)):
+        for key in ("side", "steady", "measure", "accuracy"):
+            if key in of_scene:
+                of_scene[key] = _scaled_values(block + key, [of_scene[key]], scale, aspect, area)[0]
     if scale.name == "tiny" and "movie" in scene:
         scene["trajectory"]["every"] = scene["movie"]["every"] = "20 ms"
-    if "accuracy" in scene:
-        scene["accuracy"] = scale.accuracy
-    for key, value in scene.get("time", {}).items():
-        if key in ("steady", "measure"):
-            scene["time"][key] = _time(value, scale)
     parts = []
     for part in found["sweep"]:
         if part["grid"].get("accuracy") == ["paper"]:
@@ -104,7 +100,7 @@ def _scaled_values(key: str, values: list[Any] | str, scale: Scale, aspect: floa
     if key == "box.side":
         return [None if value is None else _side(value, scale, aspect) for value in values]
     if key in ("time.steady", "time.measure"):
-        return [_time(value, scale) for value in values]
+        return [f"{leading_number(value) * scale.time:g} s" for value in values]
     if key == "time.seed":
         return values[:scale.replicas]
     return [round(value * area) for value in values] if key == "rods.count" else values
@@ -114,10 +110,6 @@ def _side(value: str | float, scale: Scale, aspect: float) -> str:
     """The side along x of a box whose other side is `aspect` times as long."""
     least = max(scale.least_side, scale.least_square / math.sqrt(aspect))
     return f"{max(leading_number(value) * scale.side, least):g} mm"
-
-
-def _time(value: str | float, scale: Scale) -> str:
-    return f"{leading_number(value) * scale.time:g} s"
 
 
 def sweeps(folder: Path, scale: Scale, names: list[str] | None = None) -> Iterator[tuple[str, dict[str, Any]]]:

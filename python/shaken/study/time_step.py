@@ -5,7 +5,7 @@ Some of the study's sets have, beside the runs at `accuracy` = "desk" (16 us), o
 """
 import math
 from dataclasses import dataclass
-from typing import Any, Callable
+from typing import Any, Callable, Iterable
 
 from ..estimate import NAN, Estimate, derived
 from ..run import Run
@@ -33,11 +33,8 @@ class Pair:
 
 def pairs(evidence: Evidence) -> list[Pair]:
     """Each scene that was run at both steps, for equally long, by length and area fraction."""
-    controls: dict[tuple[Any, ...], Runs] = {}
-    for runs in evidence.controls.values():
-        for run in runs:
-            controls.setdefault(scene_of(run), Runs()).append(run)
-    usual = _by_scene(evidence)
+    controls = _by_scene(run for runs in evidence.controls.values() for run in runs)
+    usual = _by_scene(evidence.joined(*evidence.sets))
     found = []
     for scene, paper in sorted(controls.items()):
         time = paper[0].summary["sim_seconds"]
@@ -51,13 +48,13 @@ def pairs(evidence: Evidence) -> list[Pair]:
 def layered(evidence: Evidence) -> list[Pair]:
     """Each scene whose runs at 16 us know theta_m with its error, which none at 4 us does so far."""
     known = {scene: Runs(run for run in runs if number_of(run, "theta_m_deg").error > 0)
-             for scene, runs in _by_scene(evidence).items()}
+             for scene, runs in _by_scene(evidence.joined(*evidence.sets)).items()}
     return [Pair(runs, Runs()) for _, runs in sorted(known.items()) if runs]
 
 
-def _by_scene(evidence: Evidence) -> dict[tuple[Any, ...], Runs]:
+def _by_scene(runs: Iterable[Run]) -> dict[tuple[Any, ...], Runs]:
     found: dict[tuple[Any, ...], Runs] = {}
-    for run in evidence.joined(*evidence.sets):
+    for run in runs:
         found.setdefault(scene_of(run), Runs()).append(run)
     return found
 
