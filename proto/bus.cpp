@@ -153,7 +153,7 @@ std::string default_url() {
 }
 
 Result<std::unique_ptr<Bus>> Bus::open(const std::string& url) {
-  if (auto done = check_url(url); !done) return done.error();
+  SHAKEN_TRY(check_url(url));
   std::unique_ptr<Bus> bus(new Bus(url));
   bus->connect();
   const bool may_come = bus->attempt_ || url.starts_with(kTcpq);

@@ -104,25 +104,23 @@ Result<std::optional<LogReader::Header>> LogReader::peek() {
 }
 
 Result<std::optional<LoggedMessage>> LogReader::next() {
-  const auto header = peek();
-  if (!header) return header.error();
-  if (!header->has_value()) return std::optional<LoggedMessage>();
+  const auto header = SHAKEN_TRY(peek());
+  if (!header) return std::optional<LoggedMessage>();
   lcm_eventlog_event_t* event = lcm_eventlog_read_next_event(log_.get());
   if (event == nullptr) return Error{"the message at byte " + std::to_string(at_) + " is damaged, or what follows it"};
   const auto* data = static_cast<const std::uint8_t*>(event->data);
   LoggedMessage message{
       event->timestamp, {event->channel, static_cast<std::size_t>(event->channellen)}, {data, data + event->datalen}};
   lcm_eventlog_free_event(event);
-  at_ += header->value().size;
+  at_ += header->size;
   return std::optional<LoggedMessage>(std::move(message));
 }
 
 Result<void> LogReader::skip_to(std::int64_t utime) {
   for (;;) {
-    const auto header = peek();
-    if (!header) return header.error();
-    if (!header->has_value() || header->value().utime >= utime) return {};
-    at_ += header->value().size;
+    const auto header = SHAKEN_TRY(peek());
+    if (!header || header->utime >= utime) return {};
+    at_ += header->size;
     if (fseeko(log_->f, at_, SEEK_SET) != 0) return Error{"it cannot be read at byte " + std::to_string(at_)};
   }
 }

@@ -157,16 +157,15 @@ keys::Loaded<Submission> expand(const SubmitRequest& request, const std::filesys
   if (const auto problem = scene::id_problem(name)) {
     return std::vector{keys::Problem{request.file, 0, 0, "", *problem + "; submit it with another name"}};
   }
-  auto sweep = scene::load_runs(request.text, request.file, request.settings, request.replicas);
-  if (!sweep) return sweep.error();
+  auto sweep = SHAKEN_TRY(scene::load_runs(request.text, request.file, request.settings, request.replicas));
   Submission submission{name, request.priority, request.terms, {}, {}, {}};
   Extent& extent = submission.extent;
   extent.fewest_rods = std::numeric_limits<int>::max();
-  submission.terms.executor = sweep->executor;
-  submission.terms.settings = scene::to_text(sweep->slurm);
-  submission.jobs.reserve(sweep->points.size());
+  submission.terms.executor = sweep.executor;
+  submission.terms.settings = scene::to_text(sweep.slurm);
+  submission.jobs.reserve(sweep.points.size());
   std::unordered_map<std::string, double> ends, ended;  // of these runs, by id; and of those that went on to another
-  for (scene::SweepPoint& each : sweep->points) {
+  for (scene::SweepPoint& each : sweep.points) {
     const scene::SweepPoint point = std::move(each);  // of 100,000, what is not needed any more counts
     NewJob job;
     job.id = scene::run_id(point.plan);

@@ -30,10 +30,9 @@ void be_expendable() {
 }
 
 Result<std::string> curves(const RecordedRun& run, std::span<const std::string> wanted) {
-  const auto curves = run.curves();
-  if (!curves) return curves.error();
+  const auto curves = SHAKEN_TRY(run.curves());
   Json names = Json::array(), chosen = Json::object();
-  for (const auto& [name, values] : *curves) {
+  for (const auto& [name, values] : curves) {
     names.push_back({{"name", name}, {"points", values.size()}});
     if (std::find(wanted.begin(), wanted.end(), name) != wanted.end()) chosen[name] = values;  // NaN becomes null
   }
@@ -46,47 +45,39 @@ constexpr std::size_t kMostOrders = 300;
 constexpr std::size_t kLongestPath = 60;
 
 Result<std::string> frames(const RecordedRun& run) {
-  const auto frames = run.frames();
-  if (!frames) return frames.error();
-  if (frames->n == 0) return line_of({{"n", 0}, {"reason", frames->reason}});
-  return line_of({{"n", frames->n}, {"first_s", frames->first}, {"last_s", frames->last}});
+  const auto frames = SHAKEN_TRY(run.frames());
+  if (frames.n == 0) return line_of({{"n", 0}, {"reason", frames.reason}});
+  return line_of({{"n", frames.n}, {"first_s", frames.first}, {"last_s", frames.last}});
 }
 
 Result<std::string> order(const RecordedRun& run) {
-  const auto order = run.order(kMostOrders);
-  if (!order) return order.error();
-  return line_of({{"time_s", order->times}, {"order", order->orders}});
+  const auto order = SHAKEN_TRY(run.order(kMostOrders));
+  return line_of({{"time_s", order.times}, {"order", order.orders}});
 }
 
 /// Frame "7", or the "last".
 Result<std::size_t> index_in(const RecordedRun& run, const std::string& word) {
   if (word == "last") {
-    const auto frames = run.frames();
-    if (!frames) return frames.error();
-    if (frames->n == 0) return Error{frames->reason};
-    return frames->n - 1;
+    const auto frames = SHAKEN_TRY(run.frames());
+    if (frames.n == 0) return Error{frames.reason};
+    return frames.n - 1;
   }
   if (const auto index = number_in<std::size_t>(word)) return *index;
   return Error{word + " is no number of a frame"};
 }
 
 Result<std::string> frame(const RecordedRun& run, const std::string& word) {
-  const auto index = index_in(run, word);
-  if (!index) return index.error();
-  const auto frame = run.frame(*index);
-  if (!frame) return frame.error();
-  return packed(*frame);
+  const std::size_t index = SHAKEN_TRY(index_in(run, word));
+  return packed(SHAKEN_TRY(run.frame(index)));
 }
 
 /// Of rod `rod`, up to frame `word`.
 Result<std::string> path(const RecordedRun& run, const std::string& rod, const std::string& word) {
-  const auto last = index_in(run, word);
-  if (!last) return last.error();
+  const auto last = SHAKEN_TRY(index_in(run, word));
   const auto which = number_in<std::size_t>(rod);
   if (!which) return Error{rod + " is no number of a rod"};
-  const auto path = run.path(*which, *last >= kLongestPath ? *last + 1 - kLongestPath : 0, *last);
-  if (!path) return path.error();
-  return line_of({{"time_s", path->times}, {"x_mm", path->x}, {"y_mm", path->y}, {"n_z", path->n_z}});
+  const auto path = SHAKEN_TRY(run.path(*which, last >= kLongestPath ? last + 1 - kLongestPath : 0, last));
+  return line_of({{"time_s", path.times}, {"x_mm", path.x}, {"y_mm", path.y}, {"n_z", path.n_z}});
 }
 
 Result<std::string> answer(const RecordedRun& run, const std::vector<std::string>& question) {

@@ -30,53 +30,44 @@ Result<run::TrajectoryReader> RecordedRun::reader() const {
 
 Result<RecordedRun::Frames> RecordedRun::frames() const {
   if (!has_file(directory_.recorded())) return Frames{.reason = kRecordsNone};
-  const auto reader = this->reader();
-  if (!reader) return reader.error();
-  const std::size_t n = reader->n_frames();
+  const auto reader = SHAKEN_TRY(this->reader());
+  const std::size_t n = reader.n_frames();
   if (n == 0) return Frames{.reason = "no whole frame is recorded yet"};
-  const auto first = reader->recorded().frame(0), last = reader->recorded().frame(n - 1);
-  if (!first) return first.error();
-  if (!last) return last.error();
-  return Frames{n, first->time, last->time};
+  const auto first = SHAKEN_TRY(reader.recorded().frame(0)), last = SHAKEN_TRY(reader.recorded().frame(n - 1));
+  return Frames{n, first.time, last.time};
 }
 
 Result<client::RodFrame> RecordedRun::frame(std::size_t index) const {
-  const auto reader = this->reader();
-  if (!reader) return reader.error();
-  const Result<Snapshot> recorded = reader->frame(index);
-  if (!recorded) return recorded.error();
-  Result<client::RodFrame> frame = client::constants_of(reader->header().cell, recorded->position.size());
+  const auto reader = SHAKEN_TRY(this->reader());
+  const Snapshot recorded = SHAKEN_TRY(reader.frame(index));
+  Result<client::RodFrame> frame = client::constants_of(reader.header().cell, recorded.position.size());
   if (!frame) return Error{"the trajectory has " + frame.error().message};
-  frame->time = recorded->time;
-  for (std::size_t i = 0; i < recorded->position.size(); ++i) {
-    const Vec3 &x = recorded->position[i], &n = recorded->director[i];
+  frame->time = recorded.time;
+  for (std::size_t i = 0; i < recorded.position.size(); ++i) {
+    const Vec3 &x = recorded.position[i], &n = recorded.director[i];
     frame->heights.push_back(x.z());
     frame->rods.push_back(proto::make_pose(x.x(), x.y(), {n.x(), n.y(), n.z()}));
   }
-  const analysis::NematicOrder mean = analysis::nematic_order(frame->cell, recorded->director);
+  const analysis::NematicOrder mean = analysis::nematic_order(frame->cell, recorded.director);
   frame->order = mean.order;
   frame->director = mean.director;
   return frame;
 }
 
 Result<run::OrderCurve> RecordedRun::order(std::size_t most) const {
-  const auto reader = this->reader();
-  if (!reader) return reader.error();
-  return run::order_of_frames(*reader, most);
+  return run::order_of_frames(SHAKEN_TRY(this->reader()), most);
 }
 
 Result<RecordedRun::Path> RecordedRun::path(std::size_t rod, std::size_t first, std::size_t last) const {
-  const auto reader = this->reader();
-  if (!reader) return reader.error();
+  const auto reader = SHAKEN_TRY(this->reader());
   Path path;
   for (std::size_t k = first; k <= last; ++k) {
-    const Result<Snapshot> recorded = reader->frame(k);
-    if (!recorded) return recorded.error();
-    if (rod >= recorded->position.size()) return Error{"there is no rod " + std::to_string(rod)};
-    path.times.push_back(recorded->time);
-    path.x.push_back(recorded->position[rod].x());
-    path.y.push_back(recorded->position[rod].y());
-    path.n_z.push_back(recorded->director[rod].z());
+    const Snapshot recorded = SHAKEN_TRY(reader.frame(k));
+    if (rod >= recorded.position.size()) return Error{"there is no rod " + std::to_string(rod)};
+    path.times.push_back(recorded.time);
+    path.x.push_back(recorded.position[rod].x());
+    path.y.push_back(recorded.position[rod].y());
+    path.n_z.push_back(recorded.director[rod].z());
   }
   return path;
 }

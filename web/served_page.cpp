@@ -12,9 +12,7 @@ std::filesystem::path address_file(const std::filesystem::path& root) { return r
 }  // namespace
 
 Result<ServedPage> ServedPage::claim(const std::filesystem::path& root) {
-  Result<run::DirectoryLock> lock = run::DirectoryLock::acquire(root / "web.lock");
-  if (!lock) return lock.error();
-  return ServedPage(address_file(root), std::move(lock).value());
+  return ServedPage(address_file(root), SHAKEN_TRY(run::DirectoryLock::acquire(root / "web.lock")));
 }
 
 ServedPage::~ServedPage() {

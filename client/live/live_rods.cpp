@@ -25,7 +25,7 @@ RodOutline outline_of(const BeadRow& beads) {
 
 Result<RodFrame> constants_of(const Cell& cell, std::size_t n_rods) {
   constexpr double kMostLayers = 20;
-  if (auto done = scene::check_cell(cell, n_rods); !done) return done.error();
+  SHAKEN_TRY(scene::check_cell(cell, n_rods));
   RodFrame frame{.cell = cell};
   double largest = 0;
   for (const BeadRow& beads : cell.shapes) {

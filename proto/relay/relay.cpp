@@ -74,12 +74,10 @@ void prepare(int client) {
 Result<std::unique_ptr<Relay>> Relay::start(const Address& address, std::unique_ptr<proto::Bus> bridged,
                                             const Limits& limits) {
   Address got = address;
-  auto listener = listen_at(got);
-  if (!listener) return listener.error();
+  auto listener = SHAKEN_TRY(listen_at(got));
   Descriptor waker(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
   if (!waker) return system_error("the relay cannot start: eventfd");
-  return std::unique_ptr<Relay>(
-      new Relay(got, std::move(listener).value(), std::move(waker), std::move(bridged), limits));
+  return std::unique_ptr<Relay>(new Relay(got, std::move(listener), std::move(waker), std::move(bridged), limits));
 }
 
 Relay::Relay(const Address& address, Descriptor listener, Descriptor waker, std::unique_ptr<proto::Bus> bridged,

@@ -13,10 +13,9 @@ using Json = nlohmann::ordered_json;
 /// What `read` makes of a file of JSON.
 template <class T, class Read>
 Result<T> from_json(const std::filesystem::path& file, Read read) {
-  const Result<std::string> text = read_file(file);
-  if (!text) return text.error();
+  const std::string text = SHAKEN_TRY(read_file(file));
   try {
-    return read(Json::parse(*text));
+    return read(Json::parse(text));
   } catch (const Json::exception& problem) {
     return Error{file.string() + ": " + problem.what()};
   }
