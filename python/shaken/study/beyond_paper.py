@@ -18,14 +18,15 @@ from .motion_checks import (PAPERS_PARABOLA, beyond_reversal, late_velocity_corr
 from .rules import markdown, text
 from .structure_checks import mean_waves, ordered_in_large_boxes
 
-#: A column of a table: its heading, and what it says of the runs at one state point.
-Column = tuple[str, Callable[[Runs], str]]
+#: A column of a table: its heading, and what it says of the runs at one state point, in words or as a number.
+Column = tuple[str, Callable[[Runs], str | Estimate]]
 
 
 def table(points: Iterable[Runs], columns: Sequence[Column]) -> str:
     """A table of Markdown with a row for the runs at each state point; state points without runs are left out."""
     headings, cells = zip(*columns)
-    return markdown(headings, [[cell(runs) for cell in cells] for runs in points if runs])
+    rows = [[cell(runs) for cell in cells] for runs in points if runs]
+    return markdown(headings, [[text(said) if isinstance(said, Estimate) else said for said in row] for row in rows])
 
 
 def key(heading: str, path: str, unit: str = "") -> Column:
@@ -35,7 +36,7 @@ def key(heading: str, path: str, unit: str = "") -> Column:
 
 def number(heading: str, of: str | Callable[[Run], Estimate], factor: float = 1.0) -> Column:
     """A number with its error, the mean over the replicas."""
-    return heading, lambda runs: text((runs.number(of) if isinstance(of, str) else runs.of(of)) * factor)
+    return heading, lambda runs: (runs.number(of) if isinstance(of, str) else runs.of(of)) * factor
 
 
 def seeds(runs: Runs) -> str:
@@ -76,15 +77,14 @@ def beads(evidence: Evidence) -> str:
     def at_same_number(here: Runs) -> Estimate:
         return log_interpolated(reference, rods_per_area(here))
 
-    def compared(here: Runs) -> str:
+    def compared(here: Runs) -> Estimate:
         other = at_same_number(here)
-        return text(here.number("diffusion_mm2_s") / other) if other.is_known and key_of(here[0], BEADS) != 9 \
-            else "–"
+        return here.number("diffusion_mm2_s") / other if key_of(here[0], BEADS) != 9 else Estimate()
 
     found = table(by(runs, BEADS), [
         key("beads", BEADS), PACKED, BOX, SEEDS, ("rods per cm²", lambda here: f"{100 * rods_per_area(here):.1f}"),
         number("D (mm²/s)", "diffusion_mm2_s"), number("v beyond n_z = 0.31 (mm/s)", beyond_reversal),
-        ("D of 9 beads, as many rods", lambda here: text(at_same_number(here))), ("ratio", compared)])
+        ("D of 9 beads, as many rods", at_same_number), ("ratio", compared)])
     if runs:
         fewest, most = (runs.where(BEADS, runs.values(BEADS)[k]) for k in (0, -1))
         found += f"\nD of the fewest beads over D of the most, at the same area fraction: " \
@@ -160,9 +160,8 @@ def inertia(evidence: Evidence) -> str:
         return long_time_diffusion(usual.at(packing=key_of(here[0], PACKING), side=key_of(here[0], SIDE)))
 
     return table(by(evidence["inertia"], PACKING), [
-        PACKED, BOX, SEEDS, ("D, uniform solid (mm²/s)", lambda here: text(solid(here))),
-        ("D, beads added up (mm²/s)", lambda here: text(long_time_diffusion(here))),
-        ("ratio", lambda here: text(long_time_diffusion(here) / solid(here))),
+        PACKED, BOX, SEEDS, ("D, uniform solid (mm²/s)", solid), ("D, beads added up (mm²/s)", long_time_diffusion),
+        ("ratio", lambda here: long_time_diffusion(here) / solid(here)),
         number("tilt keeps its sign (ms)", "n_z_switching_time_s", 1000),
         number("v beyond n_z = 0.31 (mm/s)", beyond_reversal)])
 
@@ -180,8 +179,8 @@ def rival_frequency(evidence: Evidence) -> str:
     """Whether rods of 2.5 mm diffuse normally and swim as the paper draws it at 280 Hz."""
     runs = evidence["frequency"].where(FREQUENCY, 280)
     return table(by(runs, PACKING), [
-        PACKED, BOX, SEEDS, ("D at long lags over that at short ones", lambda here: text(
-            here.number("diffusion_mm2_s") / here.number("diffusion_short_mm2_s"))),
+        PACKED, BOX, SEEDS, ("D at long lags over that at short ones",
+                             lambda here: here.number("diffusion_mm2_s") / here.number("diffusion_short_mm2_s")),
         number("exponent, long lags", "alpha_long"),
         number("v beyond n_z = 0.31 (mm/s)", beyond_reversal)])
 
@@ -191,8 +190,7 @@ def shaking(evidence: Evidence) -> str:
     shaken = evidence["shaking"].beyond(GAMMA, 0)
     return table(by(shaken, LENGTH, GAMMA), [
         LONG, key("Γ", GAMMA), BOX, SEEDS, number("S", "S"), longest_lag("total"),
-        ("D (mm²/s)", lambda here: text(long_time_diffusion(here))),
-        number("exponent there", late_lags.exponent("/msd/total_mm2")),
+        ("D (mm²/s)", long_time_diffusion), number("exponent there", late_lags.exponent("/msd/total_mm2")),
         number("D_r (rad²/s)", "rotational_diffusion_rad2_s")])
 
 
@@ -207,15 +205,13 @@ def longest_lag(direction: str) -> Column:
 
 def diffusion_minimum(evidence: Evidence) -> str:
     """D of rods of 2.5 mm against packing, with the persistence of their ways and of their tilt."""
-    tilts = evidence["mechanism"]
-
-    def switching(here: Runs) -> str:
-        same = tilts.at(packing=key_of(here[0], PACKING))
-        return text(same.number("n_z_switching_time_s") * 1000)
+    def switching(here: Runs) -> Estimate:
+        same = evidence["mechanism"].at(packing=key_of(here[0], PACKING))
+        return same.number("n_z_switching_time_s") * 1000
 
     runs = evidence.joined("short-rods", "mechanism").at(length=2.5)
     return table(by(runs, PACKING, SIDE), [
-        PACKED, BOX, SEEDS, longest_lag("total"), ("D (mm²/s)", lambda here: text(long_time_diffusion(here))),
+        PACKED, BOX, SEEDS, longest_lag("total"), ("D (mm²/s)", long_time_diffusion),
         number("slope, over that at half the lag", late_lags.change_of_slope("/msd/total_mm2")),
         number("exponent, short lags", "alpha_short"),
         number("persistence time (s)", "persistence_time_s"), number("length (mm)", "persistence_length_mm"),
@@ -253,7 +249,7 @@ def streaming(evidence: Evidence) -> str:
 
     return table(points, [
         PACKED, BOX, SEEDS, longest_lag("along"),
-        ("D along (mm²/s)", lambda here: text(long_time_diffusion(here, "along"))),
+        ("D along (mm²/s)", lambda here: long_time_diffusion(here, "along")),
         number("slope, over that at half the lag", late_lags.change_of_slope("/msd/along_mm2")),
         number("exponent", late_lags.exponent("/msd/along_mm2")),
         number("C_v along, 0.8 to 2.8 s (mm²/s²)", late_velocity_correlation), ("longest lag (s)", longest),
@@ -336,8 +332,7 @@ def defects(evidence: Evidence) -> str:
                   if swim_head_first(here).is_known], [
         LONG, PACKED, BOX, ("step", lambda here: f"{1e6 * key_of(here[0], STEP):.0f} µs"), SEEDS, number("S", "S"),
         number("defects per cm²", "lasting_defect_density_per_mm2", 100),
-        number("speed of −½ (mm/s)", "lasting_defect_speed_minus_mm_s"),
-        ("+½ head first (mm/s)", lambda here: text(swim_head_first(here))),
+        number("speed of −½ (mm/s)", "lasting_defect_speed_minus_mm_s"), ("+½ head first (mm/s)", swim_head_first),
         number("over one sample (mm/s)", over_one_sample),
         number("across (mm/s)", "lasting_defect_speed_plus_across_mm_s")])
 
@@ -346,21 +341,20 @@ def carried(evidence: Evidence) -> str:
     """How +1/2 defects move along their axis, and the rods in their cores."""
     return table(by(evidence["defect-flow"], LENGTH, PACKING), [
         LONG, PACKED, BOX, SEEDS, number("rods in the core, of the mean density", "core_density_plus"),
-        ("they move head first (mm/s)", lambda here: text(here.number("core_flow_along_mm_s") * -1)),
-        ("+½ head first (mm/s)", lambda here: text(swim_head_first(here))),
+        number("they move head first (mm/s)", "core_flow_along_mm_s", -1), ("+½ head first (mm/s)", swim_head_first),
         number("rods across (mm/s)", "core_flow_across_mm_s")])
 
 
-def wave_ratio(length: float, *, with_noise: bool = False) -> Callable[[Runs], str]:
+def wave_ratio(length: float, *, with_noise: bool = False) -> Callable[[Runs], Estimate]:
     """Power of splay over that of bend, of the opposite waves whose length is nearest to this one [mm]; with_noise: as
     measured, before the noise level of uncorrelated rods is subtracted from both."""
-    def of(here: Runs) -> str:
+    def of(here: Runs) -> Estimate:
         waves = sorted(mean_waves(here), key=lambda wave: -wave.q)
         place = place_on(np.array([2 * math.pi / wave.q for wave in waves]), length)
         if place is None:
-            return "–"
+            return Estimate(reason="no wave of this length")
         near = waves[place]
-        return text((near.with_noise(here.number("frank_floor_mm2").value) if with_noise else near).ratio)
+        return (near.with_noise(here.number("frank_floor_mm2").value) if with_noise else near).ratio
 
     return of
 
@@ -377,16 +371,15 @@ def sizes(evidence: Evidence) -> str:
     """Order of rods of 4.5 mm against the side of the box, and its power as three readings have it."""
     runs = scaling.boxes(evidence)
 
-    def power(here: Runs) -> str:
+    def power(here: Runs) -> Estimate:
         alike = runs.at(packing=key_of(here[0], PACKING))
         narrower = [side for side in alike.values(SIDE) if side < key_of(here[0], SIDE) - 1]
-        return text(scaling.power(Runs([*alike.at(side=narrower[-1]), *here]))) if narrower else "–"
+        return scaling.power(Runs([*alike.at(side=narrower[-1]), *here]) if narrower else here)
 
     return table(by(runs, PACKING, SIDE), [
         PACKED, BOX, SEEDS, number("S", "S"), ("x of S ~ Lˣ, from the box before", power),
-        ("−1/(π√(K₁K₃))", lambda here: text(scaling.predicted(here))),
-        number("half the power of G₂", scaling.half_power_of_g2),
-        ("√(K₁K₃)", lambda here: text(scaling.stiffness(here))), number("χ² per point", "frank_chi2")])
+        ("−1/(π√(K₁K₃))", scaling.predicted), number("half the power of G₂", scaling.half_power_of_g2),
+        ("√(K₁K₃)", scaling.stiffness), number("χ² per point", "frank_chi2")])
 
 
 def blunt(evidence: Evidence) -> str:
@@ -417,7 +410,7 @@ def strip(evidence: Evidence) -> str:
             for runs in (squares.at(key_of(there[0], LENGTH), key_of(there[0], PACKING), end=0.4), there)]
     return "The same rods in a strip, along whose length more wavelengths fit:\n\n" + table(both, [
         LONG, PACKED, BOX, START, SEEDS, number("S", "S"), number("θ_m (°)", theta_m),
-        ("λ (mm)", lambda here: text(mean_wavelength(layered(here)))), ("step of λ (mm)", step),
+        ("λ (mm)", lambda here: mean_wavelength(layered(here))), ("step of λ (mm)", step),
         number("layer order", "layer_order")])
 
 
