@@ -1,5 +1,6 @@
 """Runs of the rods of one species by themselves: how much they turn at a noise, to a wanted precision."""
 import copy
+import functools
 import json
 import math
 import time
@@ -171,27 +172,22 @@ class Measuring:
 
     def _curves(self, noise: float, length: float) -> tuple[NDArray[Any], NDArray[Any], int]:
         """Lags (lags) [s] and MSAD (runs, lags) [rad^2] of all runs, and the impulses between rods."""
+        seconds = 1.25 * length * RUNS * self.rods
         while True:
-            lag, msad, meetings, large_turns = self._run_all(noise, length)
-            if large_turns == 0:
-                return lag, msad, meetings
+            takes = f", about {seconds / self._speed:.0f} s" if math.isfinite(self._speed) else ""
+            self.say(f"{self.species.name}: noise {noise:.4g} rad/mm, {RUNS} runs of {1.25 * length:.3g} s{takes} ...")
+            began = time.monotonic()
+            with scratch_folder("shaken-calibrate-") as folder, ThreadPoolExecutor(self.threads) as pool:
+                runs = list(pool.map(functools.partial(self._run, folder, noise, length), range(RUNS)))
+            self._speed = seconds / max(time.monotonic() - began, 1e-3)
+            lags, msads, meetings, large_turns = zip(*runs)
+            if not any(large_turns):
+                n = min(map(len, lags))
+                return lags[0][:n], np.array([msad[:n] for msad in msads]), sum(meetings)
             if self.every <= FINEST:
                 raise Unmet(f"at noise {noise:.3g} rad/mm rods turn by more than 60 degrees "
                             f"in {self.every:.2g} s, which is too fast to follow: ask for less D_r")
             self.every /= 2
-
-    def _run_all(self, noise: float, length: float) -> tuple[NDArray[Any], NDArray[Any], int, float]:
-        seconds = 1.25 * length * RUNS * self.rods
-        takes = f", about {seconds / self._speed:.0f} s" if math.isfinite(self._speed) else ""
-        self.say(f"{self.species.name}: noise {noise:.4g} rad/mm, {RUNS} runs of {1.25 * length:.3g} s{takes} ...")
-        began = time.monotonic()
-        with scratch_folder("shaken-calibrate-") as folder:
-            with ThreadPoolExecutor(self.threads) as pool:
-                runs = list(pool.map(lambda run: self._run(folder, noise, length, run), range(RUNS)))
-        self._speed = seconds / max(time.monotonic() - began, 1e-3)
-        n = min(len(lag) for lag, *_ in runs)
-        return (runs[0][0][:n], np.array([msad[:n] for _, msad, *_ in runs]), sum(run[2] for run in runs),
-                sum(run[3] for run in runs))
 
     def _run(self, folder: Path, noise: float, length: float,
              run: int) -> tuple[NDArray[Any], NDArray[Any], int, float]:
