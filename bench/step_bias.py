@@ -110,7 +110,7 @@ def cost_sheet(rows):
     sheet = style.sheet("183mm", len(kinds), len(rods), panel_height=58).share_key()
     for panel, (title, quantities, rod) in zip(sheet, [(*kind, rod) for kind in kinds for rod in rods]):
         panel.titles("CPU time, relative to 4 µs at the tick's end", "|bias| + 2 standard errors (%)",
-                     f"{names.point_label({'rods.length': float(rod)})}: {title}").scale("log", "log")
+                     f"{names.value_label('rods.length', float(rod))}: {title}").scale("log", "log")
         for k, impacts in enumerate(("tick_end", "at_instant")):
             group = grouped(rows)[rod, impacts]
             bound = np.max([np.abs(column(group, BIAS.format(name))) + 2 * column(group, ERROR.format(name))

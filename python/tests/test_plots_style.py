@@ -15,7 +15,7 @@ from conftest import NIGHT  # noqa: E402
 from figures_whole import assert_whole  # noqa: E402
 
 from shaken.errors import ShakenError  # noqa: E402
-from shaken.plots import names, save, style  # noqa: E402
+from shaken.plots import names, save, series, style  # noqa: E402
 from shaken.plots import panel as panel_module  # noqa: E402
 
 NAN = float("nan")
@@ -219,8 +219,8 @@ def test_titles_of_axes_say_the_time_that_a_number_is_taken_over(over: tuple[flo
 
 
 def test_labels_of_points() -> None:
-    assert names.plain(names.point_label({"rods.area_fraction": 0.6, "rods.length": 2.5})) == "φ = 0.6, ℓ = 2.5 mm"
-    assert names.plain(names.point_label({"plates.gamma": -3e-7})) == "Γ = −3·10⁻⁷"
+    assert names.plain(series.label_of({"rods.area_fraction": 0.6, "rods.length": 2.5})) == "φ = 0.6, ℓ = 2.5 mm"
+    assert names.plain(series.label_of({"plates.gamma": -3e-7})) == "Γ = −3·10⁻⁷"
 
 
 def test_titles_break_between_quantities() -> None:

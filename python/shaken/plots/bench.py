@@ -8,10 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ShakenError
-from . import accuracy, names, style
+from . import accuracy, style
 from .panel import Panel
 from .accuracy import Row, column, like, series_of
 from .save import Origin
+from .series import label_of
 from .sheet import Sheet
 
 Figures = Iterator[tuple[str, Sheet]]
@@ -57,8 +58,8 @@ def _speed_figure(rows: Sequence[Row], categories: Sequence[str], series: Sequen
 
 def speed(report: Row, width: str | None) -> Figures:
     rows = report["rows"]
-    categories = [names.point_label({"rods.area_fraction": row["area_fraction"], "rods.length": row["length_mm"],
-                                     "box.side": float(f"{row['side_mm']:.3g}")}) for row in rows]
+    categories = [label_of({"rods.area_fraction": row["area_fraction"], "rods.length": row["length_mm"],
+                            "box.side": float(f"{row['side_mm']:.3g}")}) for row in rows]
     yield "speed", _speed_figure(rows, categories, [("scheduled", "scheduled/rod_s_per_cpu_s"),
                                                     ("reference", "reference/rod_s_per_cpu_s")], width or "183mm")
 

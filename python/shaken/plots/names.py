@@ -115,11 +115,6 @@ def value_label(path: str, value: Any) -> str:
     return f"{symbol(path)} = {number_text(value)}" + (f" {unit}" if unit else "")
 
 
-def point_label(parameters: Mapping[str, Any]) -> str:
-    """Parameters as they are called in print: "$φ$ = 0.6, $ℓ$ = 2.5 mm"."""
-    return ", ".join(value_label(path, value) for path, value in parameters.items())
-
-
 _WORDS = ((r"\langle ", "⟨"), (r"\langle", "⟨"), (r"\rangle", "⟩"),
           *((mark, "") for mark in (r"\mathrm", r"\hat", "$", "{", "}")))
 

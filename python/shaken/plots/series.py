@@ -19,7 +19,7 @@ _MOST_NAMED = len(style.PALETTE)
 
 
 def label_of(parameters: Mapping[str, Any]) -> str:
-    """Parameters in print; the version as it is."""
+    """Parameters as they are called in print, "$φ$ = 0.6, $ℓ$ = 2.5 mm"; the version as it is."""
     return ", ".join(str(value) if key in (VERSION, WAY) else names.value_label(key, value)
                      for key, value in parameters.items())
 
