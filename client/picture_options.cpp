@@ -50,11 +50,6 @@ std::vector<std::string> PictureOptions::words(const std::vector<std::string>& l
   return words;
 }
 
-bool PictureOptions::shows_sweep() const {
-  const auto inset = values_.find("inset");
-  return inset != values_.end() && inset->second == "sweep";
-}
-
 namespace {
 
 Drawn find_one(const Context& context, const std::string& job) {
@@ -112,9 +107,11 @@ void PictureOptions::draw(const Context& context, const std::string& what, const
   for (const Drawn& one : drawn) command.push_back(one.directory);
   command.insert(command.end(), {"-o", out.empty() ? drawn.front().name + ending : out});
   for (const auto& [option, value] : more) {
-    if (!value.empty()) command.push_back(option + "=" + value);
+    if (!value.empty()) command.push_back(fmt::format("{}={}", option, value));
   }
-  if (shows_sweep()) command.push_back("--sweep=" + sweep_of(context, drawn));
+  if (const auto inset = values_.find("inset"); inset != values_.end() && inset->second == "sweep") {
+    command.push_back("--sweep=" + sweep_of(context, drawn));
+  }
   const std::vector<std::string> style = words(labels_of(drawn));
   command.insert(command.end(), style.begin(), style.end());
   become(command);

@@ -37,8 +37,6 @@ class PictureOptions {
   std::string out;
 
  private:
-  bool shows_sweep() const;
-
   std::map<std::string, std::string> values_;
   std::map<std::string, bool> switches_;
   std::string style_;
