@@ -71,7 +71,7 @@ Result<ImageOf<Channel>> Painter::paint(const RodPicture& picture, const Picture
       picture.beside.empty() ? paint_one(sheet, picture, drawn) : paint_panels(sheet, picture, drawn);
   if (!done) return done.error();
   draw_time_bar(sheet.over(), picture.captions, drawn);
-  if (auto whole = sheet.check(); !whole) return whole.error();
+  SHAKEN_TRY(sheet.check());
   return sheet.image();
 }
 template Result<Image> Painter::paint(const RodPicture& picture, const PictureStyle& style);

@@ -58,7 +58,7 @@ Result<void> write_observables(const std::filesystem::path& file, const Observab
 }
 
 Result<Observables> read_observables(const std::filesystem::path& file) {
-  if (auto whole = check_content(file); !whole) return whole.error();
+  SHAKEN_TRY(check_content(file));
   hdf5::initialize();
   try {
     const hdf5::Id in = hdf5::open_file(file, false);

@@ -5,10 +5,24 @@
 #include <cmath>
 #include <string>
 
-#include "run/files/quaternion.h"
-
 namespace shaken::run {
 namespace {
+
+/// The shortest rotation that turns z into the unit vector n, as (w, x, y, z); about x for n = -z.
+std::array<double, 4> quaternion_of_director(const Vec3& n) {
+  const double across2 = n.x() * n.x() + n.y() * n.y();
+  // 1 + n_z without cancellation near n = -z.
+  const double w2 = n.z() > 0 ? 1.0 + n.z() : across2 / (1.0 - n.z());
+  const double norm = std::sqrt(w2 * w2 + across2);
+  if (norm == 0) return {0, 1, 0, 0};
+  return {w2 / norm, -n.y() / norm, n.x() / norm, 0.0};
+}
+
+/// Where a quaternion, of any length but 0, turns z.
+Vec3 director_of_quaternion(const std::array<double, 4>& q) {
+  const auto [w, x, y, z] = q;
+  return Vec3(2 * (x * z + w * y), 2 * (y * z - w * x), w * w - x * x - y * y + z * z).normalized();
+}
 
 /// Rounds to float without leaving [0, side): 83.7299999999 must not become 83.73.
 float wrapped_float(double x, double side) {

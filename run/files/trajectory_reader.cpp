@@ -132,7 +132,7 @@ Result<TrajectoryReader> TrajectoryReader::open(const std::filesystem::path& fil
   if (is_log) {
     return TrajectoryReader(file, SHAKEN_TRY(open_frame_log(file)));
   }
-  if (auto whole = check_content(file); !whole) return whole.error();
+  SHAKEN_TRY(check_content(file));
   hdf5::initialize();
   try {
     return TrajectoryReader(file, std::make_unique<Hdf5Frames>(file));

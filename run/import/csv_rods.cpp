@@ -110,7 +110,7 @@ class CsvRods {
       const auto at = place_.find(name);
       if (at == place_.end()) return otherwise;
       const CsvField& field = fields[at->second];
-      const std::optional<double> number = number_in(field.text);
+      const std::optional<double> number = decimal_in(field.text);
       if (!number) report(field.column, fmt::format("{}: '{}' is not a number", name, printable(field.text)));
       return number.value_or(0);
     };

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
@@ -62,7 +61,7 @@ std::vector<CsvField> fields_of(std::string_view line, char separator) {
 }
 
 bool has_numbers_only(const std::vector<CsvField>& fields) {
-  return std::ranges::all_of(fields, [](const CsvField& field) { return number_in(field.text).has_value(); });
+  return std::ranges::all_of(fields, [](const CsvField& field) { return decimal_in(field.text).has_value(); });
 }
 
 }  // namespace
@@ -130,14 +129,11 @@ void read_csv(std::string_view text, const CsvReader& reader) {
     reader.report(fmt::format("the file is empty: its first line names the columns, as {}", reader.example), 0, 0);
 }
 
-std::optional<double> number_in(std::string text) {
+std::optional<double> decimal_in(std::string text) {
   if (const std::size_t comma = text.find(','); comma != std::string::npos && text.find('.') == std::string::npos)
     text[comma] = '.';
-  const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
-  double number = 0;
-  const auto [end, trouble] = std::from_chars(begin, text.data() + text.size(), number);
-  if (trouble != std::errc{} || end != text.data() + text.size() || !std::isfinite(number)) return std::nullopt;
-  return number;
+  const auto number = number_in<double>(std::string_view(text).substr(text.starts_with('+') ? 1 : 0));
+  return number && std::isfinite(*number) ? number : std::nullopt;
 }
 
 Vec3 director_at(double angle, double tilt) {

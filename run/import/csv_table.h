@@ -35,7 +35,7 @@ struct CsvReader {
 void read_csv(std::string_view text, const CsvReader& reader);
 
 /// None if `text` is no finite number. A decimal comma is one where it separates nothing else.
-std::optional<double> number_in(std::string text);
+std::optional<double> decimal_in(std::string text);
 
 /// A unit vector from its angle to the x axis in the plane, and that out of the plane [rad].
 Vec3 director_at(double angle, double tilt);

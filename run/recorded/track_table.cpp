@@ -112,7 +112,7 @@ class TrackTable {
                     .add =
                         [&](const auto& fields, int line) {
                           const bool may_be_title = line <= first + 3 && has_titles_;
-                          if (!may_be_title || number_in(fields[place_.at("x")].text)) add(fields, line);
+                          if (!may_be_title || decimal_in(fields[place_.at("x")].text)) add(fields, line);
                         },
                     .report = [&](const auto&... problem) { report(problem...); },
                     .example = "frame,id,x,y,angle"});
@@ -178,7 +178,7 @@ class TrackTable {
       const bool is_nan = field.text.empty() || field.text == "nan" || field.text == "NaN" || field.text == "NA";
       is_missed = is_missed || is_nan;
       if (is_nan) return otherwise;
-      const std::optional<double> number = number_in(field.text);
+      const std::optional<double> number = decimal_in(field.text);
       if (!number) report(fmt::format("{}: '{}' is not a number", name, printable(field.text)), line, field.column);
       return number.value_or(otherwise);
     };

@@ -409,7 +409,7 @@ Result<World> make_compressed_world(const System& system, const GoOn& go_on) {
 }
 
 Result<World> make_resized_world(const System& system, const World& left, const GoOn& go_on) {
-  if (auto fits = check_left(system, left); !fits) return fits.error();
+  SHAKEN_TRY(check_left(system, left));
   if (system.walls) return Error{"rods can be compressed in a periodic box only, without walls"};
   return Compression(system, go_on).from_rods_of(left);
 }

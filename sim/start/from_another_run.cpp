@@ -102,7 +102,7 @@ RodsLeft rods_left(const World& world, const World& left) {
 }
 
 Result<World> make_world(const System& system, const World& left) {
-  if (auto fits = check_left(system, left); !fits) return fits.error();
+  SHAKEN_TRY(check_left(system, left));
   SHAKEN_CHECK(!is_resized(system, left.system), "sim/start/compression.h makes that");
   World world = empty_world(system);
   const bool has_plates = system.base || system.lid;
