@@ -271,7 +271,9 @@ struct System {
     return n;
   }
   /// Species `number` is there: the first always, others where they are added.
-  bool has_species(std::size_t number) const { return number == 0 || added[number - 1].has_value(); }
+  bool has_species(std::size_t number) const {
+    return number == 0 || (number <= added.size() && added[number - 1].has_value());
+  }
   bool has_horizontal_vibration() const { return horizontal_amplitude > 0 && frequency > 0 && (base || lid); }
   bool has_second_vibration() const {
     return second && second->amplitude > 0 && second->frequency > 0 && (base || lid);

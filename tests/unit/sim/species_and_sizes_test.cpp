@@ -135,6 +135,12 @@ double mean_of(const std::vector<double>& x) {
   return sum / static_cast<double>(x.size());
 }
 
+TEST(Species, OfANumberBeyondAllIsNotThere) {
+  System full;
+  full.added.fill(AddedRods{full.rod, 1});
+  for (std::size_t number = 0; number < 300; ++number) EXPECT_EQ(full.has_species(number), number < kMostSpecies);
+}
+
 TEST(Sizes, AreOneWithoutSpread) {
   RodShape rod;
   EXPECT_EQ(sizes_of(rod), std::vector{rod});
