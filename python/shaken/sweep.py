@@ -162,11 +162,11 @@ class Sweep:
     def records(self) -> list[dict[str, Any]]:
         """The same as a list of dicts, for which pandas is not needed."""
         several = len({point.version for point in self.points if point.runs}) > 1
-        records = []
+        records, names = [], self._names()
         for point in self.points:
             record: dict[str, Any] = {**point.parameters, **({"version": point.version} if several else {}),
                                       "n_done": len(point.runs), "n_replicas": point.n_replicas}
-            for name in filter(point.names().__contains__, self._names()):
+            for name in filter(set(point.names()).__contains__, names):
                 estimate = point[name]
                 record |= {name: estimate.value, name + ":error": estimate.error, name + ":steady": estimate.steady}
             records.append(record)

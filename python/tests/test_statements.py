@@ -794,6 +794,7 @@ def test_peaks_are_counted():
     s = np.linspace(0, 1, 100)
     assert n_peaks(np.exp(-((s - 0.5) / 0.1) ** 2)) == 1 and n_peaks(np.zeros(0)) == 0
     assert n_peaks(np.exp(-((s - 0.2) / 0.05) ** 2) + np.exp(-((s - 0.8) / 0.05) ** 2)) == 2
+    assert n_peaks(np.repeat([0, 1, 0.9, 1, 0], [5, 6, 3, 6, 5])) == 1
 
 
 def test_every_statement_has_made_up_runs():

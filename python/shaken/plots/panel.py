@@ -48,6 +48,7 @@ class Panel:
         self._exact = {"x": False, "y": False}
         self._n_named = 0
         self._levels: list[tuple[str, float]] = []   # lines through the whole panel
+        self.padding = 1.0                            # times what is free about the points (bench/step_bias.py)
         self._number_room = False
         self._afterwards: list[Any] = []
         self.keyless = False
@@ -394,7 +395,7 @@ class Panel:
         begin = least if lower is None else min(least, lower)
         end = most if upper is None else max(most, upper)
         span = end - begin
-        pad = (0.05 if name == "x" else 0.06) * span
+        pad = self.padding * (0.05 if name == "x" else 0.06) * span
         # A line may begin at an axis; a mark, or the end of a bar, may not. Above and below all keep some distance.
         mark_low = forward(marks.min()) if marks.size else math.inf
         mark_high = forward(marks.max()) if marks.size else -math.inf
@@ -468,7 +469,7 @@ def set_ticks(axes: Any, name: str) -> None:
     n_tens = math.floor(math.log10(high) + 1e-9) - math.ceil(math.log10(low) - 1e-9) + 1
     powers = high >= 1e5 or low < 1e-4 or decades > 5
     subs = (1.0,) if n_tens >= 3 else (1.0, 2.0, 5.0)
-    if isinstance(axis.get_major_locator(), ticker.LogLocator):
+    if not isinstance(axis.get_major_locator(), ticker.FixedLocator):
         axis.set_major_locator(ticker.LogLocator(base=10, subs=subs, numticks=9 if n_tens >= 3 else 15)
                                if decades > 0.7 else ticker.MaxNLocator(4, steps=[1, 2, 5, 10]))
     axis.set_major_formatter(ticker.FuncFormatter(lambda value, _: log_text(value, powers and len(subs) == 1)))
