@@ -76,6 +76,7 @@ void read_csv(std::string_view text, const CsvReader& reader) {
   std::size_t n_columns = 0;
   bool has_names = false, is_usable = false;
   int number = 0;
+  const auto is_column = [&](const CsvField& name) { return reader.is_column(name.text); };
   const auto begin = [&](std::string_view line) {
     if (!separator) separator = separator_of(line);
     const std::vector<CsvField> names = fields_of(line, *separator);
@@ -91,9 +92,8 @@ void read_csv(std::string_view text, const CsvReader& reader) {
     if (line.find_first_not_of(" \t") == std::string_view::npos) continue;
     if (line.starts_with('#')) {
       line.remove_prefix(1);
-      const bool names_columns = std::ranges::all_of(fields_of(line, separator_of(line)),
-                                                     [&](auto& name) { return reader.is_column(name.text); });
-      if (!has_names && names_columns) comment = line;
+      const std::vector<CsvField> names = fields_of(line, separator_of(line));
+      if (!has_names && std::ranges::all_of(names, is_column)) comment = line;
       continue;
     }
     if (number == 1 && line.size() == 5 && (line.starts_with("sep=") || line.starts_with("SEP="))) {
@@ -101,7 +101,9 @@ void read_csv(std::string_view text, const CsvReader& reader) {
       continue;
     }
     if (!std::exchange(has_names, true)) {
-      if (!has_numbers_only(fields_of(line, separator.value_or(separator_of(line))))) {
+      const std::vector<CsvField> fields = fields_of(line, separator.value_or(separator_of(line)));
+      // --columns may name columns that are called by numbers
+      if (!has_numbers_only(fields) || std::ranges::any_of(fields, is_column)) {
         begin(line);
         continue;
       }

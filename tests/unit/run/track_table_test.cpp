@@ -94,6 +94,9 @@ TEST(TrackTable, OfOtherProgramsFormsIsReadAsTheirTablesOfRodsAre) {
     ASSERT_EQ(tracks.frames->n_frames(), 2U) << text;
     expect_rod(frame_of(tracks, 1), 0, {2.5, 4}, 30);
   }
+  TrackConventions by_place = at_intervals();
+  by_place.columns = {{"frame", "0"}, {"id", "1"}, {"x", "2"}, {"y", "3"}, {"angle", "4"}};
+  expect_rod(frame_of(tracks_in("0,1,2,3,4\n0,1,2.5,3,30\n1,1,2.5,4,30\n", by_place), 1), 0, {2.5, 4}, 30);
   EXPECT_THAT(refusal_of("\xff\xfe"
                          "f\0r"),
               HasSubstr("the file is UTF-16: save it as UTF-8"));
