@@ -1,6 +1,7 @@
 #include "client/watch/keys.h"
 
 #include <optional>
+#include <utility>
 
 namespace shaken::client {
 namespace {

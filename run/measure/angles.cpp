@@ -1,6 +1,7 @@
 #include "analysis/angles.h"
 
 #include <optional>
+#include <string>
 
 #include "analysis/two_peaks.h"
 #include "run/measure/measured.h"

@@ -1,6 +1,7 @@
 #include "analysis/layers.h"
 
 #include <cmath>
+#include <optional>
 
 #include "run/measure/measured.h"
 #include "run/measure/rows.h"

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <optional>
 
 #include "analysis/oscillation.h"
 #include "analysis/pair_map.h"
