@@ -34,18 +34,6 @@ void each_counter(Archive&& visit, C& counters, bool has_posts) {
   std::apply([&](auto... field) { (one(counters.*field), ...); }, Counters::fields());
 }
 
-/// Calls visit(sum) for the ledger's sums in a fixed order.
-template <class Visit, class L>
-void each_sum(const Visit& visit, L& ledger, bool has_virial = true) {
-  visit(ledger.lost_rod_rod);
-  visit(ledger.lost_surfaces);
-  visit(ledger.given);
-  visit(ledger.noise);
-  for (auto& sum : ledger.momentum) visit(sum);
-  if (!has_virial) return;
-  for (auto& sum : ledger.virial) visit(sum);
-}
-
 /// What must be the same for a checkpoint to fit: everything that the stored numbers depend on.
 template <class Archive>
 void each_scene_key(Archive&& visit, const System& system) {
@@ -136,7 +124,7 @@ Result<World> restore_world(const System& system, StateReader& reader, bool has_
 
   World world = empty_world(system);
   each_counter([&](auto& counter) { reader.get(counter); }, world.counters, system.posts.has_value());
-  each_sum(
+  Ledger::each_sum(
       [&](auto& sum) {
         std::uint64_t low = 0;
         std::int64_t high = 0;
@@ -147,7 +135,7 @@ Result<World> restore_world(const System& system, StateReader& reader, bool has_
         if (overflow > 1) throw StateError("a sum that neither overflowed nor did not");
         sum.restore(low, high, overflow != 0);
       },
-      world.counters.ledger, has_virial);
+      has_virial, world.counters.ledger);
   reader.get(world.start.tick);
   reader.get(world.start.energy);
   reader.get(world.start.momentum);
@@ -180,13 +168,13 @@ std::vector<std::byte> save_checkpoint(const World& world) {
   writer.put(static_cast<std::int64_t>(physics_version(world.system)));
   each_scene_key([&](const auto& key) { writer.put(key); }, world.system);
   each_counter([&](const auto& counter) { writer.put(counter); }, world.counters, world.system.posts.has_value());
-  each_sum(
+  Ledger::each_sum(
       [&](const auto& sum) {
         writer.put(sum.low());
         writer.put(sum.high());
         writer.put(static_cast<std::uint8_t>(sum.overflow()));
       },
-      world.counters.ledger);
+      true, world.counters.ledger);
   writer.put(world.start.tick);
   writer.put(world.start.energy);
   writer.put(world.start.momentum);

@@ -33,13 +33,17 @@ struct Ledger {
   /// touch, J the impulse on the second; xx, xy, yx, yy [mg mm^2/s]. Of this the pressure is made (analysis/stress.h).
   std::array<Momentum, 4> virial;
 
+  /// visit(sum of each ledger) for all sums, in the order of checkpoints, of which former ones have no virial.
+  static void each_sum(const auto& visit, bool has_virial, auto&... ledgers) {
+    visit(ledgers.lost_rod_rod...);
+    visit(ledgers.lost_surfaces...);
+    visit(ledgers.given...);
+    visit(ledgers.noise...);
+    for (std::size_t c = 0; c < 3; ++c) visit(ledgers.momentum[c]...);
+    for (std::size_t k = 0; has_virial && k < 4; ++k) visit(ledgers.virial[k]...);
+  }
   void add(const Ledger& more) {
-    lost_rod_rod.add(more.lost_rod_rod);
-    lost_surfaces.add(more.lost_surfaces);
-    given.add(more.given);
-    noise.add(more.noise);
-    for (std::size_t c = 0; c < 3; ++c) momentum[c].add(more.momentum[c]);
-    for (std::size_t k = 0; k < 4; ++k) virial[k].add(more.virial[k]);
+    each_sum([](auto& mine, const auto& its) { mine.add(its); }, true, *this, more);
   }
 };
 
