@@ -90,4 +90,6 @@ def test_degrees_of_freedom_are_those_of_the_error_that_counts():
 @pytest.mark.parametrize("error, digits", [(0.012, 3), (0.03, 2), (0.2, 1), (1.4, 1), (3.0, 0), (250.0, 0)])
 def test_decimals_show_the_error(error, digits):
     assert decimals(error) == digits
+    words = json.loads((Path(__file__).resolve().parents[2] / "tests/vectors/words.json").read_text())
+    assert all(str(Estimate(value, error, True)) == text for value, error, text in words["value_text"])
     assert "±" in str(Estimate(1.0, error, True))

@@ -306,6 +306,11 @@ def use(page, address, daemon):
         }).map(({why}) => why)));""", json.loads((VECTORS / "points.json").read_text()))
     check(not wrong, f"points are those of `shaken results --aggregate`: {wrong}")
     wrong = page.execute_async_script("""
+        const [{value_text}, done] = arguments;
+        import("/page/results.js").then(({valueText}) => done(value_text.filter(
+          ([value, error, text]) => valueText("", value, error) !== text)));""", json.loads((VECTORS / "words.json").read_text()))
+    check(not wrong, f"values and errors have the digits of Python's: {wrong}")
+    wrong = page.execute_async_script("""
         const [{duration_text, bytes_text}, done] = arguments;
         import("/page/dom.js").then(({bytes, duration}) => done([...duration_text.filter(([n, text]) => duration(n) !== text),
           ...bytes_text.filter(([n, text]) => bytes(n) !== text)]));""", json.loads((VECTORS / "words.json").read_text()))

@@ -32,11 +32,12 @@ function beside(row, path, what) {
 }
 export const errorOf = (row, path) => beside(row, path, "sem");
 
-/** "~0.912 ± 0.004": a value with its mark, and as many digits as two of its error's. */
+/** "~0.912 ± 0.004": a value with its mark, and the digits that `decimals` of python/shaken/estimate.py gives (tests/vectors/). */
 export function valueText(mark, value, error) {
   if (!Number.isFinite(value)) return "";
   if (!(error > 0)) return mark + number(value);
-  const digits = Math.min(12, Math.max(0, 1 - Math.floor(Math.log10(error))));
+  const exponent = Math.floor(Math.log10(error)), leading = error / 10 ** exponent;
+  const digits = Math.min(12, Math.max(0, (leading < 2 ? 1 : 0) - exponent));
   return `${mark}${value.toFixed(digits)} ± ${error.toFixed(digits)}`;
 }
 

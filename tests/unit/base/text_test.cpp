@@ -63,10 +63,9 @@ TEST(Printable, BytesThatAreNoUtf8AreShown) {
 
 TEST(DurationText, KnownAnswers) {
   const auto words = nlohmann::json::parse(std::ifstream(SHAKEN_SOURCE_DIR "/tests/vectors/words.json"));
-  for (const auto& one : words["duration_text"]) EXPECT_EQ(duration_text(one[0]), one[1]);
+  for (const auto& one : words["duration_text"])
+    EXPECT_EQ(duration_text(one[0].is_null() ? NAN : one[0].get<double>()), one[1]);
   for (const auto& one : words["bytes_text"]) EXPECT_EQ(bytes_text(one[0]), one[1]);
-  EXPECT_EQ(duration_text(-1), "?");
-  EXPECT_EQ(duration_text(NAN), "?");
   EXPECT_EQ(duration_text(INFINITY), "?");
 }
 
