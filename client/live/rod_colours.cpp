@@ -40,7 +40,7 @@ std::array<Ink, kToneCount> inks() {
 }  // namespace
 
 const char* name_of(Colouring colouring) {
-  static constexpr std::array kNames{"auto", "angle to the director", "angle", "tilt", "species"};
+  static constexpr std::array kNames{"auto", "angle to the director", "angle in the box", "tilt", "species"};
   return kNames[static_cast<std::size_t>(colouring)];
 }
 
