@@ -27,6 +27,7 @@ from ..units import quantity
 from .columns import observables_csv, observables_list, summary_csv
 
 _FORMATS = ("extxyz", "gsd", "xyz", "csv")
+_ANY_FORMAT = " or ".join((", ".join(_FORMATS[:-1]), _FORMATS[-1]))
 
 
 class _Interrupted(ShakenError):
@@ -55,8 +56,8 @@ def _settle(options: argparse.Namespace) -> None:
         if form or options.out or names or of_frames:
             problems.append("--list prints names and takes no other option")
     elif form not in _FORMATS:
-        problems.append(f"--format takes extxyz, gsd, xyz or csv, not '{form}'" if form else
-                        "--format is missing: extxyz, gsd, xyz or csv")
+        problems.append(f"--format takes {_ANY_FORMAT}, not '{form}'" if form else
+                        f"--format is missing: {_ANY_FORMAT}")
     else:
         command = f"shaken export {shlex.quote(printable(options.run))} --list"
         problems += [problem for problem, is_wrong in (
