@@ -297,7 +297,7 @@ int main(int argc, char** argv) {
   if (argc > 1 && std::string_view(argv[1]) == "read") return run::read_command(argc - 1, argv + 1);
   if (argc > 1 && std::string_view(argv[1]) == "import") return run::import_command(argc - 1, argv + 1);
   if (argc > 1 && std::string_view(argv[1]) == "measure") return run::measure_command(argc - 1, argv + 1);
-  Program app("shaken-worker", "Runs one scene from start to end in a run directory.", kFooter);
+  Program app("shaken-worker", "Runs one scene from start to end in a run directory.", run::kFooter);
   run::stop_on_signals();
   run::WorkerOptions options;
   describe(app, options);

@@ -1,9 +1,12 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <bit>
 #include <cmath>
 #include <numbers>
 
+#include "base/files.h"
+#include "base/palettes.h"
 #include "base/text.h"
 #include "client/watch/chart.h"
 #include "client/watch/rod_cells.h"
@@ -215,6 +218,13 @@ TEST(RodColours, AutomaticDoesNotFlicker) {
   }
   EXPECT_EQ(automatic_colouring(0.55, colouring), Colouring::kWheel);
   EXPECT_EQ(automatic_colouring(std::nan(""), colouring), Colouring::kSpecies) << "spheres have no S";
+}
+
+TEST(RodColours, ThePageSaysWhenTheyChange) {
+  const std::string page = *read_file(SHAKEN_SOURCE_DIR "/docs/watching.md");
+  for (const std::string& words : {fmt::format("S is above {:.1f}", kOrderOfLayers + kOrderMargin),
+                                   fmt::format("it is below {:.1f}", kOrderOfLayers - kOrderMargin)})
+    EXPECT_NE(page.find(words), std::string::npos) << words;
 }
 
 TEST(RodColours, SpeciesHaveTheirOwn) {
