@@ -128,7 +128,7 @@ export function replaceIfOther(place, stamp, children) {
 
 /** Seconds as people say them: duration_text of base/text.h (tests/vectors/). */
 export function duration(seconds) {
-  if (!(seconds >= 0 && seconds < Infinity)) return "?";
+  if (!(Number.isFinite(seconds) && seconds >= 0)) return "?";  // null is 0 to a comparison
   if (seconds < 9.95) return `${seconds.toFixed(1)} s`;
   const s = Math.round(seconds), minutes = Math.floor((s + 30) / 60), hours = Math.floor((s + 1800) / 3600);
   const both = (n, of, large, small) => `${Math.floor(n / of)} ${large} ${String(n % of).padStart(2, "0")} ${small}`;
