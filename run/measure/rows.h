@@ -103,6 +103,7 @@ void put(
     const auto numbers = block_estimates(samples, result.t_steady, [&](const Accumulator& part) {
       const Found found = reduce(part);
       std::vector<double> values;
+      values.reserve(n);
       for (const auto& row : rows) values.push_back(row.of(found).value);
       return values;
     });
@@ -111,6 +112,7 @@ void put(
     const auto errors = block_errors(samples, result.t_steady, [&](const Accumulator& part) {
       const Found found = reduce(part);
       std::vector<std::vector<double>> curves;
+      curves.reserve(n);
       for (const auto& row : rows) curves.push_back(row.has_error ? row.of(found).value : std::vector<double>());
       return curves;
     });
