@@ -38,6 +38,8 @@ Colour sequential_colour(double x);
 
 /// From blue (-1) over the neutral tone (0) to orange (1).
 Colour diverging_colour(double x);
+/// The tilt n_z at which this scale ends, on either side.
+inline constexpr double kFullTilt = 0.3;
 
 /// Colour of all rods of another species than the first, 1 or 2, beside rods coloured by angle: dark and nearly grey,
 /// which no angle is.

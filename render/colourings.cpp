@@ -117,7 +117,7 @@ const Colouring kColourings[] = {
      "Tilt n_z, the head's rise",
      "",
      Scale::kLine,
-     {-0.3, 0.3},
+     {-kFullTilt, kFullTilt},
      true,
      kNothing,
      tilt,

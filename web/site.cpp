@@ -93,8 +93,8 @@ Json defects_json(const defects_t& m) {
 }
 
 /// The colours of rods and what chooses between them (base/palettes.h), evenly spaced along each scale: angles to the
-/// director from -90 to 90 degrees, angles in the box over half a turn, n_z from -0.3 to 0.3; and those of species,
-/// beside angles and alone.
+/// director from -90 to 90 degrees, angles in the box over half a turn, n_z from -kFullTilt to kFullTilt; and those of
+/// species, beside angles and alone.
 Json palettes() {
   constexpr double kPi = std::numbers::pi;
   const auto scale = [](std::size_t steps, auto colour_at) {
@@ -108,6 +108,7 @@ Json palettes() {
           {"tilt", scale(25, [&](std::size_t i) { return diverging_colour(2 * part(i, 24) - 1); })},
           {"species", scale(3, name_colour)},
           {"others", scale(3, species_colour)},
+          {"full_tilt", kFullTilt},
           {"order_of_layers", kOrderOfLayers},
           {"order_margin", kOrderMargin},
           {"floor", client::ink_of(client::kFloorTone)},

@@ -36,8 +36,6 @@ inline constexpr int kToneCount = 55;
 Tone layer_tone(double theta);
 /// 24 for half a turn.
 Tone wheel_tone(double angle);
-/// The tilt n_z at which its scale ends, on either side.
-inline constexpr double kFullTilt = 0.3;
 Tone tilt_tone(double n_z);
 /// Of rods that are coloured by species.
 Tone species_tone(std::size_t species);

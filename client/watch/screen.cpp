@@ -122,9 +122,10 @@ void put_legend(const WatchContent& content, const Area& area, const Area& pictu
       put(" 180°");
       break;
     case Colouring::kTilt:
-      put("tail up −0.3 ");
-      put_colours({tilt_tone(-0.3), tilt_tone(-0.15), tilt_tone(0), tilt_tone(0.15), tilt_tone(0.3)});
-      put(" 0.3 head up");
+      put(fmt::format("tail up −{} ", kFullTilt));
+      put_colours({tilt_tone(-kFullTilt), tilt_tone(-kFullTilt / 2), tilt_tone(0), tilt_tone(kFullTilt / 2),
+                   tilt_tone(kFullTilt)});
+      put(fmt::format(" {} head up", kFullTilt));
       break;
     case Colouring::kSpecies:
       for (std::size_t i = 0; i < content.rods->cell.n_species(); ++i) {

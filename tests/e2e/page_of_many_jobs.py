@@ -222,7 +222,7 @@ class Handler(http.server.BaseHTTPRequestHandler):
         if url.path == "/palettes.json":
             hues = [sum(round(255 * c) << 8 * n for n, c in enumerate(colorsys.hsv_to_rgb(h / 24, 0.6, 0.9))) for h in range(24)]
             return self.reply(json.dumps({name: hues for name in ("layers", "wheel", "tilt", "species", "others")}
-                                         | {"floor": 0, "wall": 0, "order_of_layers": 0.7, "order_margin": 0.1}).encode(), "application/json")
+                                         | {"floor": 0, "wall": 0, "order_of_layers": 0.7, "order_margin": 0.1, "full_tilt": 0.3}).encode(), "application/json")
         if url.path.startswith(("/v1/", "/runs/", "/examples", "/cost")):
             answer = self.daemon.answer(url.path, urllib.parse.parse_qs(url.query))
             if isinstance(answer, bytes):

@@ -5,7 +5,7 @@ export const rgb = (ink) => [ink >> 16 & 255, ink >> 8 & 255, ink & 255];
 
 /** Of a rod with in-plane angle `theta` and vertical part `nz`. */
 export const kColourOf = `
-uniform float director;
+uniform float director, fullTilt;
 uniform int colouring;
 uniform sampler2D layers, wheel, tilt;
 uniform vec3 speciesColour[3];
@@ -16,7 +16,7 @@ vec3 colourOf(float theta, float nz, float species) {
   turned -= floor(turned + 0.5);
   if (colouring == 0) return texture(layers, vec2(turned + 0.5, 0.5)).rgb;
   if (colouring == 1) return texture(wheel, vec2(theta / pi, 0.5)).rgb;
-  return texture(tilt, vec2(clamp(nz / 0.6 + 0.5, 0.0, 1.0), 0.5)).rgb;
+  return texture(tilt, vec2(clamp(nz / (2.0 * fullTilt) + 0.5, 0.0, 1.0), 0.5)).rgb;
 }`;
 
 /** A program with the places of its uniforms: {program, at: {name: location}}. Throws what the compiler says. */
@@ -78,5 +78,6 @@ export function useForRods(gl, {program, at}, palettes, frame, colouring) {
   const speciesOf = frame.species_of_outline;
   gl.uniform4fv(at.outline, frame.outlines.slice(0, 27).flatMap((one, k) => [...one, speciesOf.length ? speciesOf[k] : k]));
   gl.uniform1f(at.director, frame.director_rad);
+  gl.uniform1f(at.fullTilt, palettes.full_tilt);
   gl.uniform1i(at.colouring, kColourings.indexOf(colouring));
 }

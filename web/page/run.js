@@ -10,7 +10,7 @@ import {RodCanvas, angleToDirector, unpack, unpackText} from "./rods.js";
 const kBins = 36;
 const kPlayEvery = 50;  // ms
 const kLegends = {
-  layers: ["−90°", "90° to the director"], wheel: ["0°", "180° in the box"], tilt: ["tail up, n_z = −0.3", "0.3, head up"], species: ["", ""],
+  layers: ["−90°", "90° to the director"], wheel: ["0°", "180° in the box"], tilt: ["tail up, n_z = −", ", head up"], species: ["", ""],
 };
 
 export class RunPanel {
@@ -282,11 +282,12 @@ export class RunPanel {
 
   showLegend(canvas) {
     const kind = canvas.chosenColouring(), colours = canvas.palettes[kind];
+    const [low, high] = kLegends[kind], limit = kind === "tilt" ? canvas.palettes.full_tilt : "";
     if (kind === this.legend) return;
     this.legend = kind;
     const bar = make("canvas"), css = (ink) => `#${ink.toString(16).padStart(6, "0")}`;
     strip(bar, (part) => css(colours[Math.min(colours.length - 1, Math.floor(part * colours.length))]));
-    byId("legend").replaceChildren(kLegends[kind][0], bar, kLegends[kind][1]);
+    byId("legend").replaceChildren(low + limit, bar, limit + high);
   }
 
   async redraw() {
