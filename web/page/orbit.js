@@ -1,7 +1,7 @@
 // Rods by WebGL2 as bodies between their plates, in perspective from anywhere above: as `shaken picture --view orbit` has it.
 import {colour as cssColour} from "./dom.js";
 import {attribute, fill, kColourOf, newProgram, rgb, useForRods} from "./gl.js";
-import {kUpright, periodOf} from "./plane.js";
+import {halfTurns, kUpright, partOf, periodOf} from "./plane.js";
 
 const kSegments = 10;    // around a rod
 const kTangent = 0.27;   // of half the angle of view
@@ -120,8 +120,8 @@ function outerEdgesOf({box_mm: [width, height], walls}) {
 export function placesOf({n_rods, box_mm: [width, height], gap_mm, x, y, z, heading}) {
   const places = new Float32Array(4 * n_rods);
   for (let i = 0; i < n_rods; ++i) {
-    const above = z ? (z[i] / 32767 + 0.5) * gap_mm : gap_mm / 2;
-    places.set([(x[i] / 65536 + 0.5) * width, (y[i] / 65536 + 0.5) * height, above, heading[i] / 32768], 4 * i);
+    const above = z ? (z[i] / kUpright + 0.5) * gap_mm : gap_mm / 2;
+    places.set([partOf(x[i]) * width, partOf(y[i]) * height, above, halfTurns(heading[i])], 4 * i);
   }
   return places;
 }

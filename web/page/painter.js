@@ -2,7 +2,7 @@
 import {colour as cssColour} from "./dom.js";
 import {attribute, fill, kColourOf, makeTextures, newProgram, rgb, useForRods} from "./gl.js";
 import {OrbitPainter} from "./orbit.js";
-import {kUpright, periodOf, toNearest} from "./plane.js";
+import {halfTurns, kUpright, partOf, periodOf, toNearest} from "./plane.js";
 
 const kVertex = `
 layout(location = 0) in vec2 corner;
@@ -61,14 +61,14 @@ export function instancesOf(frame, view) {
   const rods = new Float32Array(4 * images * n), shape = new Uint8Array(images * n);
   let count = 0;
   // of the centre, from the middle of the view
-  const placed = (at, middle, axis) => toNearest((at / 65536 + 0.5 - middle) * box[axis], period[axis]);
+  const placed = (at, middle, axis) => toNearest((partOf(at) - middle) * box[axis], period[axis]);
   for (let i = 0; i < n; ++i) {
     const x = placed(frame.x[i], view.x, 0), y = placed(frame.y[i], view.y, 1), most = half + reach[frame.shape[i]];
     for (const dx of shifts[0]) {
       if (Math.abs(x + dx) > most) continue;
       for (const dy of shifts[1]) {
         if (Math.abs(y + dy) > most) continue;
-        rods.set([x + dx, y + dy, frame.heading[i] / 32768, frame.n_z[i] / kUpright], 4 * count);
+        rods.set([x + dx, y + dy, halfTurns(frame.heading[i]), frame.n_z[i] / kUpright], 4 * count);
         shape[count++] = frame.shape[i];
       }
     }

@@ -2,11 +2,10 @@
 import {ask, byId, complain, fetched, make, number, onTheme} from "./dom.js";
 import {RodPainter, suitingColouring} from "./painter.js";
 import {pointLines} from "./results.js";
-import {unpack} from "./rods.js";
+import {kWhole, unpack} from "./rods.js";
 
 const kPause = 150;     // ms between two loads, of which there is never more than one
 const kRenewed = 3000;  // ms after which the picture of a run at work is loaded again
-const kWhole = {x: 0.5, y: 0.5, zoom: 1};
 
 /** The run of a point that is shown: one at work if there is one, otherwise one that is done. */
 const shownOf = (point, stateOf) => ["running", "done"].map((state) => point.jobs.find((job) => stateOf.get(job) === state))

@@ -1,7 +1,7 @@
 // Frames of rods on a canvas that can be zoomed and moved.
 import {colour as cssColour, onTheme} from "./dom.js";
 import {RodPainter, suitingColouring} from "./painter.js";
-import {kUpright, periodOf, toNearest} from "./plane.js";
+import {halfTurns, kUpright, partOf, periodOf, toNearest} from "./plane.js";
 
 /** A frame out of the bytes of docs/web.md. Throws where they contradict themselves. */
 export function unpack(buffer) {
@@ -21,7 +21,7 @@ export function unpackText(text) {
 
 /** The angle of rod i to the director, in (-90, 90] degrees. */
 export function angleToDirector(frame, i) {
-  const angle = frame.heading[i] / 32768 * 180 - frame.director_rad * 180 / Math.PI;
+  const angle = halfTurns(frame.heading[i]) * 180 - frame.director_rad * 180 / Math.PI;
   return angle - 180 * Math.round(angle / 180);
 }
 
@@ -33,8 +33,8 @@ export function rodAt(frame, view, x, y, reach = 0) {
   let best = -1, least = Infinity;
   const [periodX, periodY] = periodOf(frame);
   for (let i = 0; i < frame.n_rods; ++i) {
-    const [length, middle, end] = frame.outlines[frame.shape[i]], theta = frame.heading[i] / 32768 * Math.PI;
-    const off = (at, from, to, side, period) => toNearest(to - (at / 65536 + 0.5 - from) * side, period);
+    const [length, middle, end] = frame.outlines[frame.shape[i]], theta = halfTurns(frame.heading[i]) * Math.PI;
+    const off = (at, from, to, side, period) => toNearest(to - (partOf(at) - from) * side, period);
     const dx = off(frame.x[i], view.x, x, frame.box_mm[0], periodX), dy = off(frame.y[i], view.y, y, frame.box_mm[1], periodY);
     const along = dx * Math.cos(theta) + dy * Math.sin(theta), across = -dx * Math.sin(theta) + dy * Math.cos(theta);
     const flat = length * Math.sqrt(Math.max(0, 1 - (frame.n_z[i] / kUpright) ** 2));
@@ -236,7 +236,7 @@ export class RodCanvas {
 
   /** What there is to say of rod i; nothing at -1. */
   tell(i) {
-    const {frame} = this, place = (at, side) => ((at / 65536 + 0.5) * side).toFixed(2);
+    const {frame} = this, place = (at, side) => (partOf(at) * side).toFixed(2);
     if (!this.onRod) return;
     this.onRod(i < 0 ? "" : `Rod ${i}: x = ${place(frame.x[i], frame.box_mm[0])} mm, y = ${place(frame.y[i], frame.box_mm[1])} mm, ` +
       (frame.order === null ? "" : `${angleToDirector(frame, i).toFixed(1)}° to the director, `) +
