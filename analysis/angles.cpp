@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "analysis/bins.h"
 #include "analysis/geometry/periodic.h"
 #include "analysis/order.h"
 #include "base/core/check.h"
@@ -29,11 +30,9 @@ AnglePdf AngleDistribution::reduce() const {
   const std::size_t bins = counts_.size();
   const double width = kPi / static_cast<double>(bins);
   const auto total = static_cast<double>(std::accumulate(counts_.begin(), counts_.end(), std::int64_t{0}));
-  AnglePdf pdf{std::vector<double>(bins), std::vector<double>(bins)};
-  for (std::size_t i = 0; i < bins; ++i) {
-    pdf.theta[i] = -kPi / 2 + (static_cast<double>(i) + 0.5) * width;
-    if (total > 0) pdf.density[i] = static_cast<double>(counts_[i]) / (total * width);
-  }
+  AnglePdf pdf{middles_of_bins(bins, width, -kPi / 2), std::vector<double>(bins)};
+  for (std::size_t i = 0; total > 0 && i < bins; ++i)
+    pdf.density[i] = static_cast<double>(counts_[i]) / (total * width);
   return pdf;
 }
 

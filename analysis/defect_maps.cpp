@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "analysis/errors/estimate_curve.h"
+#include "analysis/bins.h"
 #include "analysis/geometry/periodic.h"
 #include "base/core/check.h"
 
@@ -13,8 +13,6 @@ namespace {
 
 /// Places in a bin at which it is asked whether it lies within walls, each way.
 constexpr int kPlacesInBin = 4;
-
-double over(double sum, double n) { return n > 0 ? sum / n : kNaN; }
 
 }  // namespace
 
@@ -28,11 +26,7 @@ DefectMapSums::DefectMapSums(const Shape& shape)
   SHAKEN_CHECK(shape.core <= shape.range, "a core reaches beyond the range");
 }
 
-std::vector<double> DefectMapSums::centres() const {
-  std::vector<double> at;
-  for (std::size_t k = 0; k < bins_; ++k) at.push_back((static_cast<double>(k) + 0.5) * width_ - shape_.range);
-  return at;
-}
+std::vector<double> DefectMapSums::centres() const { return middles_of_bins(bins_, width_, -shape_.range); }
 
 void DefectMapSums::add_frame(Sums& sums, const Rods& rods, std::span<const Vec2> velocities, const Vec2& origin,
                               double psi, const Region& region) const {
@@ -103,18 +97,18 @@ DefectMap DefectMapSums::reduced(const Sums& sums, int frames_of_each) const {
       const bool known = far <= shape_.range * (1 + 1e-12);
       const std::size_t bin = row * bins_ + column;
       const auto rods = static_cast<double>(sums.rods[bin]);
-      map.density.push_back(known ? over(rods, sums.expected[bin]) : kNaN);
-      map.cos2.push_back(known ? over(sums.cos2[bin], rods) : kNaN);
-      map.sin2.push_back(known ? over(sums.sin2[bin], rods) : kNaN);
-      map.v_along.push_back(known ? over(sums.along[bin], rods) : kNaN);
-      map.v_across.push_back(known ? over(sums.across[bin], rods) : kNaN);
-      map.tilt2.push_back(known ? over(sums.tilt2[bin], rods) : kNaN);
+      map.density.push_back(known ? mean_of(rods, sums.expected[bin]) : kNaN);
+      map.cos2.push_back(known ? mean_of(sums.cos2[bin], rods) : kNaN);
+      map.sin2.push_back(known ? mean_of(sums.sin2[bin], rods) : kNaN);
+      map.v_along.push_back(known ? mean_of(sums.along[bin], rods) : kNaN);
+      map.v_across.push_back(known ? mean_of(sums.across[bin], rods) : kNaN);
+      map.tilt2.push_back(known ? mean_of(sums.tilt2[bin], rods) : kNaN);
     }
   }
   const auto core_rods = static_cast<double>(sums.core_rods);
-  map.core_density = over(core_rods, sums.core_expected);
-  map.core_along = over(sums.core_along, core_rods);
-  map.core_across = over(sums.core_across, core_rods);
+  map.core_density = mean_of(core_rods, sums.core_expected);
+  map.core_along = mean_of(sums.core_along, core_rods);
+  map.core_across = mean_of(sums.core_across, core_rods);
   return map;
 }
 

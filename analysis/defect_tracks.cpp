@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "analysis/bins.h"
 #include "base/core/check.h"
 
 namespace shaken::analysis {
@@ -212,8 +213,7 @@ std::vector<double> DefectTracks::numbers(const TrackSums& sums) const {
   for (const TrackSums::Tracks* tracks : {&sums.all, &sums.lasting}) {
     result.insert(result.end(),
                   {tracks->lived / room, tracks->creations / room, tracks->annihilations / room,
-                   tracks->births_alone / room, tracks->deaths_alone / room,
-                   tracks->deaths > 0 ? tracks->lived / tracks->deaths : std::numeric_limits<double>::quiet_NaN()});
+                   tracks->births_alone / room, tracks->deaths_alone / room, mean_of(tracks->lived, tracks->deaths)});
     for (std::size_t k = 0; k < kTrackSpans.size(); ++k) {
       const TrackSums::Speeds& plus = tracks->plus[k];
       const TrackSums::Speeds& minus = tracks->minus[k];

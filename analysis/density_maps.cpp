@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "analysis/bins.h"
 #include "analysis/errors/parts.h"
 #include "analysis/errors/steady.h"
 #include "analysis/errors/summed.h"
@@ -73,7 +74,7 @@ void DensityMaps::accumulate(double time, std::span<const Vec3> positions) {
   const double mean = static_cast<double>(positions.size()) / region_.area();
   for (std::size_t cell = 0; cell < counts_.size(); ++cell) {
     const double count = static_cast<double>(counts_[cell]) / static_cast<double>(samples_);
-    densities_.push_back(area_[cell] > 0 ? count / area_[cell] / mean : kNaN);
+    densities_.push_back(mean_of(count, area_[cell]) / mean);
   }
   counts_.assign(counts_.size(), 0);
   samples_ = 0;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/errors/estimate_curve.h"
+#include "analysis/bins.h"
 #include "analysis/lags/lag_fits.h"
 #include "base/core/check.h"
 
@@ -77,16 +77,16 @@ FlowCurve FlowSums::reduce() const {
   const double along_square = along_squares_ / rods, across_square = across_squares_ / rods;
   const double square = along_square + across_square;
   FlowCurve curve;
+  curve.r = middles_of_bins(pairs_.size(), width);
   EstimateCurve met;  // without bins that no pair is in
   std::vector<double> met_at;
   for (std::size_t bin = 0; bin < pairs_.size(); ++bin) {
     const auto pairs = static_cast<double>(pairs_[bin]);
-    curve.r.push_back((static_cast<double>(bin) + 0.5) * width);
     curve.c.push_back((along_[bin] + across_[bin]) / pairs / square);
     curve.along.push_back(along_[bin] / pairs / along_square);
     curve.across.push_back(across_[bin] / pairs / across_square);
     if (!std::isfinite(curve.c.back())) continue;
-    met_at.push_back(curve.r.back());
+    met_at.push_back(curve.r[bin]);
     met.push_back(Estimate{curve.c.back()});
   }
   curve.near = near_ / static_cast<double>(near_pairs_) / square;

@@ -1,8 +1,8 @@
 #include "analysis/g2.h"
 
 #include <algorithm>
-#include <limits>
 
+#include "analysis/bins.h"
 #include "analysis/geometry/pair_bins.h"
 #include "analysis/geometry/periodic.h"
 #include "base/core/check.h"
@@ -18,18 +18,9 @@ OrientationCorrelation::OrientationCorrelation(int bins, double r_max)
 
 void OrientationCorrelation::accumulate(std::span<const Vec3> positions, std::span<const Vec3> directors,
                                         const Region& region) {
-  SHAKEN_CHECK(positions.size() == directors.size(), "one position for each director");
   const Box& box = region.box();
   SHAKEN_CHECK(has_room(region, r_max_), "distances beyond half the box have no nearest image");
-  std::vector<double> xs, ys, cs, ss;
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    const Vec2 angle = double_angle(directors[i]);
-    if (angle == Vec2::Zero()) continue;
-    xs.push_back(wrapped(positions[i].x(), box.x()));
-    ys.push_back(wrapped(positions[i].y(), box.y()));
-    cs.push_back(angle.x());
-    ss.push_back(angle.y());
-  }
+  const auto [xs, ys, cs, ss] = lying_rods(positions, directors, box.sides());
   const std::size_t n = xs.size();
   const std::size_t stride = reference_stride(n);
   const PairBins distances(pairs_.size(), r_max_, region);
@@ -64,12 +55,10 @@ void OrientationCorrelation::accumulate(std::span<const Vec3> positions, std::sp
 OrientationCurve OrientationCorrelation::reduce() const {
   const double width = r_max_ / static_cast<double>(pairs_.size());
   OrientationCurve curve;
+  curve.r = middles_of_bins(pairs_.size(), width);
   for (std::size_t bin = 0; bin < pairs_.size(); ++bin) {
-    curve.r.push_back((static_cast<double>(bin) + 0.5) * width);
-    curve.g2.push_back(pairs_[bin] > 0 ? sums_[bin] / static_cast<double>(pairs_[bin])
-                                       : std::numeric_limits<double>::quiet_NaN());
-    curve.g.push_back(expected_[bin] > 0 ? static_cast<double>(pairs_[bin]) / expected_[bin]
-                                         : std::numeric_limits<double>::quiet_NaN());
+    curve.g2.push_back(mean_of(sums_[bin], pairs_[bin]));
+    curve.g.push_back(mean_of(static_cast<double>(pairs_[bin]), expected_[bin]));
   }
   return curve;
 }

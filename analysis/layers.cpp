@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
+#include "analysis/bins.h"
 #include "analysis/geometry/periodic.h"
 #include "analysis/geometry/wave_sums.h"
 #include "analysis/order.h"
@@ -72,13 +72,10 @@ void LayerOrder::accumulate(std::span<const Vec3> positions, std::span<const Vec
 
 LayerSpectrum LayerOrder::reduce() const {
   LayerSpectrum spectrum;
-  const auto mean = [](double sum, std::int64_t n) {
-    return n > 0 ? sum / static_cast<double>(n) : std::numeric_limits<double>::quiet_NaN();
-  };
   for (std::size_t shell = 0; shell < across_.size(); ++shell) {
     spectrum.q.push_back(vectors_.wave_number(static_cast<double>(shell + 1)));
-    spectrum.across.push_back(mean(across_[shell], n_across_[shell]));
-    spectrum.along.push_back(mean(along_[shell], n_along_[shell]));
+    spectrum.across.push_back(mean_of(across_[shell], n_across_[shell]));
+    spectrum.along.push_back(mean_of(along_[shell], n_along_[shell]));
   }
   return spectrum;
 }

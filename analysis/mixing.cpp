@@ -1,9 +1,9 @@
 #include "analysis/mixing.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
+#include "analysis/bins.h"
 #include "analysis/geometry/pair_bins.h"
 #include "analysis/geometry/periodic.h"
 #include "base/core/check.h"
@@ -75,17 +75,15 @@ void PairMixing::accumulate(std::span<const Vec3> positions, std::span<const std
 }
 
 MixingCurves PairMixing::reduce() const {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   const std::size_t n_species = rods_.size(), n_bins = pairs_.size() / kinds(n_species);
   MixingCurves curves;
-  for (std::size_t bin = 0; bin < n_bins; ++bin)
-    curves.r.push_back((static_cast<double>(bin) + 0.5) * r_max_ / static_cast<double>(n_bins));
+  curves.r = middles_of_bins(n_bins, r_max_ / static_cast<double>(n_bins));
   for (std::size_t kind = 0; kind < kinds(n_species); ++kind) {
     std::vector<double>& g = curves.g.emplace_back();
     for (std::size_t k = kind * n_bins; k < (kind + 1) * n_bins; ++k)
-      g.push_back(expected_[k] > 0 ? static_cast<double>(pairs_[k]) / expected_[k] : kNone);
+      g.push_back(mean_of(static_cast<double>(pairs_[k]), expected_[k]));
   }
-  curves.segregation.assign(kinds(n_species), kNone);
+  curves.segregation.assign(kinds(n_species), kNaN);
   const auto neighbours = [&](std::size_t a, std::size_t b) {
     return static_cast<double>(neighbours_[pair_kind(n_species, a, b)]);
   };

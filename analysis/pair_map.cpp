@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/bins.h"
 #include "analysis/geometry/periodic.h"
 #include "analysis/order.h"
 #include "base/core/check.h"
@@ -13,7 +14,6 @@ namespace {
 
 /// Rods taken as the first of a pair in one sample, at most.
 constexpr std::size_t kMaxReferencesOfMap = 1024;
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 bool is_square(const Box& box) { return box.x() == box.y(); }
 
@@ -59,19 +59,10 @@ std::vector<double> PairMap::partners_in(const Bins& cut) const {
 }
 
 void PairMap::accumulate(std::span<const Vec3> positions, std::span<const Vec3> directors) {
-  SHAKEN_CHECK(positions.size() == directors.size(), "one position for each director");
   const Box& box = shape_.box;
   const double director = nematic_order(directors).director;
   const double cosine = std::cos(director), sine = std::sin(director);
-  std::vector<double> xs, ys, cs, ss;
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    const Vec2 angle = double_angle(directors[i]);
-    if (angle == Vec2::Zero()) continue;
-    xs.push_back(wrapped(positions[i].x(), box.x()));
-    ys.push_back(wrapped(positions[i].y(), box.y()));
-    cs.push_back(angle.x());
-    ss.push_back(angle.y());
-  }
+  const auto [xs, ys, cs, ss] = lying_rods(positions, directors, box.sides());
   const std::size_t n = xs.size();
   const double bins_per_mm = 1 / width_;
   const double half_strip = shape_.strip / 2;
@@ -121,11 +112,7 @@ void PairMap::accumulate(std::span<const Vec3> positions, std::span<const Vec3> 
 
 PairCurves PairMap::reduce() const {
   PairCurves curves;
-  for (std::size_t i = 0; i < bins_; ++i) {
-    curves.along.push_back((static_cast<double>(i) + 0.5) * width_ - shape_.range);
-  }
-  curves.across = curves.along;
-  const auto ratio = [](double a, double b) { return b > 0 ? a / b : kUnknown; };
+  curves.along = curves.across = middles_of_bins(bins_, width_, -shape_.range);
   const double per_area = partners_ / shape_.box.area();
   for (std::size_t row = 0; row < bins_; ++row) {
     for (std::size_t column = 0; column < bins_; ++column) {
@@ -135,21 +122,21 @@ PairCurves PairMap::reduce() const {
           std::hypot(std::abs(curves.across[row]) + width_ / 2, std::abs(curves.along[column]) + width_ / 2);
       const bool known = far <= shape_.box.shorter() / 2;
       const auto pairs = static_cast<double>(map_.pairs[bin] + map_.pairs[mirrored]);
-      curves.g.push_back(known ? ratio(pairs, 2 * per_area * width_ * width_) : kUnknown);
-      curves.g2.push_back(known ? ratio(map_.sums[bin] + map_.sums[mirrored], pairs) : kUnknown);
+      curves.g.push_back(known ? mean_of(pairs, 2 * per_area * width_ * width_) : kNaN);
+      curves.g2.push_back(known ? mean_of(map_.sums[bin] + map_.sums[mirrored], pairs) : kNaN);
     }
   }
   const std::vector<double> partners_along = partners_in(cut_along_), partners_across = partners_in(cut_across_);
   const auto expected = [&](double partners) {
     return partners / shape_.box.area() * 2 * width_ * shape_.strip;  // both sides of 0
   };
-  for (std::size_t bin = 0; bin < cut_along_.pairs.size(); ++bin) {
-    curves.r.push_back((static_cast<double>(bin) + 0.5) * width_);
+  curves.r = middles_of_bins(cut_along_.pairs.size(), width_);
+  for (std::size_t bin = 0; bin < curves.r.size(); ++bin) {
     const auto along = static_cast<double>(cut_along_.pairs[bin]), across = static_cast<double>(cut_across_.pairs[bin]);
-    curves.g_along.push_back(ratio(along, expected(partners_along[bin])));
-    curves.g_across.push_back(ratio(across, expected(partners_across[bin])));
-    curves.g2_along.push_back(ratio(cut_along_.sums[bin], along));
-    curves.g2_across.push_back(ratio(cut_across_.sums[bin], across));
+    curves.g_along.push_back(mean_of(along, expected(partners_along[bin])));
+    curves.g_across.push_back(mean_of(across, expected(partners_across[bin])));
+    curves.g2_along.push_back(mean_of(cut_along_.sums[bin], along));
+    curves.g2_across.push_back(mean_of(cut_across_.sums[bin], across));
   }
   return curves;
 }

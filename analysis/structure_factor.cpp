@@ -1,8 +1,8 @@
 #include "analysis/structure_factor.h"
 
 #include <cmath>
-#include <limits>
 
+#include "analysis/bins.h"
 #include "analysis/geometry/wave_sums.h"
 #include "analysis/order.h"
 #include "base/core/check.h"
@@ -44,7 +44,7 @@ void StructureFactor::accumulate(std::span<const Vec3> positions, std::span<cons
 std::vector<double> StructureFactor::Shells::means() const {
   std::vector<double> means;
   for (std::size_t k = 0; k < sums.size(); ++k) {
-    means.push_back(terms[k] > 0 ? sums[k] / static_cast<double>(terms[k]) : std::numeric_limits<double>::quiet_NaN());
+    means.push_back(mean_of(sums[k], terms[k]));
   }
   return means;
 }

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
+#include "analysis/bins.h"
 #include "analysis/errors/jackknife.h"
 #include "base/core/check.h"
 
@@ -44,11 +44,11 @@ TiltMeans TiltVelocity::means() const {
   for (const std::int64_t count : counts_) total += static_cast<double>(count);
   const double width = 2.0 * n_z_max_ / static_cast<double>(counts_.size());
   TiltMeans means;
+  means.n_z = middles_of_bins(counts_.size(), width, -n_z_max_);
   for (std::size_t bin = 0; bin < counts_.size(); ++bin) {
     const auto n = static_cast<double>(counts_[bin]);
-    means.n_z.push_back(-n_z_max_ + (static_cast<double>(bin) + 0.5) * width);
-    means.v_along.push_back(n > 0 ? along_[bin] / n : std::numeric_limits<double>::quiet_NaN());
-    means.v_across.push_back(n > 0 ? across_[bin] / n : std::numeric_limits<double>::quiet_NaN());
+    means.v_along.push_back(mean_of(along_[bin], n));
+    means.v_across.push_back(mean_of(across_[bin], n));
     means.density.push_back(total > 0 ? n / (total * width) : 0.0);
   }
   return means;
@@ -67,9 +67,8 @@ TiltCurve TiltVelocity::reduce(const TiltVelocity& empty, const std::vector<Tilt
   const std::size_t bins = curve.n_z.size();
   for (std::size_t bin = 0; bin < bins; ++bin) {
     const bool known = !met.empty() && met[bin] >= kFewestParts;
-    constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-    curve.v_along_sem.push_back(known ? estimates[bin].sem : kUnknown);
-    curve.v_across_sem.push_back(known ? estimates[bins + bin].sem : kUnknown);
+    curve.v_along_sem.push_back(known ? estimates[bin].sem : kNaN);
+    curve.v_across_sem.push_back(known ? estimates[bins + bin].sem : kNaN);
   }
   return curve;
 }

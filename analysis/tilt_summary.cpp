@@ -5,6 +5,7 @@
 #include <numeric>
 #include <optional>
 
+#include "analysis/bins.h"
 #include "analysis/errors/jackknife.h"
 
 namespace shaken::analysis {
@@ -73,8 +74,7 @@ std::vector<double> crossing(const TiltVelocity& part, double below, double sign
   }
   std::size_t next = i + 1;
   while (next < folded.n_z.size() && !(folded.density[next] > 0)) ++next;
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  if (next >= folded.n_z.size()) return {kNone, kNone};
+  if (next >= folded.n_z.size()) return {kNaN, kNaN};
   const double share = folded.v_along[i] / (folded.v_along[i] - folded.v_along[next]);
   return {folded.n_z[i] + share * (folded.n_z[next] - folded.n_z[i]), sum / density};
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "analysis/bins.h"
 #include "base/core/check.h"
 
 namespace shaken::analysis {
@@ -28,8 +29,6 @@ void TiltSwitches::accumulate(double time, std::span<const Vec3> directors) {
   last_time_ = time;
 }
 
-double TiltSwitches::switching_time(const SwitchSums& sums) {
-  return sums.switches > 0 ? sums.lived / sums.switches : std::numeric_limits<double>::quiet_NaN();
-}
+double TiltSwitches::switching_time(const SwitchSums& sums) { return mean_of(sums.lived, sums.switches); }
 
 }  // namespace shaken::analysis

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
+#include "analysis/bins.h"
 #include "base/core/check.h"
 
 namespace shaken::analysis {
@@ -44,12 +46,9 @@ DisplacementCurve DisplacementHistogram::reduce() const {
   const double of_one = 1 / (width * static_cast<double>(rods_));
   DisplacementCurve curve{
       {}, densities(along_, of_one / 2), densities(across_, of_one / 2), densities(distance_, of_one)};
-  if (rods_ == 0) curve.along = curve.across = curve.distance = std::vector<double>(along_.size(), std::nan(""));
-  std::int64_t within = 0;
-  for (std::size_t bin = 0; bin < along_.size(); ++bin) {
-    curve.displacement.push_back((static_cast<double>(bin) + 0.5) * width);
-    within += distance_[bin];
-  }
+  if (rods_ == 0) curve.along = curve.across = curve.distance = std::vector<double>(along_.size(), kNaN);
+  curve.displacement = middles_of_bins(along_.size(), width);
+  const auto within = std::accumulate(distance_.begin(), distance_.end(), std::int64_t{0});
   curve.beyond = static_cast<double>(rods_ - within) / static_cast<double>(rods_);
   return curve;
 }

@@ -9,10 +9,11 @@
 
 #include "analysis/errors/saved.h"
 #include "analysis/errors/steady.h"
+#include "base/core/kept.h"
 
 namespace shaken::analysis {
 
-/// An accumulator kept in at most 64 stretches of time, so that the steady part can be reduced when its beginning is
+/// An accumulator kept in at most kMostStretches stretches of time, so that the steady part can be reduced when its beginning is
 /// known only at the end of the run. When the stretches are used up, neighbours are merged and new ones are twice as
 /// long. Accumulator: copyable, with accumulate(args...), merge(const Accumulator&), save and restore; where what it
 /// takes depends on the number of the sample, also start_at(samples before its first).
@@ -26,7 +27,7 @@ class Blocked : public Saved<Blocked<Accumulator>> {
   template <class... Args>
   void accumulate(double time, const Args&... args) {
     if (blocks_.empty() || blocks_.back().calls == calls_per_block_) {
-      if (blocks_.size() == kMaxBlocks) merge_pairs();
+      if (blocks_.size() == kMostStretches) merge_pairs();
       std::int64_t samples = 0;
       for (const Block& block : blocks_) samples += block.calls;
       blocks_.push_back({time, 0, empty_});
@@ -67,11 +68,10 @@ class Blocked : public Saved<Blocked<Accumulator>> {
   }
   bool is_sound() const {
     const auto is_part = [&](const Block& block) { return block.calls >= 1 && block.calls <= calls_per_block_; };
-    return calls_per_block_ >= 1 && blocks_.size() <= kMaxBlocks && std::ranges::all_of(blocks_, is_part);
+    return calls_per_block_ >= 1 && blocks_.size() <= kMostStretches && std::ranges::all_of(blocks_, is_part);
   }
 
  private:
-  static constexpr std::size_t kMaxBlocks = 64;
   struct Block {
     double start;        // time of the first sample
     std::int64_t calls;  // samples
@@ -80,13 +80,13 @@ class Blocked : public Saved<Blocked<Accumulator>> {
   };
 
   void merge_pairs() {
-    for (std::size_t i = 0; i < kMaxBlocks / 2; ++i) {
+    for (std::size_t i = 0; i < kMostStretches / 2; ++i) {
       Block merged = std::move(blocks_[2 * i]);
       merged.content.merge(blocks_[2 * i + 1].content);
       merged.calls += blocks_[2 * i + 1].calls;
       blocks_[i] = std::move(merged);
     }
-    blocks_.erase(blocks_.begin() + kMaxBlocks / 2, blocks_.end());
+    blocks_.erase(blocks_.begin() + kMostStretches / 2, blocks_.end());
     calls_per_block_ *= 2;
   }
 

@@ -10,6 +10,7 @@
 
 #include "analysis/errors/saved.h"
 #include "base/core/check.h"
+#include "base/core/kept.h"
 
 namespace shaken::analysis {
 
@@ -20,8 +21,7 @@ namespace shaken::analysis {
 template <std::size_t Columns>
 class BoundedSeries : public Saved<BoundedSeries<Columns>> {
  public:
-  static constexpr std::size_t kMaxPoints = 65536;
-  explicit BoundedSeries(std::size_t max_points = kMaxPoints) : max_points_(max_points) {
+  explicit BoundedSeries(std::size_t max_points = kMostSeriesPoints) : max_points_(max_points) {
     SHAKEN_CHECK(max_points >= 2 && max_points % 2 == 0, "points are averaged in pairs");
   }
 

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <cmath>
+#include <span>
+#include <vector>
 
+#include "base/core/check.h"
 #include "base/core/types.h"
 
 namespace shaken::analysis {
@@ -28,6 +31,26 @@ inline Vec2 double_angle(const Vec3& director) {
 inline double wrapped(double x, double box_side) {
   const double inside = x - box_side * std::floor(x / box_side);
   return inside < box_side ? inside : 0.0;  // rounding can reach the end
+}
+
+/// The rods of a frame that have a direction in the plane, in columns, over which loops become vector instructions.
+struct LyingRods {
+  std::vector<double> x, y;  ///< within the box
+  std::vector<double> c, s;  ///< double_angle
+};
+
+inline LyingRods lying_rods(std::span<const Vec3> positions, std::span<const Vec3> directors, const Vec2& box) {
+  SHAKEN_CHECK(positions.size() == directors.size(), "one position for each director");
+  LyingRods rods;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const Vec2 angle = double_angle(directors[i]);
+    if (angle == Vec2::Zero()) continue;
+    rods.x.push_back(wrapped(positions[i].x(), box.x()));
+    rods.y.push_back(wrapped(positions[i].y(), box.y()));
+    rods.c.push_back(angle.x());
+    rods.s.push_back(angle.y());
+  }
+  return rods;
 }
 
 /// The difference of two wrapped coordinates, brought into [-box_side / 2, box_side / 2] by a period, without a branch.

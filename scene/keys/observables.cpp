@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/core/check.h"
+#include "base/core/kept.h"
 #include "scene/keys/measured_species.h"
 
 namespace shaken::scene {
@@ -13,8 +14,7 @@ namespace shaken::scene {
 namespace {
 
 constexpr double kNumberBytes = 8;  ///< bytes of a double or a count
-constexpr double kBlocks = 64;      ///< stretches of time that sums are kept for, at most (analysis/errors/blocked.h)
-constexpr double kSeries = 65536;   ///< points of a series against time, at most (analysis/errors/bounded_series.h)
+constexpr double kBlocks = kMostStretches, kSeries = kMostSeriesPoints;
 /// Arrays that grow with the run double when they are full too: they have room for 1 to 2 times what is in them.
 constexpr double kSpare = 0.5;
 

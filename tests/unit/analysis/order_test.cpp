@@ -96,7 +96,7 @@ TEST(OrderSeries, ReduceStartsWhereTold) {
 
 // Twice as many samples as there are points, and a half again: then each point is the mean over four successive ones.
 TEST(OrderSeries, OfALongRunIsOfAverages) {
-  constexpr std::size_t kPoints = BoundedSeries<3>::kMaxPoints;
+  constexpr std::size_t kPoints = kMostSeriesPoints;
   constexpr std::size_t kSamples = 5 * kPoints / 2 + 3;
   const auto order = [](std::size_t i) { return 0.5 + 0.4 * std::sin(0.1 * static_cast<double>(i)); };
   const auto director = [](std::size_t i) {
