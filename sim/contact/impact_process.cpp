@@ -78,6 +78,10 @@ ImpactProcess::Leg ImpactProcess::leg_from_rest() const {
   return {-mu_ * slip_from_rest(tt_, mu_, nt_), kNever, false};
 }
 
+/// With slip along d at the angle phi, friction is q = -mu d, and u_t changes by nt + tt q per normal impulse: `along` d,
+/// which changes the speed of slip, and `aside`, across d, which turns it: d(phi)/dp = aside / speed. To first order
+/// `aside` changes with phi by `settling`. Where that is negative, phi decays to the direction at which `aside` is 0,
+/// phi - aside / settling, in ever shorter p as slip slows down: near that direction a leg goes along it.
 template <class End>
 ImpactProcess::Leg ImpactProcess::slipping_leg(const End& end) const {
   const double speed = u_t_.norm();
@@ -88,13 +92,13 @@ ImpactProcess::Leg ImpactProcess::slipping_leg(const End& end) const {
   const Vec2 rate = rate_t(-mu_ * direction);
   const double along = rate.dot(direction);
   const double aside = rate.dot(across);
-  // How `aside` changes with the direction of slip: where it falls, slip settles.
   const double settling = mu_ * (direction.dot(tt_ * direction) - across.dot(tt_ * across)) - nt_.dot(direction);
-  if (settling < 0 && std::abs(aside) <= -straight_ * settling) {  // the direction keeps itself up
+  if (settling < 0 && std::abs(aside) <= -straight_ * settling) {
     const Vec2 q = -mu_ * (direction - aside / settling * across).normalized();
-    const double faster = -q.dot(rate_t(q));
+    const double faster = -q.dot(rate_t(q));  // mu times the change of the speed; a leg goes half of the way to rest
     return {q, faster < 0 ? -0.5 * mu_ * speed / faster : kNever, false};
   }
+  // Otherwise as far as neither the direction nor what turns it changes much.
   const double change = std::abs(settling) + std::max(0.0, -2.0 * along);
   return midpoint_leg(
       rate, std::min({end(rate_n(-mu_ * direction)), turn_ * speed / std::abs(aside), 4.0 * turn_ * speed / change}));
