@@ -102,6 +102,12 @@ std::string printable(std::string_view text, Lines lines) {
   return shown;
 }
 
+int decimals(double error) {
+  if (!std::isfinite(error) || error <= 0) return 3;
+  const double exponent = std::floor(std::log10(error));
+  return static_cast<int>(std::clamp(-exponent + (error / std::pow(10.0, exponent) < 2 ? 1 : 0), 0.0, 300.0));
+}
+
 std::string duration_text(double seconds) {
   if (is_unknown(seconds)) return "?";
   if (seconds < 9.95) return fmt::format("{:.1f} s", seconds);

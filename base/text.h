@@ -11,6 +11,8 @@
 
 namespace shaken {
 
+/// Decimals that show an error with two figures where it begins with a 1, else with one; 3 of an error that is not known.
+int decimals(double error);
 /// Columns that `text` fills on a terminal: one per character, none for colour sequences.
 std::size_t display_width(std::string_view text);
 /// `text`, cut to `width` columns with an ellipsis if it is longer; 0 stands for any width.

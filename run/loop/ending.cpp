@@ -23,10 +23,10 @@ double number(const Json& object, const char* key) {
   return found != object.end() && found->is_number() ? found->get<double>() : std::nan("");
 }
 
-/// "0.880 +- 0.002": as many digits as two of the error's make sense.
+/// "0.880 +- 0.002".
 std::string with_error(double value, double sem) {
   if (!(sem > 0)) return fmt::format("{:.3g} (error unknown)", value);
-  const int digits = std::clamp(1 - static_cast<int>(std::floor(std::log10(sem))), 0, 12);
+  const int digits = decimals(sem);
   return fmt::format("{:.{}f} +- {:.{}f}", value, digits, sem, digits);
 }
 

@@ -1,5 +1,6 @@
 #include "base/text.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -67,6 +68,10 @@ TEST(DurationText, KnownAnswers) {
     EXPECT_EQ(duration_text(one[0].is_null() ? NAN : one[0].get<double>()), one[1]);
   for (const auto& one : words["bytes_text"]) EXPECT_EQ(bytes_text(one[0]), one[1]);
   EXPECT_EQ(duration_text(INFINITY), "?");
+  for (const auto& one : words["value_text"]) {
+    const double value = one[0], error = one[1];
+    EXPECT_EQ(fmt::format("{0:.{2}f} ± {1:.{2}f}", value, error, decimals(error)), one[2]);
+  }
 }
 
 TEST(ClockText, TimeOrDayOrDate) {

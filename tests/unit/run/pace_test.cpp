@@ -100,7 +100,7 @@ TEST(Ending, SaysWhatCameOutAndWhereItIs) {
   std::ofstream(folder.path() / "summary.json") << "{}";
   const std::string text = describe_ending(summary(true), folder.path());
   EXPECT_THAT(text, HasSubstr("120 rods, 2 s, in 12 s of CPU time\n"));
-  EXPECT_THAT(text, HasSubstr("S = 0.94961 +- 0.00092, from 1.5 s on, 11 independent samples: steady\n"));
+  EXPECT_THAT(text, HasSubstr("S = 0.9496 +- 0.0009, from 1.5 s on, 11 independent samples: steady\n"));
   EXPECT_THAT(text, HasSubstr("  summary.json    all numbers"));
   EXPECT_THAT(text, Not(HasSubstr("trajectory.h5"))) << "only what is there";
   EXPECT_THAT(text, HasSubstr("next: shaken plot " + folder.path().string()));
@@ -119,7 +119,7 @@ TEST(Ending, NamesTheCurvesThatWereMeasured) {
 TEST(Ending, ARunThatRelaxesIsToldSoWithAWayOut) {
   const std::string text = describe_ending(summary(false), "runs/a");
   EXPECT_THAT(text, HasSubstr("\n~ still relaxing\n"));
-  EXPECT_THAT(text, HasSubstr("the change of S from the first half of that time to the second, -0.0213 +- 0.0040"));
+  EXPECT_THAT(text, HasSubstr("the change of S from the first half of that time to the second, -0.021 +- 0.004"));
   EXPECT_THAT(text, HasSubstr("-s time.measure=8\n"));
   EXPECT_THAT(text, Not(HasSubstr(": steady")));
 }
