@@ -7,6 +7,7 @@
 
 #include "base/job_state.h"
 #include "base/keys/units.h"
+#include "base/steadiness.h"
 #include "base/text.h"
 #include "client/live/json.h"
 #include "render/style_keys.h"
@@ -112,6 +113,7 @@ Rows summary() {
   for (const run::SummaryKey& key : run::summary_keys()) {
     Json row{{"doc", key.meaning}, {"if_null", key.if_null}};
     if (!key.unit.empty()) row.update({{"unit", key.unit}, {"title", key.title}, {"symbol", ""}});
+    if (!key.averages.empty()) row["averages"] = split(key.averages, ' ');
     rows.emplace_back(key.name, row);
   }
   return rows;
@@ -125,6 +127,14 @@ Rows job_states() {
                                      {"has_failed", row.has_failed},
                                      {"requests", split(row.requests, ' ')},
                                      {"doc", row.meaning}});
+  return rows;
+}
+
+Rows steadiness() {
+  Rows rows;
+  for (const SteadinessRow& row : kSteadiness)
+    rows.emplace_back(row.steady ? fmt::to_string(*row.steady) : "null",
+                      Json{{"mark", row.mark}, {"word", row.word}, {"advice", row.advice}});
   return rows;
 }
 
@@ -147,7 +157,8 @@ std::string catalogue() {
                                                            {"numbers", numbers()},
                                                            {"summary", summary()},
                                                            {"effects", effects()},
-                                                           {"job_states", job_states()}};
+                                                           {"job_states", job_states()},
+                                                           {"steadiness", steadiness()}};
   std::string text = "{";
   for (const auto& [name, rows] : sections) {
     text += fmt::format("{}\n \"{}\": {{", text.size() > 1 ? "," : "", name);

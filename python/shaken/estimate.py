@@ -4,11 +4,10 @@ import math
 from dataclasses import dataclass, replace
 from typing import Any, Iterable, Sequence
 
+from .catalogue import STEADINESS
 from .errors import imported
 
 NAN = float("nan")
-#: Before a value: "~" where it still relaxes, "?" where it is not known to be of a steady state.
-MARKS = {True: "", False: "~", None: "?"}
 
 
 @dataclass(frozen=True)
@@ -126,7 +125,7 @@ class Estimate:
     def __str__(self) -> str:
         if not self.is_known:
             return f"not known ({self.reason})" if self.reason else "not known"
-        mark = MARKS[self.steady]
+        mark = STEADINESS[self.steady]["mark"]
         unit = "" if self.unit in ("1", None) else f" {self.unit}"
         if not math.isfinite(self.error):
             return f"{mark}{self.value:.4g} ± ?{unit}"

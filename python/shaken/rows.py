@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Iterable, Mapping, Sequence
 
-from .catalogue import KEYS
+from .catalogue import KEYS, SUMMARY
 from .daemon import Daemon, quoted
 from .errors import NoDaemon, NotFound, ShakenError, nearest
 from .estimate import Estimate, replica_mean
@@ -18,6 +18,7 @@ _VERSIONS = ("versions.shaken", "versions.physics")
 #: Fields that name a row rather than measure something; never averaged.
 _NAMES = {"job", "sweep", "state", "label", "replica", "directory", *_VERSIONS}
 _MEASURED = re.compile(r"measured\.(.*)\.value")
+_AVERAGES = {f"{block}.{member}" for block, row in SUMMARY.items() for member in row.get("averages", ())}
 
 
 def version_text(versions: Any) -> str:
@@ -74,9 +75,7 @@ class Row:
 
     def steady(self, name: str) -> bool | None:
         """Whether an average is one of a steady state: its own flag, else the run's; True of what is no average."""
-        is_average = name in ("order.mean", "order.std") or name.startswith("defects.mean") or (
-            name.startswith("measured.") and name.endswith(".value"))
-        if not is_average or math.isnan(self.number(name)) or isinstance(self.fields[name], str):
+        if not (name in _AVERAGES or _MEASURED.fullmatch(name)) or math.isnan(self.number(name)) or isinstance(self.fields[name], str):
             return True
         flags = [self.fields[of] for of in (name.rpartition(".")[0] + ".steady", "steady") if of in self.fields]
         return next((flag for flag in flags if flag is not None), None if flags else True)

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from shaken import rows, text
+from shaken.catalogue import STEADINESS
 from shaken.errors import NotFound, ShakenError, nearest
 from shaken.estimate import student_factor
 from shaken.units import quantity
@@ -489,7 +490,7 @@ def test_points_are_those_of_the_page(case):
     newest = max(points, key=lambda point: rows.newness(point.version))
     assert newest.number(case["value"]) == case["mean"] and newest.fields["n_done"] == case["n"]
     steady = rows.row_of(case["rows"][0]).steady(case["value"])
-    assert results.MARKS[steady] == case["mark"]
+    assert STEADINESS[steady]["mark"] == case["mark"]
 
 
 def test_a_run_that_is_not_done_belongs_to_the_newest_version():

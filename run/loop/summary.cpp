@@ -115,9 +115,9 @@ constexpr auto kKeys = std::to_array<SummaryKey>({
      [](Of s) { return s.order ? json_of(s.order->steady) : OrderedJson(nullptr); },
      "S, which would tell, is not measured (measure.order)", "S would tell, and spheres have none"},
     {"order", "", "", "the average of S(t), see below", order_json,
-     "the scene does not measure S (measure.order)", "spheres have no axis"},
+     "the scene does not measure S (measure.order)", "spheres have no axis", "mean std"},
     {"defects", "1", "", "`mean_plus` and `mean_minus`: mean numbers of ±1/2 defects", defects_json,
-     "the scene does not measure them (measure.defects)", "spheres have no axis"},
+     "the scene does not measure them (measure.defects)", "spheres have no axis", "mean_plus mean_minus"},
 });
 // clang-format on
 

@@ -92,6 +92,7 @@ struct SummaryKey {
   nlohmann::ordered_json (*value)(const Summary&);
   std::string_view if_null = {};     ///< why there is no value
   std::string_view of_spheres = {};  ///< the same where the measured rods have no axis
+  std::string_view averages = {};    ///< its members that are means over time, with blanks between them
 };
 /// All of them, in the order of the file.
 std::span<const SummaryKey> summary_keys();

@@ -1,7 +1,7 @@
 // The table of a sweep's jobs: all of them, filtered and sorted; only the rows that are seen are elements of the page.
 import {byId, make, number, replaceIfOther} from "./dom.js";
 import {actionButtons} from "./queue.js";
-import {errorOf, kSteadiness, markOf, valueText} from "./results.js";
+import {errorOf, markOf, valueText, wordOf} from "./results.js";
 
 const kRow = 28;     // px: the height of a row (page.css)
 const kBeyond = 8;   // rows above and below those that are seen
@@ -119,7 +119,7 @@ export class JobTable {
     };
     put(id, job.id.slice(0, 8));
     put(state, job.state + part, job.reason);
-    put(told, result ? valueText(mark, result.values[value], errorOf(result, value)) : "", kSteadiness[mark]);
+    put(told, result ? valueText(mark, result.values[value], errorOf(result, value)) : "", mark && wordOf(mark));
     put(label, (job.reason ? `${job.reason}; ` : "") + shortened(job.label), [job.reason, job.label].filter(Boolean).join("; "));
     replaceIfOther(actions, `${job.id} ${job.state}`, () => actionButtons(`/v1/jobs/${job.id}`, new Set([job.state])));
   }

@@ -2,7 +2,7 @@
 import {byId, colour, complain, make, number, offer, onTheme, replaceIfOther} from "./dom.js";
 import {PointMap, sequential, strip} from "./charts.js";
 import {PictureMap} from "./pictures.js";
-import {kSteadiness, pointLines, pointsOf, sweptParameters} from "./results.js";
+import {kMarks, pointLines, pointsOf, sweptParameters, wordOf} from "./results.js";
 
 const kPreferred = ["order.mean", "measured.theta_m_deg.value", "n_rods"];
 const sorted = (set) => [...set].sort((a, b) => a.localeCompare(b));
@@ -90,8 +90,8 @@ export class PhaseMap {
       border: colour(point.states.has("running") ? "warm" : point.states.has("failed") ? "alarm" :
         point.jobs.includes(run) ? "ink" : "edge"),
     }));
-    const met = ["~", "?"].filter((mark) => all.some(({marks}) => marks.has(mark)));
-    byId("map-marks").textContent = met.length ? `hollow: ${met.map((mark) => kSteadiness[mark]).join(" or ")}` : "";
+    const met = kMarks.filter((mark) => all.some(({marks}) => marks.has(mark)));
+    byId("map-marks").textContent = met.length ? `hollow: ${met.map(wordOf).join(" or ")}` : "";
     const inPictures = this.pictures.isOn;
     byId("map-kind").hidden = !all.length;
     byId("map-frame").hidden = byId("map-save").hidden = byId("map-scale").hidden = inPictures || !points.length;

@@ -1,6 +1,6 @@
 // The list of sweeps, and what can be asked of them and of their jobs.
 import {ask, byId, complain, duration, make} from "./dom.js";
-import {kJobStates} from "./job_states.js";
+import {kJobStates} from "./catalogue.js";
 
 /** "3 done, 2 running" of {state: n}. */
 export const countsText = (counts) =>

@@ -1,4 +1,5 @@
 // Numbers of runs: their errors, their marks and their means over replicas, by the rules of `shaken results`.
+import {kAverages, kSteadiness} from "./catalogue.js";
 import {number} from "./dom.js";
 
 /** Numbers of a summary by path: {"order.mean": 0.9, ...}. */
@@ -10,18 +11,18 @@ export function leaves(object, prefix = "", found = {}) {
   return found;
 }
 
-/** The words of each mark of an average that is of no steady state, or not known to be (base/steadiness.h). */
-export const kSteadiness = {"~": "still relaxing", "?": "not known to be steady"};
+/** The marks of averages that are of no steady state or not known to be, in the order in which one is named. */
+export const kMarks = Object.values(kSteadiness).map(({mark}) => mark).filter(Boolean);
+/** What a mark says. */
+export const wordOf = (mark) => Object.values(kSteadiness).find((row) => row.mark === mark)?.word ?? "";
 
 /** The mark of a value of a row, "~" or "?"; empty where it is steady, or no average over time. */
 export function markOf(row, path) {
   const name = path.startsWith("measured.") ? path.slice("measured.".length, -".value".length) : "";
   const own = row.summary?.measured?.[name]?.steady;
-  const isAverage = path === "order.mean" || path === "order.std" || path.startsWith("defects.mean") ||
-    (path.startsWith("measured.") && path.endsWith(".value"));
+  const isAverage = kAverages.includes(path) || (path.startsWith("measured.") && path.endsWith(".value"));
   const steady = typeof own === "boolean" ? own : row.summary?.steady;
-  if (!isAverage || !Number.isFinite(row.values[path]) || steady === undefined || steady === true) return "";
-  return steady === false ? "~" : "?";
+  return isAverage && Number.isFinite(row.values[path]) && steady !== undefined ? kSteadiness[String(steady)].mark : "";
 }
 
 /** A number that stands beside the value of a row, "sem" or "n_effective"; NaN where it has none. */
@@ -108,7 +109,7 @@ export function pointsOf(rows, {x, y, value, fixed = {}}) {
         {mean: NaN, error: NaN}),
       nEffective: rows.map((row) => beside(row, value, "n_effective")).filter(Number.isFinite).reduce((sum, n) => sum + n, 0),
       seconds: rows.map((row) => row.values.sim_seconds).filter(Number.isFinite),
-      mark: ["~", "?"].find((each) => marks.has(each)) ?? "",
+      mark: kMarks.find((each) => marks.has(each)) ?? "",
     };
   });
 }
@@ -120,7 +121,7 @@ export function pointLines(point, {x, y, value}) {
           `${value} = ${valueText(point.mark, point.mean, point.error) || "unknown"}` +
             (point.n > 1 ? ` (mean of ${point.n} runs)` : ""),
           ...(point.nOthers ? [`${point.nOthers} of other versions left out`] : []),
-          ...[...point.marks].map((mark) => `${mark} ${kSteadiness[mark]}`),
+          ...[...point.marks].map((mark) => `${mark} ${wordOf(mark)}`),
           ...(point.nEffective > 0 ? [`${number(point.nEffective, 3)} independent samples`] : []),
           ...(point.seconds.length ? [`${shortest === longest ? "" : `${number(shortest)} to `}${number(longest)} s simulated` +
             (shortest === longest ? "" : ": runs of different length")] : []),

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from ..catalogue import STEADINESS
 from ..errors import ShakenError
 from .names import short_number
 from .save import Drawn
@@ -13,8 +14,8 @@ from .style import DARK_GREY, GREY, MARKERS, PALETTE, styled
 if TYPE_CHECKING:
     from .sheet import Sheet
 
-HOLLOW = "hollow: still relaxing, or not known to be steady"
-DASHED = "dashed: still relaxing, or not known to be steady"
+_NOT_STEADY = ", or ".join(row["word"] for row in STEADINESS.values() if row["mark"])
+HOLLOW, DASHED = f"hollow: {_NOT_STEADY}", f"dashed: {_NOT_STEADY}"
 NO_ERROR = "crossed: no error known"
 BARS, BANDS = "bars: ± one standard error, if longer than the mark", "bands: ± one standard error"
 

@@ -5,9 +5,9 @@ import math
 import sys
 from typing import Sequence
 
+from ..catalogue import STEADINESS
 from ..daemon import Daemon
 from ..errors import ShakenError
-from ..estimate import MARKS
 from ..rows import Row, aggregated, axes_of, field_names, has_several_versions, resolved, short_name, swept, target_of
 from ..text import Column, csv_line, in_yellow, json_text, number_text, printable, table, terminal_width, value_text
 from ..units import unit_of
@@ -22,10 +22,6 @@ _COLUMNS = tuple((f"{title} {unit_of(name)}".removesuffix(" 1"), name, rank) for
     ("ROD-S/CPU-S", "rod_seconds_per_cpu_second", 9), ("OVERLAP", "max_overlap_mm", 10)))
 #: Of those, what is shown of single runs only.
 _OF_RUNS = ("order.t_steady_s", "rod_seconds_per_cpu_second", "max_overlap_mm")
-#: What the marks of averages say (base/steadiness.h).
-_MEANINGS = {False: "still relaxing: no steady state yet, run it longer (-s time.measure=...)",
-             None: "not known to be steady: too short to tell, its error holds the drift; run it longer (-s "
-                   "time.measure=...)"}
 
 
 def _chosen(rows: Sequence[Row], words: str) -> list[str]:
@@ -63,7 +59,7 @@ def _cell(row: Row, name: str) -> str:
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         return value_text(value)
     steady = row.steady(name)
-    text = MARKS[steady] + number_text(value)
+    text = STEADINESS[steady]["mark"] + number_text(value)
     if name + ":n" in row.fields:
         text += f" ({row.fields[name + ':n']})"
     return text if steady else in_yellow(text)
@@ -80,9 +76,9 @@ def _print_table(rows: Sequence[Row], options: argparse.Namespace) -> None:
         for title, name, rank in columns], terminal_width())
     print(text, end="")
     met = {row.steady(name) for row in rows for _, name, _ in columns}
-    for steady, meaning in _MEANINGS.items():
-        if steady in met:
-            print(f"{in_yellow(MARKS[steady])} {meaning}")
+    for steady, row in STEADINESS.items():
+        if steady in met and row["mark"]:
+            print(f"{in_yellow(row['mark'])} {row['word']}: {row['advice']}")
     if left_out:
         print(f"no room for {', '.join(left_out)} (--columns FIELD,... chooses, --csv has all)", file=sys.stderr)
 

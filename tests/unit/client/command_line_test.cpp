@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -473,19 +474,37 @@ TEST(Catalogue, SaysOfEveryQuantityWhatItIs) {
   EXPECT_GE(n_titles, 130U);
 }
 
-TEST(Catalogue, ListsTheStatesOfJobsForThePageAndItsReaders) {
-  std::string module = "export const kJobStates = {\n",
-              table = keys::table_head({"state", "meaning", "worker", "ended"});
+TEST(Catalogue, ListsTheStatesOfJobsForItsReaders) {
+  std::string table = keys::table_head({"state", "meaning", "worker", "ended"});
   const auto yes = [](const Json& is_so) { return is_so.get<bool>() ? "yes" : ""; };
   const Json states = Json::parse(catalogue())["job_states"];
   for (const auto& [word, row] : states.items()) {
-    const Json of_page{{"has_worker", row["has_worker"]}, {"requests", row["requests"]}};
-    module += "  " + Json(word).dump() + ": " + of_page.dump() + ",\n";
     table += keys::table_line(
         {"`" + word + "`", row["doc"].get<std::string>(), yes(row["has_worker"]), yes(row["has_ended"])});
   }
-  expect_generated(SHAKEN_SOURCE_DIR "/web/page/job_states.js", "states", module + "};\n");
   expect_generated(SHAKEN_SOURCE_DIR "/docs/protocol.md", "states", table);
+}
+
+TEST(Catalogue, HasAPartForThePage) {
+  const Json all = Json::parse(catalogue());
+  const auto table = [&](const char* name, const char* section, std::initializer_list<const char*> members) {
+    std::string text = fmt::format("export const {} = {{\n", name);
+    for (const auto& [word, row] : all[section].items()) {
+      Json of_page;
+      for (const char* member : members) of_page[member] = row[member];
+      text += fmt::format("  {}: {},\n", Json(word).dump(), of_page.dump());
+    }
+    return text + "};\n";
+  };
+  Json averages;
+  for (const auto& [name, row] : all["summary"].items()) {
+    for (const Json& member : row.value("averages", Json::array()))
+      averages.push_back(name + "." + member.get<std::string>());
+  }
+  expect_generated(SHAKEN_SOURCE_DIR "/web/page/catalogue.js", "catalogue",
+                   table("kJobStates", "job_states", {"has_worker", "requests"}) +
+                       table("kSteadiness", "steadiness", {"mark", "word"}) +
+                       fmt::format("export const kAverages = {};\n", averages.dump()));
 }
 
 TEST(Catalogue, NamesAxesThatAreArraysWithoutAxes) {

@@ -1,5 +1,5 @@
-// The states of a job, as base/job_state.h has them: a test writes this (SHAKEN_UPDATE_DOCS=1).
-// states: begin
+// What the page reads of the catalogue (client/catalogue.h): a test writes this (SHAKEN_UPDATE_DOCS=1).
+// catalogue: begin
 export const kJobStates = {
   "queued": {"has_worker":false,"requests":["hold","cancel"]},
   "held": {"has_worker":false,"requests":["resume","cancel"]},
@@ -10,4 +10,10 @@ export const kJobStates = {
   "timed out": {"has_worker":false,"requests":["retry"]},
   "cancelled": {"has_worker":false,"requests":["retry"]},
 };
-// states: end
+export const kSteadiness = {
+  "true": {"mark":"","word":"steady"},
+  "false": {"mark":"~","word":"still relaxing"},
+  "null": {"mark":"?","word":"not known to be steady"},
+};
+export const kAverages = ["order.mean","order.std","defects.mean_plus","defects.mean_minus"];
+// catalogue: end
