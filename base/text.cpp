@@ -102,10 +102,11 @@ std::string printable(std::string_view text, Lines lines) {
   return shown;
 }
 
-int decimals(double error) {
-  if (!std::isfinite(error) || error <= 0) return 3;
+std::string with_error(double value, double error) {
+  if (!(error > 0 && std::isfinite(error))) return fmt::format("{:.3g} (error unknown)", value);
   const double exponent = std::floor(std::log10(error));
-  return static_cast<int>(std::clamp(-exponent + (error / std::pow(10.0, exponent) < 2 ? 1 : 0), 0.0, 300.0));
+  const int decimals = std::max(0, static_cast<int>(-exponent) + (error / std::pow(10.0, exponent) < 2 ? 1 : 0));
+  return fmt::format("{0:.{2}f} +- {1:.{2}f}", value, error, decimals);
 }
 
 std::string duration_text(double seconds) {

@@ -11,8 +11,8 @@
 
 namespace shaken {
 
-/// Decimals that show an error with two figures where it begins with a 1, else with one; 3 of an error that is not known.
-int decimals(double error);
+/// "0.880 +- 0.002": an error with two figures where it begins with a 1, else with one; "0.88 (error unknown)" without.
+std::string with_error(double value, double error);
 /// Columns that `text` fills on a terminal: one per character, none for colour sequences.
 std::size_t display_width(std::string_view text);
 /// `text`, cut to `width` columns with an ellipsis if it is longer; 0 stands for any width.

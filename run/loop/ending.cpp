@@ -23,13 +23,6 @@ double number(const Json& object, const char* key) {
   return found != object.end() && found->is_number() ? found->get<double>() : std::nan("");
 }
 
-/// "0.880 +- 0.002".
-std::string with_error(double value, double sem) {
-  if (!(sem > 0)) return fmt::format("{:.3g} (error unknown)", value);
-  const int digits = decimals(sem);
-  return fmt::format("{:.{}f} +- {:.{}f}", value, digits, sem, digits);
-}
-
 std::string order_text(const Json& summary) {
   if (!summary.contains("order") || !summary["order"].is_object()) return "S was not measured\n";
   const Json& order = summary["order"];

@@ -11,6 +11,7 @@
 #include "analysis/errors/parts.h"
 #include "base/files.h"
 #include "base/steadiness.h"
+#include "base/text.h"
 #include "run/files/version.h"
 
 namespace shaken::run {
@@ -166,8 +167,8 @@ std::string why_not_steady(const analysis::SteadySummary& order, double sim_seco
   if (steadiness == Steadiness::kNotKnown) {
     why = fmt::format("the average of S is worth about {:.0f} independent samples", order.n_effective);
   } else if (std::abs(order.drift.value) > analysis::kDriftErrors * order.drift.sem) {
-    why = fmt::format("S changes by {:.2g} +- {:.1g} from the first half of its average to the second",
-                      order.drift.value, order.drift.sem);
+    why = fmt::format("S changes by {} from the first half of its average to the second",
+                      with_error(order.drift.value, order.drift.sem));
   } else {
     why =
         fmt::format("S was on its way until {:.4g} s of {:.4g} s, beyond half of the run", order.t_steady, sim_seconds);

@@ -115,7 +115,7 @@ TEST(Summary, SaysWhyItIsNotSteady) {
   EXPECT_EQ(why_not_steady(order, 10), "");
   order.steady = false;
   order.drift = {-0.02, 0.004, 40};
-  EXPECT_NE(why_not_steady(order, 10).find("still relaxing: S changes by -0.02 +- 0.004"), std::string::npos);
+  EXPECT_NE(why_not_steady(order, 10).find("still relaxing: S changes by -0.020 +- 0.004"), std::string::npos);
   order.drift = {-0.002, 0.004, 40};
   EXPECT_NE(why_not_steady(order, 10).find("until 8 s of 10 s"), std::string::npos);
   order.drift = {-0.002, 0.004, 6};
