@@ -13,9 +13,9 @@
 
 namespace shaken::analysis {
 
-/// An accumulator kept in at most kMostStretches stretches of time, so that the steady part can be reduced when its beginning is
-/// known only at the end of the run. When the stretches are used up, neighbours are merged and new ones are twice as
-/// long. Accumulator: copyable, with accumulate(args...), merge(const Accumulator&), save and restore; where what it
+/// An accumulator kept in stretches of time, so that the steady part can be reduced when its beginning is known only at
+/// the end of the run. When the stretches are used up, neighbours are merged and new ones are twice as long.
+/// Accumulator: copyable, with accumulate(args...), merge(const Accumulator&), save and restore; where what it
 /// takes depends on the number of the sample, also start_at(samples before its first).
 template <class Accumulator>
 class Blocked : public Saved<Blocked<Accumulator>> {

@@ -75,7 +75,8 @@ class Row:
 
     def steady(self, name: str) -> bool | None:
         """Whether an average is one of a steady state: its own flag, else the run's; True of what is no average."""
-        if not (name in _AVERAGES or _MEASURED.fullmatch(name)) or math.isnan(self.number(name)) or isinstance(self.fields[name], str):
+        is_average = name in _AVERAGES or _MEASURED.fullmatch(name)
+        if not is_average or math.isnan(self.number(name)) or isinstance(self.fields[name], str):
             return True
         flags = [self.fields[of] for of in (name.rpartition(".")[0] + ".steady", "steady") if of in self.fields]
         return next((flag for flag in flags if flag is not None), None if flags else True)

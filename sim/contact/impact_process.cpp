@@ -78,8 +78,8 @@ ImpactProcess::Leg ImpactProcess::leg_from_rest() const {
   return {-mu_ * slip_from_rest(tt_, mu_, nt_), kNever, false};
 }
 
-/// With slip along d at the angle phi, friction is q = -mu d, and u_t changes by nt + tt q per normal impulse: `along` d,
-/// which changes the speed of slip, and `aside`, across d, which turns it: d(phi)/dp = aside / speed. To first order
+/// With slip along d at the angle phi, friction is q = -mu d, and u_t changes by nt + tt q per normal impulse p: along
+/// d, which changes the speed of slip, and aside from it, which turns it: d(phi)/dp = aside / speed. To first order
 /// `aside` changes with phi by `settling`. Where that is negative, phi decays to the direction at which `aside` is 0,
 /// phi - aside / settling, in ever shorter p as slip slows down: near that direction a leg goes along it.
 template <class End>

@@ -103,11 +103,11 @@ SHAKEN_INLINE Triple<D> in_lanes(const Vec3& v) {
   return {D{} + v.x(), D{} + v.y(), D{} + v.z()};
 }
 
-/// What surface_impacts.cpp does for one rod, for W of them at once and equal to the last bit. `meet` brings rods to the
-/// tick; `meet_plate` finds the bead in each plate, where it meets it and how fast, gives the impulse (at the instant of
-/// contact, if scenes ask for that: rods fly back to it and on again) and the noise. Nothing branches by rod: both sides
-/// are computed and one is chosen by sign, and what is rare (two beads in a plate, a large turn) is only noted, as
-/// unknown; its rods are done one by one.
+/// What surface_impacts.cpp does for one rod, for W of them at once and equal to the last bit. `meet` brings rods to
+/// the tick; `meet_plate` finds the bead in each plate, where it meets it and how fast, gives the impulse (at the
+/// instant of contact, if scenes ask for that: rods fly back to it and on again) and the noise. Nothing branches by
+/// rod: both sides are computed and one is chosen by sign, and what is rare (two beads in a plate, a large turn) is
+/// only noted, as unknown; its rods are done one by one.
 /// `kIsUsual`: plates act as `are_usual` says, and nothing rarer need be asked for. One kernel for all is too long for
 /// the usual hits, which it makes half again as slow.
 template <bool kIsUsual>
