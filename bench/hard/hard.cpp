@@ -118,15 +118,15 @@ struct HardBench {
 
   HardCase run_case(const std::string& name) const {
     ProgressLine progress(name);
-    const TellProgress tell = [&](double fraction) { progress.show(fraction); };
+    const OnProgress on_progress = [&](double fraction) { progress.show(fraction); };
     const double at_most = seconds.value_or(std::numeric_limits<double>::infinity());
     for (const MadeCase& made : made_cases()) {
       if (made.name == name) return made.run();
     }
     for (const SceneCase& scene : scene_cases()) {
-      if (scene.name == name) return run_scene_case(scene, read_hard_scene(scenes(), name), at_most, tell);
+      if (scene.name == name) return run_scene_case(scene, read_hard_scene(scenes(), name), at_most, on_progress);
     }
-    return run_order_case(scenes(), {.replicas = replicas, .seconds = at_most}, tell);
+    return run_order_case(scenes(), {.replicas = replicas, .seconds = at_most}, on_progress);
   }
 
   ExitCode follow() const {

@@ -69,10 +69,11 @@ scene::RunPlan read_hard_scene(const std::filesystem::path& folder, const std::s
 std::string to_text(const NumericalTrouble& trouble);
 
 /// Called now and then with the part of the work that is done.
-using TellProgress = std::function<void(double)>;
+using OnProgress = std::function<void(double)>;
 
 /// Runs the scene to its end, or for `seconds` if that is sooner, and samples its state every 2 ms of its time.
-HardCase run_scene_case(const SceneCase& wanted, const scene::RunPlan& plan, double seconds, const TellProgress& tell);
+HardCase run_scene_case(const SceneCase& wanted, const scene::RunPlan& plan, double seconds,
+                        const OnProgress& on_progress);
 
 /// A scene's rods over one of the stretches of time into which its history is divided.
 struct HistoryPoint {
@@ -86,7 +87,7 @@ inline constexpr int kHistoryPoints = 200;
 
 /// Runs the scene for `seconds` of its time, however long it would be, in kHistoryPoints equal stretches. Throws
 /// Failure if the rods cannot be placed, or on numerical trouble.
-std::vector<HistoryPoint> history_of(const System& scene, double seconds, const TellProgress& tell);
+std::vector<HistoryPoint> history_of(const System& scene, double seconds, const OnProgress& on_progress);
 
 /// Of all beads of all species [mm].
 double thinnest_radius(const World& world);
@@ -104,6 +105,6 @@ struct OrderEffort {
 
 /// Means of one scene under three orders of the contacts of a tick. Each must be shown to be the same within its bound:
 /// what is left open for want of replicas does not hold.
-HardCase run_order_case(const std::filesystem::path& folder, const OrderEffort& effort, const TellProgress& tell);
+HardCase run_order_case(const std::filesystem::path& folder, const OrderEffort& effort, const OnProgress& on_progress);
 
 }  // namespace shaken::bench

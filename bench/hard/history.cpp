@@ -9,7 +9,7 @@
 
 namespace shaken::bench {
 
-std::vector<HistoryPoint> history_of(const System& scene, double seconds, const TellProgress& tell) {
+std::vector<HistoryPoint> history_of(const System& scene, double seconds, const OnProgress& on_progress) {
   // not a number that vibrations of 5, 50 or 100 ms would go into, so that samples see all phases of the plates
   constexpr int kSamples = 23;
   auto simulation = Simulation::start(scene);
@@ -30,7 +30,7 @@ std::vector<HistoryPoint> history_of(const System& scene, double seconds, const 
     mean.overlap = world.counters.max_overlap() / thinnest_radius(world);
     mean.energy_error = balance(world).energy_error();
     history.push_back(mean);
-    tell(static_cast<double>(point) / kHistoryPoints);
+    on_progress(static_cast<double>(point) / kHistoryPoints);
   }
   return history;
 }

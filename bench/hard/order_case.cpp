@@ -86,7 +86,7 @@ Outcome outcome_of(const Quantity& quantity, const std::array<std::vector<double
 
 }  // namespace
 
-HardCase run_order_case(const std::filesystem::path& folder, const OrderEffort& effort, const TellProgress& tell) {
+HardCase run_order_case(const std::filesystem::path& folder, const OrderEffort& effort, const OnProgress& on_progress) {
   HardCase result{kOrderCase, "contacts of a tick sorted, reversed, shuffled: the same statistics", {}};
   std::array<std::array<std::vector<double>, 3>, kQuantities> samples;
   std::size_t k = 0;
@@ -101,7 +101,7 @@ HardCase run_order_case(const std::filesystem::path& folder, const OrderEffort& 
         return result;
       }
       for (std::size_t q = 0; q < kQuantities; ++q) samples[q][k].push_back(std::get<Means>(means)[q]);
-      tell((static_cast<double>(k) + (replica + 1.0) / effort.replicas) / 3);
+      on_progress((static_cast<double>(k) + (replica + 1.0) / effort.replicas) / 3);
     }
     ++k;
   }

@@ -56,7 +56,7 @@ struct Extremes {
 
 double total_energy(const World& world) { return content(world).energy; }
 
-Extremes follow_run(Simulation& simulation, double seconds, const TellProgress& tell) {
+Extremes follow_run(Simulation& simulation, double seconds, const OnProgress& on_progress) {
   Extremes found;
   const World& world = simulation.world();
   const auto n = static_cast<double>(world.rods.size());
@@ -81,7 +81,7 @@ Extremes follow_run(Simulation& simulation, double seconds, const TellProgress& 
       found.late_energy = std::max(found.late_energy, kinetic);
       found.late_bouncing = std::max(found.late_bouncing, kinetic_energy(world).translation_z / n);
     }
-    tell(static_cast<double>(simulation.tick()) / static_cast<double>(end));
+    on_progress(static_cast<double>(simulation.tick()) / static_cast<double>(end));
   }
   return found;
 }
@@ -176,7 +176,8 @@ scene::RunPlan read_hard_scene(const std::filesystem::path& folder, const std::s
   throw Failure(ExitCode::kBadInput, "no hard scene is called '" + name + "'");
 }
 
-HardCase run_scene_case(const SceneCase& wanted, const scene::RunPlan& plan, double seconds, const TellProgress& tell) {
+HardCase run_scene_case(const SceneCase& wanted, const scene::RunPlan& plan, double seconds,
+                        const OnProgress& on_progress) {
   HardCase result{wanted.name, wanted.what, {}};
   auto simulation = Simulation::start(plan.system);
   if (!simulation) {
@@ -184,7 +185,7 @@ HardCase run_scene_case(const SceneCase& wanted, const scene::RunPlan& plan, dou
     return result;
   }
   const double duration = std::min(seconds, plan.total_time());
-  const Extremes found = follow_run(*simulation, duration, tell);
+  const Extremes found = follow_run(*simulation, duration, on_progress);
   const World& world = simulation->world();
   if (found.trouble) {
     result.outcomes.push_back({"no numerical trouble", 1, 0, false, to_text(*found.trouble)});

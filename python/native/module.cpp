@@ -261,7 +261,7 @@ class NativeSimulation {
 };
 
 /// What the arrays of all frames tell.
-struct Told {
+struct KnownOfFrames {
   bool has_velocities = false, has_tilts = false, is_followed = false;
   std::optional<std::string> lacking_words{};  ///< of frames of a run; none where nobody knows whether heads are told
   run::Lacking lacking(std::span<const Snapshot> frames) const {
@@ -284,7 +284,7 @@ struct Told {
 py::tuple measure(const std::string& scene, std::vector<std::string> settings, const py::list& frames, double interval,
                   bool has_velocities, bool has_tilts, bool is_followed, std::optional<std::string> lacking_words) {
   const bool is_tracked = lacking_words && !lacking_words->empty();
-  const Told told{has_velocities, has_tilts, is_followed, std::move(lacking_words)};
+  const KnownOfFrames known{has_velocities, has_tilts, is_followed, std::move(lacking_words)};
   std::vector<Snapshot> snapshots;
   for (const py::handle each : frames) {
     const auto [positions, directors, velocities, images, box] = each.cast<
@@ -301,7 +301,7 @@ py::tuple measure(const std::string& scene, std::vector<std::string> settings, c
     snapshots.push_back(std::move(frame));
   }
   Result<Measured> found = without_python([&] {
-    run::Lacking lacking = told.lacking(snapshots);
+    run::Lacking lacking = known.lacking(snapshots);
     return measure_arrays({scene, std::move(settings)}, std::move(snapshots), interval, std::move(lacking), is_tracked,
                           goes_on);
   });

@@ -80,8 +80,8 @@ ImpactProcess::Leg ImpactProcess::leg_from_rest() const {
 
 /// With slip along d at the angle phi, friction is q = -mu d, and u_t changes by nt + tt q per normal impulse p: along
 /// d, which changes the speed of slip, and aside from it, which turns it: d(phi)/dp = aside / speed. To first order
-/// `aside` changes with phi by `settling`. Where that is negative, phi decays to the direction at which `aside` is 0,
-/// phi - aside / settling, in ever shorter p as slip slows down: near that direction a leg goes along it.
+/// `aside` changes with phi by `slope`. Where that is negative, phi decays to the direction at which `aside` is 0,
+/// phi - aside / slope, in ever shorter p as slip slows down: near that direction a leg goes along it.
 template <class End>
 ImpactProcess::Leg ImpactProcess::slipping_leg(const End& end) const {
   const double speed = u_t_.norm();
@@ -92,14 +92,14 @@ ImpactProcess::Leg ImpactProcess::slipping_leg(const End& end) const {
   const Vec2 rate = rate_t(-mu_ * direction);
   const double along = rate.dot(direction);
   const double aside = rate.dot(across);
-  const double settling = mu_ * (direction.dot(tt_ * direction) - across.dot(tt_ * across)) - nt_.dot(direction);
-  if (settling < 0 && std::abs(aside) <= -straight_ * settling) {
-    const Vec2 q = -mu_ * (direction - aside / settling * across).normalized();
+  const double slope = mu_ * (direction.dot(tt_ * direction) - across.dot(tt_ * across)) - nt_.dot(direction);
+  if (slope < 0 && std::abs(aside) <= -straight_ * slope) {
+    const Vec2 q = -mu_ * (direction - aside / slope * across).normalized();
     const double faster = -q.dot(rate_t(q));  // mu times the change of the speed; a leg goes half of the way to rest
     return {q, faster < 0 ? -0.5 * mu_ * speed / faster : kNever, false};
   }
   // Otherwise as far as neither the direction nor what turns it changes much.
-  const double change = std::abs(settling) + std::max(0.0, -2.0 * along);
+  const double change = std::abs(slope) + std::max(0.0, -2.0 * along);
   return midpoint_leg(
       rate, std::min({end(rate_n(-mu_ * direction)), turn_ * speed / std::abs(aside), 4.0 * turn_ * speed / change}));
 }

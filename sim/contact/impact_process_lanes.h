@@ -202,9 +202,9 @@ class ImpactProcesses {
     const Pair rate = rate_t(q_here);
     const D along = rate.dot(direction);
     const D aside = rate.dot(across);
-    const D settling = mu_ * (direction.dot(tt_ * direction) - across.dot(tt_ * across)) - nt_.dot(direction);
-    const D turns = larger(settling, D(absolute(aside) + kStraight * settling));  // > 0
-    const D change = absolute(settling) + larger(D(-2.0 * along), D{});
+    const D slope = mu_ * (direction.dot(tt_ * direction) - across.dot(tt_ * across)) - nt_.dot(direction);
+    const D turns = larger(slope, D(absolute(aside) + kStraight * slope));  // > 0
+    const D change = absolute(slope) + larger(D(-2.0 * along), D{});
     const D steady =
         smaller(D(ImpactProcess::kTurn * speed / absolute(aside)), D(4.0 * ImpactProcess::kTurn * speed / change));
     const D length = smaller(end(rate_n(q_here)), steady);
