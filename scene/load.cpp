@@ -35,7 +35,8 @@ Loaded<RunPlan> load_scene(std::string_view text, const std::string& file, std::
   const std::optional<Node> root = parse_document(text, file, problems);
   if (!root) return problems;
   if (const Member* sweep = root->find("sweep"); sweep || (sweep = root->find("scene"))) {
-    problems.push_back(problem_at(sweep->place, sweep->key, "this is a sweep file; a single scene is wanted here"));
+    problems.push_back(problem_at(sweep->place, sweep->key,
+                                  "this is a sweep file, for `shaken submit`; a single scene is wanted here"));
     return tidied(problems);
   }
   Draft draft(fields(), root->place);

@@ -358,7 +358,7 @@ TEST(Sweep, StructuralMistakes) {
   EXPECT_EQ(sweep_problems(R"({"scene": {"time": {"seed": 9007199254740992}}, "sweep": {"replicas": 2}})"),
             "s.json:1:29: /time/seed: 2 replicas lead past the largest seed, 9007199254740992\n");
   EXPECT_EQ(problem_of(R"({"scene": {}, "sweep": {}})"),
-            "run.json:1:15: /sweep: this is a sweep file; a single scene is wanted here");
+            "run.json:1:15: /sweep: this is a sweep file, for `shaken submit`; a single scene is wanted here");
 }
 
 TEST(Sweep, TooManyPointsAreRefused) {
