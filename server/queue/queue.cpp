@@ -56,6 +56,125 @@ std::string submitted_text(std::int64_t sweep, const Terms& terms) {
   return text;
 }
 
+/// The scene of a job that is there already, once it has been submitted again.
+std::string scene_after(const QueueStore& store, const NewJob& job, const Job& known) {
+  if (is_withdrawn(known.phase)) return job.scene;
+  const std::string present = store.scene(job.id);
+  const bool stays = known.state == JobState::kDone && !has_lost_results(job, known);
+  return stays ? present : as_long_as_both(present, job.scene);
+}
+
+/// Where others wait to start from its end, a job keeps that end.
+void refuse_other_end(const QueueStore& store, const std::string& id, const std::string& scene) {
+  const std::vector<std::string> next = store.ids_starting_from(id);
+  const bool is_needed = std::ranges::any_of(next, [&](const std::string& each) {
+    return store.job(each)->attempt == 0;  // afterwards it goes on from its own state
+  });
+  if (!is_needed) return;
+  const std::string present = store.scene(id);
+  const auto end = end_of(present), then = end_of(scene);
+  if (present == scene || !end || !then || *end == *then) return;
+  throw Conflict(fmt::format("run {} cannot end elsewhere: job {} is to start from its end; cancel that one first", id,
+                             next.front()));
+}
+
+/// Whether the job's scene has become longer.
+bool make_longer(QueueStore& store, const Job& job, const std::string& scene, const std::string& how) {
+  const std::string present = store.scene(job.id);
+  const std::string longer = as_long_as_both(present, scene);
+  if (longer == present) return false;
+  refuse_other_end(store, job.id, longer);
+  store.set_scene(job.id, longer);
+  if (has_worker(job.state)) store.set(job.id, "longer", 1);
+  store.add_to_journal(job.id, to_word(job.state), to_word(job.state), job.attempt, "asked to go on longer, " + how);
+  return true;
+}
+
+void refuse_circle(const QueueStore& store, std::span<const NewJob> jobs, const Terms& terms) {
+  if (terms.after.empty()) return;
+  // Those that may be queued by this submission, and so may wait.
+  std::set<std::string> ours;
+  for (const NewJob& job : jobs) {
+    const auto known = store.job(job.id);
+    if (!known || known->state != JobState::kDone || has_lost_results(job, *known)) ours.insert(job.id);
+  }
+  // Each of the targets, and what the jobs in it wait for themselves.
+  std::vector<Target> pending = terms.after;
+  std::set<Target> seen(pending.begin(), pending.end());
+  while (!pending.empty()) {
+    const Target target = pending.back();
+    pending.pop_back();
+    for (const std::string& id : store.ids_of(target)) {
+      if (ours.contains(id)) {
+        throw Conflict(fmt::format(
+            "these jobs would wait for themselves: job {} is one of them, and {} has it too{}", id, to_word(target),
+            std::ranges::find(terms.after, target) == terms.after.end() ? ", for which they would wait by way of others"
+                                                                        : ""));
+      }
+      const Job job = *store.job(id);
+      const bool needs_start = !job.starts_from.empty() && job.attempt == 0 && job.state != JobState::kDone;
+      if (needs_start && ours.contains(job.starts_from)) {
+        throw Conflict(
+            fmt::format("these jobs would wait for themselves: job {} starts from run {}, which is one of them", id,
+                        job.starts_from));
+      }
+      if (needs_start && seen.insert(job.starts_from).second) pending.emplace_back(job.starts_from);
+      if (!job.waits) continue;
+      for (const std::string& word : store.prerequisites(job.asked_by)) {
+        if (seen.insert(target_named(word)).second) pending.push_back(target_named(word));
+      }
+    }
+  }
+}
+
+void refuse_conflicts(const QueueStore& store, std::span<const NewJob> jobs, const Terms& terms) {
+  refuse_circle(store, jobs, terms);
+  std::map<std::string, std::string> scenes;  // afterwards, of those jobs that are there already
+  for (const NewJob& job : jobs) {
+    const auto known = store.job(job.id);
+    if (!known) continue;
+    std::string scene = scene_after(store, job, *known);
+    refuse_other_end(store, job.id, scene);
+    if (scene != job.scene) scenes.emplace(job.id, std::move(scene));
+  }
+  std::set<std::string> ours;
+  for (const NewJob& job : jobs) ours.insert(job.id);
+  for (const NewJob& job : jobs) {
+    if (job.starts_from.empty()) continue;
+    auto scene = scenes.find(job.starts_from);
+    if (scene == scenes.end()) {
+      if (ours.contains(job.starts_from) || !store.job(job.starts_from)) continue;  // it is as this submission says
+      scene = scenes.emplace(job.starts_from, store.scene(job.starts_from)).first;
+    }
+    const auto plan = scene::load_scene(scene->second, "the scene of a job");
+    if (!plan || plan->until || std::llround(job.starts_at / plan->system.dt) == scene::total_ticks(*plan)) continue;
+    throw Conflict(
+        fmt::format("job {} is to start from the end of run {} at {:.10g} s, but that run goes on to {:.10g} s "
+                    "here, where its last state is kept: start from there, or clean that run first",
+                    job.id, job.starts_from, job.starts_at, plan->total_time()));
+  }
+}
+
+/// Why what the jobs of a sweep come after will not be done as things are; "" if it may be.
+std::string why_never_after(const QueueStore& store, std::int64_t sweep) {
+  for (const std::string& word : store.prerequisites(sweep)) {
+    const JobCounts counts = store.counts_of(target_named(word));
+    const auto trouble = state_without_result(counts);
+    if (!trouble) continue;
+    const std::string of_all = sweep_number(word) ? fmt::format("{} of {} ", counts[*trouble], counts.total()) : "";
+    return fmt::format("it was to come after {}: {}{}", word, of_all, to_word(*trouble));
+  }
+  return "";
+}
+
+/// Why the run that a job starts from will not be done as things are; "" if it may be, or need not be.
+std::string why_never_started_from(const QueueStore& store, const Job& job) {
+  if (!job.waits_for_start) return "";
+  const Job run = *store.job(job.starts_from);
+  const bool is_hopeless = has_ended(run.state) || run.phase == JobPhase::kHeldForOthers;
+  return is_hopeless ? fmt::format("it is to start from run {}: {}", run.id, to_word(run.state)) : "";
+}
+
 }  // namespace
 
 Queue::Queue(const std::filesystem::path& file) : store_(file), file_(file), last_change_(store_.last_change()) {}
@@ -88,33 +207,39 @@ auto Queue::write(const Work& work) {
   }
 }
 
-/// Lets the rules have their way with a job, and with those that depend on it. The phase that it has now; none if
-/// nothing has changed. `reason`: of its new state, where the rules have no words of their own.
+/// What the rules make of a job when something happens to it; then of those that depend on it. The phase that it has
+/// now; none if nothing has changed. `reason`: of its new state, where the rules have no words of their own.
 std::optional<JobPhase> Queue::apply(const std::string& id, JobEvent event, const std::string& cause,
                                      const std::string& reason) {
   const auto job = store_.job(id);
-  const auto to = job ? next_phase(job->phase, event) : std::nullopt;
-  if (!to) return std::nullopt;
-  // a job that was to stop has stopped, whatever its worker ended by
-  std::string why = job->state == JobState::kStopping && *to != JobPhase::kFailed ? "" : reason;
-  if (*to == JobPhase::kCancelled) why = event == kClean ? kCleanedOnRequest : kCancelledOnRequest;
-  if (*to == JobPhase::kHeldOnRequest) why = kHeldOnRequest;
-  if (*to == JobPhase::kTimedOut) why = time_limit_text(job->time_limit);
-  store_.set_phase(*job, *to, why, cause);
-  if (event == kClean) store_.set(id, "attempt", 0);  // it has no state of its own any more
-
-  const JobState state = stored(*to).state;
-  if (has_ended(state) && state != JobState::kCancelled) {
+  const auto to = job ? change(*job, event, cause, reason) : std::nullopt;
+  if (!to) return to;
+  const bool ends = has_ended(stored(*to).state), had_ended = has_ended(job->state);
+  if (ends && *to != JobPhase::kCancelled) {
     for (const std::int64_t sweep : store_.ruled_sweeps_of(id)) check_stop_rule(sweep);
   }
-  if (has_ended(state) || has_ended(job->state)) {
+  if (ends || had_ended) {
     for (const std::int64_t sweep : store_.sweeps_that_wait_for(id)) update_waiting(sweep);
   }
-  if (has_ended(state) || has_ended(job->state) || *to == JobPhase::kHeldForOthers ||
-      job->phase == JobPhase::kHeldForOthers) {
-    for (const std::string& next : store_.ids_starting_from(id)) hold_or_release(next);
+  if (ends || had_ended || *to == JobPhase::kHeldForOthers || job->phase == JobPhase::kHeldForOthers) {
+    hold_or_release(store_.ids_starting_from(id));
   }
-  if (*to == JobPhase::kQueued) hold_or_release(id);
+  if (*to == JobPhase::kQueued) hold_or_release({id});
+  return to;
+}
+
+/// As apply(), of this job alone.
+std::optional<JobPhase> Queue::change(const Job& job, JobEvent event, const std::string& cause,
+                                      const std::string& reason) {
+  const auto to = next_phase(job.phase, event);
+  if (!to) return to;
+  // a job that was to stop has stopped, whatever its worker ended by
+  std::string why = job.state == JobState::kStopping && *to != JobPhase::kFailed ? "" : reason;
+  if (*to == JobPhase::kCancelled) why = event == kClean ? kCleanedOnRequest : kCancelledOnRequest;
+  if (*to == JobPhase::kHeldOnRequest) why = kHeldOnRequest;
+  if (*to == JobPhase::kTimedOut) why = time_limit_text(job.time_limit);
+  store_.set_phase(job, *to, why, cause);
+  if (event == kClean) store_.set(job.id, "attempt", 0);  // it has no state of its own any more
   return to;
 }
 
@@ -142,7 +267,7 @@ Submitted Queue::submit(const std::string& name, int priority, std::span<const N
   return write([&] {
     const auto same = store_.same_sweep(name, jobs);
     Submitted result{.sweep = same ? *same : store_.add_sweep(name), .created = !same};
-    refuse_conflicts(jobs, terms);
+    refuse_conflicts(store_, jobs, terms);
     const std::string cause = submitted_text(result.sweep, terms);
     for (std::size_t position = 0; position < jobs.size(); ++position) {
       const NewJob& job = jobs[position];
@@ -155,8 +280,9 @@ Submitted Queue::submit(const std::string& name, int priority, std::span<const N
     }
     store_.set_terms(result.sweep, terms);
     if (!terms.after.empty()) update_waiting(result.sweep);
-    const std::string why = why_never_after(result.sweep);
-    for (const NewJob& job : jobs) hold_or_release(job.id, why);
+    std::vector<std::string> ids(jobs.size());
+    std::ranges::transform(jobs, ids.begin(), &NewJob::id);
+    hold_or_release(std::move(ids));
     result.counts = store_.counts_of(Target(result.sweep));
     return result;
   });
@@ -172,7 +298,7 @@ void Queue::submit_again(const NewJob& job, int priority, const Terms& terms, Su
     // its worker may be about to end without having heard that it is to stop
     if (known.state == JobState::kStopping) store_.set(job.id, "longer", 1);
   } else if (known.state != JobState::kDone || is_lost) {
-    is_longer = make_longer(known, job.scene, "in " + sweep);
+    is_longer = make_longer(store_, known, job.scene, "in " + sweep);
   }
   store_.update_request(job, priority, result.sweep, terms);
   const auto changed = apply(job.id, is_lost ? kResultsLost : kSubmitAgain, "submitted again in " + sweep);
@@ -184,153 +310,39 @@ void Queue::submit_again(const NewJob& job, int priority, const Terms& terms, Su
   }
 }
 
-/// The scene of a job that is there already, once it has been submitted again.
-std::string Queue::scene_after(const NewJob& job, const Job& known) const {
-  if (is_withdrawn(known.phase)) return job.scene;
-  const std::string present = store_.scene(job.id);
-  const bool stays = known.state == JobState::kDone && !has_lost_results(job, known);
-  return stays ? present : as_long_as_both(present, job.scene);
-}
-
-/// Whether the job's scene has become longer.
-bool Queue::make_longer(const Job& job, const std::string& scene, const std::string& how) {
-  const std::string present = store_.scene(job.id);
-  const std::string longer = as_long_as_both(present, scene);
-  if (longer == present) return false;
-  refuse_other_end(job.id, longer);
-  store_.set_scene(job.id, longer);
-  if (has_worker(job.state)) store_.set(job.id, "longer", 1);
-  store_.add_to_journal(job.id, to_word(job.state), to_word(job.state), job.attempt, "asked to go on longer, " + how);
-  return true;
-}
-
 void Queue::check(std::span<const NewJob> jobs, const Terms& terms) const {
   const std::lock_guard lock(mutex_);
-  refuse_conflicts(jobs, terms);
+  refuse_conflicts(store_, jobs, terms);
 }
 
-void Queue::refuse_conflicts(std::span<const NewJob> jobs, const Terms& terms) const {
-  refuse_circle(jobs, terms);
-  std::map<std::string, std::string> scenes;  // afterwards, of those jobs that are there already
-  for (const NewJob& job : jobs) {
-    const auto known = store_.job(job.id);
-    if (!known) continue;
-    std::string scene = scene_after(job, *known);
-    refuse_other_end(job.id, scene);
-    if (scene != job.scene) scenes.emplace(job.id, std::move(scene));
-  }
-  std::set<std::string> ours;
-  for (const NewJob& job : jobs) ours.insert(job.id);
-  for (const NewJob& job : jobs) {
-    if (job.starts_from.empty()) continue;
-    auto scene = scenes.find(job.starts_from);
-    if (scene == scenes.end()) {
-      if (ours.contains(job.starts_from) || !store_.job(job.starts_from)) continue;  // it is as this submission says
-      scene = scenes.emplace(job.starts_from, store_.scene(job.starts_from)).first;
+/// Queued jobs are held while nothing comes of what they wait for, and those that are held for that are queued again
+/// once something may. After each that changes, the jobs that start from its end are looked at in the same way.
+void Queue::hold_or_release(std::vector<std::string> ids) {
+  std::map<std::int64_t, std::string> why_never;  // by sweep: no job ends here, so that it stays
+  std::ranges::reverse(ids);                      // the next one is the last
+  while (!ids.empty()) {
+    const Job job = *store_.job(ids.back());
+    ids.pop_back();
+    std::string why = why_never_started_from(store_, job);
+    if (why.empty() && job.waits) {
+      const auto [entry, is_new] = why_never.try_emplace(job.asked_by);
+      if (is_new) entry->second = why_never_after(store_, job.asked_by);
+      why = entry->second;
     }
-    const auto plan = scene::load_scene(scene->second, "the scene of a job");
-    if (!plan || plan->until || std::llround(job.starts_at / plan->system.dt) == scene::total_ticks(*plan)) continue;
-    throw Conflict(
-        fmt::format("job {} is to start from the end of run {} at {:.10g} s, but that run goes on to {:.10g} s "
-                    "here, where its last state is kept: start from there, or clean that run first",
-                    job.id, job.starts_from, job.starts_at, plan->total_time()));
-  }
-}
-
-/// Where others wait to start from its end, a job keeps that end.
-void Queue::refuse_other_end(const std::string& id, const std::string& scene) const {
-  const std::vector<std::string> next = store_.ids_starting_from(id);
-  const bool is_needed = std::any_of(next.begin(), next.end(), [&](const std::string& each) {
-    return store_.job(each)->attempt == 0;  // afterwards it goes on from its own state
-  });
-  if (!is_needed) return;
-  const std::string present = store_.scene(id);
-  const auto end = end_of(present), then = end_of(scene);
-  if (present == scene || !end || !then || *end == *then) return;
-  throw Conflict(fmt::format("run {} cannot end elsewhere: job {} is to start from its end; cancel that one first", id,
-                             next.front()));
-}
-
-void Queue::refuse_circle(std::span<const NewJob> jobs, const Terms& terms) const {
-  if (terms.after.empty()) return;
-  // Those that may be queued by this submission, and so may wait.
-  std::set<std::string> ours;
-  for (const NewJob& job : jobs) {
-    const auto known = store_.job(job.id);
-    if (!known || known->state != JobState::kDone || has_lost_results(job, *known)) ours.insert(job.id);
-  }
-  // Each of the targets, and what the jobs in it wait for themselves.
-  std::vector<Target> pending = terms.after;
-  std::set<Target> seen(pending.begin(), pending.end());
-  while (!pending.empty()) {
-    const Target target = pending.back();
-    pending.pop_back();
-    for (const std::string& id : store_.ids_of(target)) {
-      if (ours.contains(id)) {
-        throw Conflict(fmt::format("these jobs would wait for themselves: job {} is one of them, and {} has it too{}",
-                                   id, to_word(target),
-                                   std::find(terms.after.begin(), terms.after.end(), target) == terms.after.end()
-                                       ? ", for which they would wait by way of others"
-                                       : ""));
-      }
-      const Job job = *store_.job(id);
-      const bool needs_start = !job.starts_from.empty() && job.attempt == 0 && job.state != JobState::kDone;
-      if (needs_start && ours.contains(job.starts_from)) {
-        throw Conflict(
-            fmt::format("these jobs would wait for themselves: job {} starts from run {}, which is one of them", id,
-                        job.starts_from));
-      }
-      if (needs_start && seen.insert(job.starts_from).second) pending.emplace_back(job.starts_from);
-      if (!job.waits) continue;
-      for (const std::string& word : store_.prerequisites(job.asked_by)) {
-        if (seen.insert(target_named(word)).second) pending.push_back(target_named(word));
-      }
-    }
-  }
-}
-
-/// Why what the jobs of a sweep come after will not be done as things are; "" if it may be.
-std::string Queue::why_never_after(std::int64_t sweep) const {
-  for (const std::string& word : store_.prerequisites(sweep)) {
-    const JobCounts counts = store_.counts_of(target_named(word));
-    const auto trouble = state_without_result(counts);
-    if (!trouble) continue;
-    const std::string of_all = sweep_number(word) ? fmt::format("{} of {} ", counts[*trouble], counts.total()) : "";
-    return fmt::format("it was to come after {}: {}{}", word, of_all, to_word(*trouble));
-  }
-  return "";
-}
-
-/// Why the run that a job starts from will not be done as things are; "" if it may be, or need not be.
-std::string Queue::why_never_started_from(const Job& job) const {
-  if (!job.waits_for_start) return "";
-  const Job run = *store_.job(job.starts_from);
-  const bool is_hopeless = has_ended(run.state) || run.phase == JobPhase::kHeldForOthers;
-  return is_hopeless ? fmt::format("it is to start from run {}: {}", run.id, to_word(run.state)) : "";
-}
-
-/// A queued job is held while nothing comes of what it waits for, and one that is held for that is queued again once
-/// something may. `why_never`: of its sweep, where that is known.
-void Queue::hold_or_release(const std::string& id, const std::optional<std::string>& why_never) {
-  const auto job = store_.job(id);
-  if (!job || (job->phase != JobPhase::kQueued && job->phase != JobPhase::kHeldForOthers)) return;
-  std::string why = why_never_started_from(*job);
-  if (why.empty() && job->waits) why = why_never ? *why_never : why_never_after(job->asked_by);
-  if (why.empty()) {
-    apply(id, kPrerequisiteRetried, "what it waits for goes on");
-  } else {
-    apply(id, kPrerequisiteFailed, why, why);
+    const auto changed = why.empty() ? change(job, kPrerequisiteRetried, "what it waits for goes on")
+                                     : change(job, kPrerequisiteFailed, why, why);
+    if (!changed) continue;
+    const std::vector<std::string> next = store_.ids_starting_from(job.id);
+    ids.insert(ids.end(), next.rbegin(), next.rend());
   }
 }
 
 void Queue::update_waiting(std::int64_t sweep) {
-  const auto words = store_.prerequisites(sweep);
-  const bool all_done = std::all_of(words.begin(), words.end(), [&](const std::string& word) {
+  const bool all_done = std::ranges::all_of(store_.prerequisites(sweep), [&](const std::string& word) {
     const JobCounts counts = store_.counts_of(target_named(word));
     return counts[JobState::kDone] == counts.total();
   });
-  const std::string why = why_never_after(sweep);
-  for (const std::string& id : store_.waiting_in(sweep)) hold_or_release(id, why);
+  hold_or_release(store_.waiting_in(sweep));
   if (all_done) store_.end_waiting(sweep);
 }
 
@@ -345,7 +357,7 @@ void Queue::check_stop_rule(std::int64_t sweep) {
   store_.set_stopped(sweep);
   const std::string reason =
       fmt::format("{}; `shaken resume {}` lifts this rule", rule->reason(now.counts), sweep_word(sweep));
-  for (const std::string& id : store_.ids_obeying(sweep)) apply(id, kStopRuleMet, reason, reason);
+  for (const std::string& id : store_.ids_obeying(sweep)) change(*store_.job(id), kStopRuleMet, reason, reason);
 }
 
 std::vector<Job> Queue::jobs(std::optional<std::int64_t> sweep, std::optional<JobState> state) const {
@@ -384,15 +396,9 @@ JobCounts Queue::counts() const {
 }
 
 const Queue::Sums& Queue::sums_of(std::int64_t sweep) const {
-  const auto [entry, is_new] = sums_.try_emplace(sweep);
-  if (!is_new) return entry->second;
-  try {
-    entry->second = {store_.counts_of(Target(sweep)), store_.work_of(sweep)};
-  } catch (...) {
-    sums_.erase(entry);
-    throw;
-  }
-  return entry->second;
+  const auto known = sums_.find(sweep);
+  if (known != sums_.end()) return known->second;
+  return sums_.emplace(sweep, Sums{store_.counts_of(Target(sweep)), store_.work_of(sweep)}).first->second;
 }
 
 std::vector<Sweep> Queue::sweeps() const {
@@ -470,7 +476,7 @@ int Queue::extend(std::span<const std::pair<std::string, std::string>> scenes) {
     int changed = 0;
     for (const auto& [id, scene] : scenes) {
       const auto job = store_.job(id);
-      if (!job || !make_longer(*job, scene, "on request")) continue;
+      if (!job || !make_longer(store_, *job, scene, "on request")) continue;
       apply(id, kExtend, "goes on from its end");
       ++changed;
     }
@@ -644,8 +650,7 @@ void Queue::set_trouble(const ExecutorRole& executor, const std::string& why) {
 bool Queue::preempt(const std::string& id, const ExecutorRole& executor) {
   return write([&] {
     const auto job = store_.job(id);
-    if (!job || job->state != JobState::kRunning) return false;
-    if (!store_.has_successor(*job, executor)) return false;
+    if (!job || job->state != JobState::kRunning || !store_.has_successor(*job, executor)) return false;
     return apply(id, kSoftLimit, "its soft limit is over: it gives way to others").has_value();
   });
 }

@@ -185,17 +185,12 @@ class Queue {
   auto write(const Work& work);
   std::optional<JobPhase> apply(const std::string& id, JobEvent event, const std::string& cause,
                                 const std::string& reason = "");
+  std::optional<JobPhase> change(const Job& job, JobEvent event, const std::string& cause,
+                                 const std::string& reason = "");
   void submit_again(const NewJob& job, int priority, const Terms& terms, Submitted& result);
-  bool make_longer(const Job& job, const std::string& scene, const std::string& how);
-  void refuse_conflicts(std::span<const NewJob> jobs, const Terms& terms) const;
-  void refuse_circle(std::span<const NewJob> jobs, const Terms& terms) const;
-  std::string scene_after(const NewJob& job, const Job& known) const;
-  void refuse_other_end(const std::string& id, const std::string& scene) const;
   void update_waiting(std::int64_t sweep);
   void update_all_waiting();
-  std::string why_never_after(std::int64_t sweep) const;
-  std::string why_never_started_from(const Job& job) const;
-  void hold_or_release(const std::string& id, const std::optional<std::string>& why_never = std::nullopt);
+  void hold_or_release(std::vector<std::string> ids);
   void check_stop_rule(std::int64_t sweep);
   std::pair<std::string, std::int64_t> why_waiting(const Job& job) const;
   std::vector<Job> explained(std::vector<Job> jobs) const;
