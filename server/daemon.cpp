@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -117,12 +118,6 @@ std::vector<std::string> lcm_options(const std::string& url) {
   return url.empty() ? std::vector<std::string>{"--no-lcm"} : std::vector<std::string>{"--lcm-url", url};
 }
 
-std::vector<std::string> worker_options(const DaemonConfig& config, const std::string& lcm_url) {
-  std::vector<std::string> options{"--threads", std::to_string(config.threads)};
-  for (const std::string& word : lcm_options(lcm_url)) options.push_back(word);
-  return options;
-}
-
 /// Where workers in Slurm send live state. Multicast from a node would reach nobody, and a tcpq address that nobody has
 /// asked for may be one of this machine only: it stays where it arises, unless the user says where over TCP it is to
 /// go.
@@ -130,24 +125,35 @@ std::string lcm_url_in_slurm(const DaemonConfig& config) {
   return config.lcm_url_is_asked_for && config.lcm_url.starts_with("tcpq://") ? config.lcm_url : "";
 }
 
-slurm::SlurmOptions slurm_options(const DaemonConfig& config, const std::filesystem::path& root) {
-  slurm::SlurmOptions options;
-  options.folder = root / "slurm";
-  options.worker = config.worker;
-  options.task = sibling_program("shaken-task");
-  options.threads = config.threads;
-  options.max_pending = config.max_pending;
-  options.runs_per_task = config.runs_per_task;
-  options.options = config.slurm_options;
-  options.poll = config.slurm_poll;
+/// Of runs on this machine, or of those in Slurm.
+SupervisorOptions supervisor_options(const DaemonConfig& config, const DaemonInfo& info, bool in_slurm) {
+  SupervisorOptions options{info.runs(), in_slurm ? kManyTasks : config.slots,
+                            lcm_options(in_slurm ? lcm_url_in_slurm(config) : config.lcm_url),
+                            in_slurm ? kGraceInSlurm : config.grace};
+  options.worker_options.insert(options.worker_options.begin(), {"--threads", std::to_string(config.threads)});
+  options.refuse = refuse_scene;
+  options.least_room = static_cast<std::int64_t>(config.keep_free);
+  if (in_slurm) options.role.name = kSlurm;
+  options.role.is_default = in_slurm == config.slurm_is_default;
   return options;
 }
 
+slurm::SlurmOptions slurm_options(const DaemonConfig& config, const DaemonInfo& info) {
+  return {.folder = info.root / "slurm",
+          .worker = config.worker,
+          .task = sibling_program("shaken-task"),
+          .threads = config.threads,
+          .max_pending = config.max_pending,
+          .runs_per_task = config.runs_per_task,
+          .options = config.slurm_options,
+          .poll = config.slurm_poll};
+}
+
 /// How the page of this daemon is started.
-std::vector<std::string> web_command(const DaemonConfig& config, const std::filesystem::path& root) {
-  std::vector<std::string> command{sibling_program("shaken-web").string(), "--root", root.string(), "--port",
-                                   std::to_string(*config.web_port)};
-  for (const std::string& word : lcm_options(config.lcm_url)) command.push_back(word);
+std::vector<std::string> web_command(const DaemonConfig& config, const DaemonInfo& info) {
+  std::vector<std::string> command = lcm_options(config.lcm_url);
+  command.insert(command.begin(), {sibling_program("shaken-web").string(), "--root", info.root.string(), "--port",
+                                   std::to_string(*config.web_port)});
   return command;
 }
 
@@ -164,11 +170,9 @@ class ControlSocket {
     std::erase_if(former_, [](const auto& server) { return server->ended_within(milliseconds(0)); });
     const bool has_failed = server_ && server_->has_failed();
     if (server_ && server_->is_reachable() && !has_failed) return;
-    if (server_) {
+    if (server_)
       spdlog::warn("{} {}: listening anew", file_.string(), has_failed ? "failed" : "was removed or replaced");
-      server_->close();
-      former_.push_back(std::move(server_));  // which may have to answer still
-    }
+    close();
     try {
       server_ = std::make_unique<http::HttpServer>(file_, handler_);
       last_failure_.clear();
@@ -177,16 +181,17 @@ class ControlSocket {
     }
   }
   void close() {
-    if (server_) server_->close();
+    if (!server_) return;
+    server_->close();
+    former_.push_back(std::move(server_));  // which may have to answer still
   }
   /// After close(): whether every connection has ended within the time.
   bool ended_within(milliseconds timeout) {
     const auto end = std::chrono::steady_clock::now() + timeout;
-    const auto ended = [end](const auto& server) {
+    return std::ranges::all_of(former_, [end](const auto& server) {
       const auto left = std::chrono::duration_cast<milliseconds>(end - std::chrono::steady_clock::now());
       return server->ended_within(std::max(left, milliseconds(0)));
-    };
-    return (!server_ || ended(server_)) && std::all_of(former_.begin(), former_.end(), ended);
+    });
   }
 
  private:
@@ -197,10 +202,11 @@ class ControlSocket {
   std::string last_failure_;
 };
 
-/// The relay that the user asked for. What the daemon's own multicast carries goes through it too; where multicast
-/// cannot start, and is only what is used if nothing is said, everybody's live state goes by way of the relay:
-/// `config.lcm_url` is then its address. Throws Failure if it cannot listen.
-std::unique_ptr<relay::Relay> start_relay(DaemonConfig& config) {
+/// The relay that the user asked for, if any. What the daemon's own multicast carries goes through it too; where
+/// multicast cannot start, and is only what is used if nothing is said, everybody's live state goes by way of the
+/// relay: `config.lcm_url` is then its address. Throws Failure if it cannot listen.
+std::unique_ptr<relay::Relay> start_relay(DaemonConfig& config, DaemonInfo& info) {
+  if (!config.relay) return nullptr;
   std::unique_ptr<proto::Bus> bridged;
   // Only multicast: a tcpq address may be this relay's own, or another's that hands on what it gets from here.
   const bool is_multicast = config.lcm_url.starts_with("udpm://");
@@ -209,11 +215,24 @@ std::unique_ptr<relay::Relay> start_relay(DaemonConfig& config) {
   }
   const bool goes_by_relay = is_multicast && !bridged && !config.lcm_url_is_asked_for;
   auto relay = value_or_fail(relay::Relay::start(*config.relay, std::move(bridged)));
+  info.relay_url = relay->address().url();
   if (goes_by_relay) {
-    config.lcm_url = relay->address().url();
+    config.lcm_url = info.relay_url;
     spdlog::info("there is no multicast here: live state goes to {}", config.lcm_url);
   }
+  spdlog::info("LCM messages are handed on at {}", relay->address().text());
   return relay;
+}
+
+/// The bus of the live state; null where there is none, and `info` says why.
+std::unique_ptr<proto::Bus> open_bus(const DaemonConfig& config, DaemonInfo& info) {
+  info.lcm_url = config.lcm_url;
+  auto opened = config.lcm_url.empty() ? Error{"switched off by --no-lcm"} : proto::Bus::open(config.lcm_url);
+  info.lcm_ok = static_cast<bool>(opened);
+  if (opened) return std::move(opened).value();
+  info.lcm_message = opened.error().message;
+  if (!config.lcm_url.empty()) spdlog::warn("no live state: {}", info.lcm_message);
+  return nullptr;
 }
 
 /// Does a part of each round. What it throws is logged, at most once a second, and the next round tries again: whatever
@@ -261,6 +280,105 @@ void stop_workers(Supervisor& supervisor, const Signals& signals) {
   }
 }
 
+/// The lock that makes this the only daemon of its root, whose folders are there afterwards.
+run::DirectoryLock take_root(const DaemonInfo& info) {
+  make_private_directory(info.root);
+  auto lock = run::DirectoryLock::acquire(info.lock());
+  if (!lock && run::DirectoryLock::is_held(info.lock())) {
+    throw Failure(ExitCode::kFailed, "another shakend is at work: " + lock.error().message);
+  }
+  if (!lock) throw cannot_start(lock.error().message);
+  for (const auto& folder : {info.runs(), info.root / "slurm"}) make_private_directory(folder);
+  return std::move(lock).value();
+}
+
+std::unique_ptr<Queue> open_queue(const DaemonInfo& info) {
+  try {
+    return std::make_unique<Queue>(info.queue());
+  } catch (const StorageError& problem) {
+    throw cannot_start(problem.what());
+  }
+}
+
+/// Takes over what a former daemon has left.
+void recover(Queue& queue, const DaemonInfo& info) {
+  for (const std::string& id : queue.recover()) spdlog::info("job {}: was running when the daemon ended", id);
+  if (queue.counts().total() > 0) return;
+  if (const std::size_t n = run_ids(info.runs()).size(); n > 0) {
+    spdlog::warn(
+        "{} is empty, but there are {} runs in {}: they are not lost. Submit their scenes again: what is done is "
+        "found, and the rest goes on; or put a copy of the queue back. `shaken clean --dry-run` lists them",
+        info.queue().string(), n, info.runs().string());
+  }
+}
+
+/// All that the daemon does while it is up: runs here and in Slurm, live state, requests, the page.
+class Services {
+ public:
+  Services(const DaemonConfig& config, const DaemonInfo& info, Queue& queue, std::unique_ptr<proto::Bus> bus)
+      : executor_(config.worker),
+        supervisor_(queue, executor_, supervisor_options(config, info, false)),
+        slurm_executor_(slurm_options(config, info)),
+        slurm_supervisor_(queue, slurm_executor_, supervisor_options(config, info, true)),
+        api_(queue, info) {
+    slurm_supervisor_.adopt();
+    if (bus) keep_going_("no live state", [&] { publisher_.emplace(queue, std::move(bus), info); });
+    control_.emplace(info.socket(), [this](const http::Request& request) { return api_.handle(request); });
+    if (config.web_port) web_.emplace(web_command(config, info));
+  }
+
+  void step() {
+    keep_going_("runs", [&] { supervisor_.step(); });
+    keep_going_("runs in Slurm", [&] { slurm_supervisor_.step(); });
+    keep_going_("requests", [&] { control_->check(); });
+    if (web_) keep_going_("the page", [&] { web_->check(); });
+  }
+
+  /// Whether every connection has ended, too.
+  bool stop(const Signals& signals) {
+    spdlog::info("stopping: workers write a checkpoint");
+    if (web_) web_->request_stop();
+    control_->close();
+    stop_workers(supervisor_, signals);
+    publisher_.reset();
+    web_.reset();
+    spdlog::info("stopped");
+    return control_->ended_within(kLastAnswers);
+  }
+
+ private:
+  KeptGoing keep_going_;
+  LocalExecutor executor_;
+  Supervisor supervisor_;
+  slurm::SlurmExecutor slurm_executor_;
+  Supervisor slurm_supervisor_;
+  std::optional<StatusPublisher> publisher_;
+  Api api_;
+  std::optional<ControlSocket> control_;
+  std::optional<WebProgram> web_;
+};
+
+void say_ready(const DaemonConfig& config, const DaemonInfo& info) {
+  spdlog::info("shakend {} ready: {} (pid {}), {} slots", info.version, info.root.string(), info.pid, info.slots);
+  std::printf("shakend ready: %s (pid %d)%s\n", info.root.c_str(), info.pid,
+              config.quiet ? (", log in " + log_file(config).string()).c_str() : "");
+  // it goes on without whoever was to read that line
+  if (const auto told = flush_standard_output(); !told) spdlog::warn("{}", told.error().message);
+}
+
+/// Until a signal asks for the end, or one of the files is gone without which nothing can be acknowledged: then why.
+std::string serve(Services& services, std::span<const FileAsOpened> files, const Signals& signals) {
+  do {
+    services.step();
+    for (const FileAsOpened& file : files) {
+      if (!file.is_gone()) continue;
+      return file.path().string() + " was removed or replaced: this daemon ends, and nothing is acknowledged any more";
+    }
+    keep_memory_in_reserve();
+  } while (!signals.wait(kRound));
+  return "";
+}
+
 }  // namespace
 
 void run_daemon(const DaemonConfig& asked_for) {
@@ -272,115 +390,29 @@ void run_daemon(const DaemonConfig& asked_for) {
   }
   umask(0077);
   DaemonInfo info;
-  info.root = std::filesystem::absolute(config.root).lexically_normal();
-  make_private_directory(info.root);
-  const std::filesystem::path lock_file = info.root / "shakend.lock";
-  const auto lock = run::DirectoryLock::acquire(lock_file);
-  if (!lock && run::DirectoryLock::is_held(lock_file)) {
-    throw Failure(ExitCode::kFailed, "another shakend is at work: " + lock.error().message);
-  }
-  if (!lock) throw cannot_start(lock.error().message);
-  make_private_directory(info.runs());
-  start_log(config);
-  const Signals signals;
-
-  const std::unique_ptr<Queue> opened_queue = [&] {
-    try {
-      return std::make_unique<Queue>(info.root / "queue.db");
-    } catch (const StorageError& problem) {
-      throw cannot_start(problem.what());
-    }
-  }();
-  Queue& queue = *opened_queue;
-  const FileAsOpened queue_file(info.root / "queue.db"), lock_as_opened(lock_file);
-  for (const std::string& id : queue.recover()) spdlog::info("job {}: was running when the daemon ended", id);
-
-  if (queue.counts().total() == 0) {
-    if (const std::size_t n = run_ids(info.runs()).size(); n > 0) {
-      spdlog::warn(
-          "{} is empty, but there are {} runs in {}: they are not lost. Submit their scenes again: what is done is "
-          "found, and the rest goes on; or put a copy of the queue back. `shaken clean --dry-run` lists them",
-          (info.root / "queue.db").string(), n, info.runs().string());
-    }
-  }
-
   info.version = run::version();
   info.host = host_name();
   info.pid = getpid();
+  info.root = std::filesystem::absolute(config.root).lexically_normal();
   info.slots = config.slots;
-  std::unique_ptr<relay::Relay> relay;
-  if (config.relay) {
-    relay = start_relay(config);
-    info.relay_url = relay->address().url();
-    spdlog::info("LCM messages are handed on at {}", relay->address().text());
-  }
-  info.lcm_url = config.lcm_url;
-  std::unique_ptr<proto::Bus> bus;
-  if (config.lcm_url.empty()) {
-    info.lcm_message = "switched off by --no-lcm";
-  } else if (auto opened = proto::Bus::open(config.lcm_url)) {
-    info.lcm_ok = true;
-    bus = std::move(opened).value();
-  } else {
-    info.lcm_message = opened.error().message;
-    spdlog::warn("no live state: {}", info.lcm_message);
-  }
+  const run::DirectoryLock lock = take_root(info);
+  start_log(config);
+  const Signals signals;
 
-  make_private_directory(info.root / "slurm");
-  LocalExecutor executor(config.worker);
-  SupervisorOptions options{info.runs(), config.slots, worker_options(config, config.lcm_url), config.grace};
-  options.refuse = refuse_scene;
-  options.least_room = static_cast<std::int64_t>(config.keep_free);
-  SupervisorOptions in_slurm = options;
-  in_slurm.slots = kManyTasks;
-  in_slurm.worker_options = worker_options(config, lcm_url_in_slurm(config));
-  in_slurm.grace = kGraceInSlurm;
-  in_slurm.role = {std::string(kSlurm), config.slurm_is_default};
-  options.role.is_default = !config.slurm_is_default;
-  Supervisor supervisor(queue, executor, std::move(options));
-  slurm::SlurmExecutor slurm_executor(slurm_options(config, info.root));
-  Supervisor slurm_supervisor(queue, slurm_executor, std::move(in_slurm));
-  slurm_supervisor.adopt();
-  std::optional<StatusPublisher> publisher;
-  KeptGoing keep_going;
-  if (bus) keep_going("no live state", [&] { publisher.emplace(queue, std::move(bus), info); });
-  const Api api(queue, info);
-  ControlSocket control(info.socket(), [&api](const http::Request& request) { return api.handle(request); });
+  const std::unique_ptr<Queue> queue = open_queue(info);
+  const std::array files{FileAsOpened(info.queue()), FileAsOpened(info.lock())};
+  recover(*queue, info);
 
-  spdlog::info("shakend {} ready: {} (pid {}), {} slots", info.version, info.root.string(), info.pid, info.slots);
-  std::printf("shakend ready: %s (pid %d)%s\n", info.root.c_str(), info.pid,
-              config.quiet ? (", log in " + log_file(config).string()).c_str() : "");
-  // it goes on without whoever was to read that line
-  if (const auto told = flush_standard_output(); !told) spdlog::warn("{}", told.error().message);
+  const std::unique_ptr<relay::Relay> relay = start_relay(config, info);
+  Services services(config, info, *queue, open_bus(config, info));
+  say_ready(config, info);
 
-  std::optional<WebProgram> web;
-  if (config.web_port) web.emplace(web_command(config, info.root));
-
-  std::string lost;
-  do {
-    keep_going("runs", [&] { supervisor.step(); });
-    keep_going("runs in Slurm", [&] { slurm_supervisor.step(); });
-    keep_going("requests", [&] { control.check(); });
-    if (web) keep_going("the page", [&] { web->check(); });
-    for (const FileAsOpened* file : {&queue_file, &lock_as_opened}) {
-      if (lost.empty() && file->is_gone()) lost = file->path().string() + " was removed or replaced";
-    }
-    keep_memory_in_reserve();
-  } while (lost.empty() && !signals.wait(kRound));
-
+  const std::string lost = serve(services, files, signals);
   if (!lost.empty()) {
-    lost += ": this daemon ends, and nothing is acknowledged any more";
     spdlog::error("{}", lost);
-    queue.close(lost);
+    queue->close(lost);
   }
-  spdlog::info("stopping: workers write a checkpoint");
-  if (web) web->request_stop();
-  control.close();
-  stop_workers(supervisor, signals);
-  publisher.reset();
-  web.reset();
-  spdlog::info("stopped");
-  if (!control.ended_within(kLastAnswers)) {
+  if (!services.stop(signals)) {
     // A client that keeps its connection busy must not keep the daemon up.
     spdlog::shutdown();
     std::_Exit(lost.empty() ? EXIT_SUCCESS : EXIT_FAILURE);

@@ -22,6 +22,8 @@ struct DaemonInfo {
   std::string relay_url;  ///< where LCM messages are handed on over TCP; empty: nowhere
 
   std::filesystem::path runs() const { return root / "runs"; }
+  std::filesystem::path queue() const { return root / "queue.db"; }
+  std::filesystem::path lock() const { return root / "shakend.lock"; }
   std::filesystem::path socket() const { return root / "shakend.sock"; }
   double uptime() const {  ///< [s]
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
