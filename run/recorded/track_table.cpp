@@ -53,7 +53,10 @@ class SeenFrames {
     std::vector<RecordedFrame> recorded;
     recorded.reserve(table_.frames.size());
     for (const Snapshot& frame : snapshots(interval)) recorded.push_back(record(frame));
-    note_what_is_lacking();
+    made_.lacking.insert({Needs::kImpacts, Needs::kSpins});
+    if (!is_followed_) made_.lacking.insert(Needs::kIdentities);
+    if (!table_.has("tilt") && !table_.has("nz")) made_.lacking.insert(Needs::kTilts);
+    if (!table_.heads_are_told) made_.lacking.insert(Needs::kHeads);
     made_.frames = std::make_unique<FramesInMemory>(header(*n_rods), std::move(recorded));
     return std::move(made_);
   }
@@ -179,13 +182,24 @@ class SeenFrames {
     return first;
   }
 
-  /// With velocities, where rods can be followed.
+  /// Rods in the box; with --wrap their paths go on beyond it, otherwise they end at its border and begin at the other.
+  /// They have velocities where they can be followed.
   std::vector<Snapshot> snapshots(double interval) {
     const Tick spacing = ticks_between(interval, plan_);
     std::vector<Snapshot> frames;
     for (const auto& [number, rods] : table_.frames) {
-      const Snapshot* before = is_followed_ && !frames.empty() ? &frames.back() : nullptr;
-      frames.push_back(snapshot_of(rods, spacing * static_cast<Tick>(frames.size()), before));
+      Snapshot frame;
+      frame.tick = spacing * static_cast<Tick>(frames.size());
+      frame.time = static_cast<double>(frame.tick) * made_.plan.system.dt;
+      frame.box = made_.plan.system.box();
+      for (const Sighting& rod : rods) {
+        frame.position.push_back(rod.position);
+        frame.director.push_back(rod.director);
+      }
+      const bool follows_on = is_followed_ && !frames.empty() && !conventions_.wraps;
+      fold_into_box(frame, period_, follows_on ? &frames.back() : nullptr);
+      frame.velocity.assign(rods.size(), Vec3::Zero());
+      frames.push_back(std::move(frame));
     }
     if (is_followed_ && frames.size() > 1) {
       set_velocities(frames, interval);
@@ -194,28 +208,6 @@ class SeenFrames {
       made_.lacking.insert(Needs::kVelocities);
     }
     return frames;
-  }
-
-  /// Rods in the box; with --wrap their paths go on beyond it, otherwise they end at its border and begin at the other.
-  Snapshot snapshot_of(const std::vector<Sighting>& rods, Tick tick, const Snapshot* before) const {
-    Snapshot frame;
-    frame.tick = tick;
-    frame.time = static_cast<double>(tick) * made_.plan.system.dt;
-    frame.box = made_.plan.system.box();
-    for (const Sighting& rod : rods) {
-      frame.position.push_back(rod.position);
-      frame.director.push_back(rod.director);
-    }
-    fold_into_box(frame, period_, conventions_.wraps ? nullptr : before);
-    frame.velocity.assign(rods.size(), Vec3::Zero());
-    return frame;
-  }
-
-  void note_what_is_lacking() {
-    made_.lacking.insert({Needs::kImpacts, Needs::kSpins});
-    if (!is_followed_) made_.lacking.insert(Needs::kIdentities);
-    if (!table_.has("tilt") && !table_.has("nz")) made_.lacking.insert(Needs::kTilts);
-    if (!table_.heads_are_told) made_.lacking.insert(Needs::kHeads);
   }
 
   TrajectoryHeader header(const std::vector<std::size_t>& n_rods) const {
