@@ -103,15 +103,19 @@ static Id dataset_properties(const std::string& name) {
   return properties;
 }
 
-void write_dataset(hid_t where, const std::string& name, hid_t type, const Shape& extent, const void* values) {
-  const Id space = simple_space(extent);
+/// A data set with its values; null where it has none.
+static void write_whole(hid_t where, const std::string& name, hid_t type, hid_t space, const void* values) {
   const Id properties = dataset_properties(name);
   Id dataset(
       check(H5Dcreate2(where, name.c_str(), type, space, H5P_DEFAULT, properties, H5P_DEFAULT), "create " + name),
       H5Dclose);
-  const bool empty = std::find(extent.begin(), extent.end(), 0) != extent.end();
-  if (!empty) check(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "write " + name);
+  if (values != nullptr) check(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "write " + name);
   dataset.close("write " + name);  // small values are written only now
+}
+
+void write_dataset(hid_t where, const std::string& name, hid_t type, const Shape& extent, const void* values) {
+  const bool empty = std::find(extent.begin(), extent.end(), 0) != extent.end();
+  write_whole(where, name, type, simple_space(extent), empty ? nullptr : values);
 }
 
 Id create_growing(hid_t where, const std::string& name, hid_t type, const Shape& row, hsize_t rows_per_chunk,
@@ -220,14 +224,7 @@ std::string read_text_attribute(hid_t where, const std::string& name) {
 }
 
 void write_string(hid_t where, const std::string& name, const std::string& value) {
-  const Id type = text_type(false, value.size());
-  const Id space = scalar_space();
-  const Id properties = dataset_properties(name);
-  Id dataset(
-      check(H5Dcreate2(where, name.c_str(), type, space, H5P_DEFAULT, properties, H5P_DEFAULT), "create " + name),
-      H5Dclose);
-  check(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value.empty() ? "" : value.data()), "write " + name);
-  dataset.close("write " + name);
+  write_whole(where, name, text_type(false, value.size()), scalar_space(), value.data());
 }
 
 std::string read_string(hid_t where, const std::string& name) {
