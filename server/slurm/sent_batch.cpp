@@ -153,8 +153,7 @@ void SentBatch::set_out(const std::string& job) {
 
 void SentBatch::update_tasks(const std::vector<const QueuedTask*>& listed) {
   if (stage_ == Stage::kUnsure) {
-    const bool has_begun =
-        std::any_of(tasks_.begin(), tasks_.end(), [](const ArrayTask& task) { return task.has_reported(); });
+    const bool has_begun = std::ranges::any_of(tasks_, [](const ArrayTask& task) { return task.has_reported(); });
     if (listed.empty() && !has_begun) {
       stage_ = Stage::kRefused;
       std::error_code ignored;
@@ -195,10 +194,9 @@ void SentBatch::read_reports(bool of_all, std::chrono::milliseconds report_delay
 }
 
 bool SentBatch::is_finished() const {
-  if (runs_.empty() || !std::all_of(runs_.begin(), runs_.end(), [](const Run& run) { return run.collected; }))
-    return false;
+  if (runs_.empty() || !std::ranges::all_of(runs_, [](const Run& run) { return run.collected; })) return false;
   if (stage_ != Stage::kOut) return stage_ != Stage::kUnsure;
-  return std::all_of(tasks_.begin(), tasks_.end(), [](const ArrayTask& task) { return task.is_over(); });
+  return std::ranges::all_of(tasks_, [](const ArrayTask& task) { return task.is_over(); });
 }
 
 }  // namespace shaken::server::slurm

@@ -62,7 +62,7 @@ int SlurmExecutor::n_waiting() const {
 }
 
 int SlurmExecutor::room() const {
-  const bool any_unsent = std::any_of(batches_.begin(), batches_.end(), [](const auto& entry) {
+  const bool any_unsent = std::ranges::any_of(batches_, [](const auto& entry) {
     return entry.second.stage() == Stage::kClosed || entry.second.stage() == Stage::kUnsure;
   });
   if (!call_.trouble().empty() || !refilling_ || any_unsent) return 0;
@@ -73,8 +73,8 @@ int SlurmExecutor::room() const {
 }
 
 Result<int> SlurmExecutor::start(const Launch& launch) {
-  auto entry = std::find_if(batches_.begin(), batches_.end(),
-                            [&](const auto& each) { return each.second.fits(launch.settings, most_tasks_); });
+  auto entry =
+      std::ranges::find_if(batches_, [&](const auto& each) { return each.second.fits(launch.settings, most_tasks_); });
   if (entry == batches_.end()) {
     const int asked = scene::slurm_settings(launch.settings).runs_per_task;
     const std::string token = new_token();
@@ -214,7 +214,7 @@ bool SlurmExecutor::cancel_tasks() {
 }
 
 bool SlurmExecutor::submit_next() {
-  const auto next = std::find_if(batches_.begin(), batches_.end(), [](const auto& entry) {
+  const auto next = std::ranges::find_if(batches_, [](const auto& entry) {
     return entry.second.stage() == Stage::kClosed && !entry.second.has_unwritten_stops();
   });
   if (next == batches_.end()) return false;
@@ -225,8 +225,7 @@ bool SlurmExecutor::submit_next() {
 }
 
 void SlurmExecutor::list_tasks() {
-  const bool anything =
-      std::any_of(batches_.begin(), batches_.end(), [](const auto& entry) { return entry.second.may_be_out(); });
+  const bool anything = std::ranges::any_of(batches_, [](const auto& entry) { return entry.second.may_be_out(); });
   if (!anything && call_.trouble().empty()) return;
   list_after_ = Clock::now() + options_.poll;
   call_.start(Kind::kList, squeue_command(), options_.folder);
