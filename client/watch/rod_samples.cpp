@@ -70,18 +70,42 @@ std::pair<int, int> RodSamples::place(double x, double y) const {
           static_cast<int>(std::floor(height_ / 2.0 - dy * per_mm_))};
 }
 
+/// Paints those samples within this reach of a point of the box, and of its images, that are inside of something as
+/// seen from there.
+template <class IsInside>
+void RodSamples::paint(double x, double y, const Vec2& reach, Tone tone, const IsInside& is_inside) {
+  const auto [dx, dy] = from_middle(x, y);
+  const int wide = period_.x() > 0 ? 1 : 0, high = period_.y() > 0 ? 1 : 0;
+  for (int i = -wide; i <= wide; ++i) {
+    for (int j = -high; j <= high; ++j) {
+      const double at_x = dx + i * period_.x(), at_y = dy + j * period_.y();
+      const int begin_column = std::max(column_begin_, first_column(at_x - reach.x()));
+      const int end_column = std::min(column_end_, first_column(at_x + reach.x()));
+      const int begin_row = std::max(row_begin_, first_row(at_y + reach.y()));
+      const int end_row = std::min(row_end_, first_row(at_y - reach.y()));
+      for (int row = begin_row; row < end_row; ++row) {
+        for (int column = begin_column; column < end_column; ++column) {
+          if (is_inside(x_of(column) - at_x, y_of(row) - at_y)) tones_[index(column, row)] = tone;
+        }
+      }
+    }
+  }
+}
+
 void RodSamples::draw(const proto::RodPose& rod, const RodOutline& outline, Tone tone) {
-  const auto [dx, dy] = from_middle(rod.x, rod.y);
   const std::array axis = rod.axis();
   const double flat = std::hypot(axis[0], axis[1]);
   const double half = outline.half_length * flat;
   const double ux = flat > 0 ? axis[0] / flat : 1, uy = flat > 0 ? axis[1] / flat : 0;
-  const int wide = period_.x() > 0 ? 1 : 0, high = period_.y() > 0 ? 1 : 0;
-  for (int i = -wide; i <= wide; ++i) {
-    for (int j = -high; j <= high; ++j) {
-      draw_image(dx + i * period_.x(), dy + j * period_.y(), ux, uy, half, outline, tone);
-    }
-  }
+  const double thinnest = 0.5001 / per_mm_;  // never between two samples
+  const double widest = std::max({outline.middle, outline.end, thinnest});
+  const Vec2 reach(half * std::abs(ux) + widest, half * std::abs(uy) + widest);
+  paint(rod.x, rod.y, reach, tone, [&](double x, double y) {
+    const double along = std::abs(x * ux + y * uy), across = std::abs(y * ux - x * uy);
+    const double part = half > 0 ? std::min(along / half, 1.0) : 1.0;
+    const double radius = std::max(outline.middle + part * (outline.end - outline.middle), thinnest);
+    return std::hypot(std::max(along - half, 0.0), across) <= radius;
+  });
 }
 
 void RodSamples::draw_walls(const SideWalls& walls) {
@@ -97,46 +121,8 @@ void RodSamples::draw_walls(const SideWalls& walls) {
 
 void RodSamples::draw_posts(const StandingPosts& posts) {
   const double radius = std::max(0.5 * posts.diameter, 0.5001 / per_mm_);  // never between two samples
-  const int wide = period_.x() > 0 ? 1 : 0, high = period_.y() > 0 ? 1 : 0;
-  for (const Vec2& centre : posts.centres) {
-    const auto [dx, dy] = from_middle(centre.x(), centre.y());
-    for (int i = -wide; i <= wide; ++i) {
-      for (int j = -high; j <= high; ++j) draw_disc(dx + i * period_.x(), dy + j * period_.y(), radius, kWallTone);
-    }
-  }
-}
-
-/// About a place that is so far from the middle of the view.
-void RodSamples::draw_disc(double dx, double dy, double radius, Tone tone) {
-  const int begin_column = std::max(column_begin_, first_column(dx - radius));
-  const int end_column = std::min(column_end_, first_column(dx + radius));
-  const int begin_row = std::max(row_begin_, first_row(dy + radius));
-  const int end_row = std::min(row_end_, first_row(dy - radius));
-  for (int row = begin_row; row < end_row; ++row) {
-    for (int column = begin_column; column < end_column; ++column) {
-      if (std::hypot(x_of(column) - dx, y_of(row) - dy) <= radius) tones_[index(column, row)] = tone;
-    }
-  }
-}
-
-void RodSamples::draw_image(double dx, double dy, double ux, double uy, double half, const RodOutline& outline,
-                            Tone tone) {
-  const double thinnest = 0.5001 / per_mm_;  // never between two samples
-  const double widest = std::max({outline.middle, outline.end, thinnest});
-  const double reach_x = half * std::abs(ux) + widest, reach_y = half * std::abs(uy) + widest;
-  const int begin_column = std::max(column_begin_, first_column(dx - reach_x));
-  const int end_column = std::min(column_end_, first_column(dx + reach_x));
-  const int begin_row = std::max(row_begin_, first_row(dy + reach_y));
-  const int end_row = std::min(row_end_, first_row(dy - reach_y));
-  for (int row = begin_row; row < end_row; ++row) {
-    for (int column = begin_column; column < end_column; ++column) {
-      const double x = x_of(column) - dx, y = y_of(row) - dy;
-      const double along = std::abs(x * ux + y * uy), across = std::abs(y * ux - x * uy);
-      const double part = half > 0 ? std::min(along / half, 1.0) : 1.0;
-      const double radius = std::max(outline.middle + part * (outline.end - outline.middle), thinnest);
-      if (std::hypot(std::max(along - half, 0.0), across) <= radius) tones_[index(column, row)] = tone;
-    }
-  }
+  const auto is_inside = [&](double x, double y) { return std::hypot(x, y) <= radius; };
+  for (const Vec2& centre : posts.centres) paint(centre.x(), centre.y(), {radius, radius}, kWallTone, is_inside);
 }
 
 }  // namespace shaken::client

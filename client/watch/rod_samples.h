@@ -41,10 +41,10 @@ class RodSamples {
   int first_column(double x) const;
   int first_row(double y) const;
   void draw(const proto::RodPose& rod, const RodOutline& outline, Tone tone);
-  void draw_image(double dx, double dy, double ux, double uy, double half, const RodOutline& outline, Tone tone);
   void draw_walls(const SideWalls& walls);
   void draw_posts(const StandingPosts& posts);
-  void draw_disc(double dx, double dy, double radius, Tone tone);
+  template <class IsInside>
+  void paint(double x, double y, const Vec2& reach, Tone tone, const IsInside& is_inside);
 
   const RodFrame& frame_;
   double x_;  ///< the middle of the view [mm]

@@ -7,7 +7,6 @@
 #include <random>
 
 #include "client/watch/live_screen.h"
-#include "client/watch/screen_layout.h"
 
 namespace shaken::client {
 namespace {
