@@ -49,6 +49,13 @@ std::vector<std::string> option_names(const CLI::App& app) {
   return names;
 }
 
+/// Most verbs of two groups ask the daemon.
+std::string exit_codes_of(const VerbInfo& info) {
+  if (info.exit_codes != nullptr) return info.exit_codes;
+  const std::string_view group = info.group;
+  return std::string(kCommonExitCodes) + (group == kControlGroup || group == kResultsGroup ? ", 3 no daemon" : "");
+}
+
 /// CLI11 ends the help of the program with a newline, that of a verb without.
 std::string with_one_newline(std::string text) {
   text.erase(text.find_last_not_of('\n') + 1);
@@ -87,7 +94,7 @@ CommandLine::CommandLine() {
     const VerbInfo info = verb->info();
     CLI::App* app = app_.add_subcommand(info.name, info.summary)->group(info.group);
     app->allow_extras(false);
-    app->footer(fmt::format("Examples:\n{}\n\nExit codes: {}.", info.examples, info.exit_codes));
+    app->footer(fmt::format("Examples:\n{}\n\nExit codes: {}.", info.examples, exit_codes_of(info)));
     Arguments arguments(*app);
     verb->declare(arguments);
   }

@@ -26,16 +26,14 @@ struct Context {
   std::filesystem::path root() const { return value_or_fail(data_root(given_root), ExitCode::kBadInput); }
 };
 
-inline constexpr const char* kExitCodes = "0 done, 1 failed, 2 bad input";
-/// Of a verb that asks the daemon.
-inline constexpr const char* kExitCodesOfDaemon = "0 done, 1 failed, 2 bad input, 3 no daemon";
+inline constexpr const char* kCommonExitCodes = "0 done, 1 failed, 2 bad input";
 
 struct VerbInfo {
   const char* name;
-  const char* group;                    ///< heading in the help
-  const char* summary;                  ///< one line
-  const char* examples;                 ///< lines "  shaken verb ...   what it does"
-  const char* exit_codes = kExitCodes;  ///< what each of them says
+  const char* group;                 ///< heading in the help
+  const char* summary;               ///< one line
+  const char* examples;              ///< lines "  shaken verb ...   what it does"
+  const char* exit_codes = nullptr;  ///< what each of them says; null: as of most verbs of its group
 };
 
 /// One thing that the program can do. Its options are its members.

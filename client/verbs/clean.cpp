@@ -3,7 +3,6 @@
 
 #include "base/table.h"
 #include "base/text.h"
-#include "client/live/duration.h"
 #include "client/live/target.h"
 #include "client/verbs/verbs.h"
 
@@ -33,8 +32,7 @@ class Clean : public Verb {
         "  shaken clean --dry-run                       what failed, was cancelled or timed out, and how large it is\n"
         "  shaken clean --older 30d                     of that, what ended 30 days ago or earlier; asks first\n"
         "  shaken clean --sweep s3 --state done --yes   the results of a sweep, without asking\n"
-        "  shaken clean --unknown                       also what no job is known of, as after a loss of queue.db",
-        kExitCodesOfDaemon};
+        "  shaken clean --unknown                       also what no job is known of, as after a loss of queue.db"};
   }
 
   void declare(Arguments& arguments) override {

@@ -44,9 +44,7 @@ class Control : public Verb {
  public:
   explicit Control(const Action& action) : action_(action) {}
 
-  VerbInfo info() const override {
-    return {action_.name, kControlGroup, action_.summary, action_.examples, kExitCodesOfDaemon};
-  }
+  VerbInfo info() const override { return {action_.name, kControlGroup, action_.summary, action_.examples}; }
 
   void declare(Arguments& arguments) override {
     if (needs_number()) arguments.required("NUMBER", number_, "From -1000000 to 1000000", Names::kAnything);

@@ -16,8 +16,7 @@ class Export : public InPython {
             "  shaken export runs/first --format extxyz --last      the last frame only\n"
             "  shaken export runs/first --list                      the names for --observable\n"
             "  shaken export runs/first --format csv --observable msd\n"
-            "  shaken export runs/first --format csv --observable summary     all numbers with their errors",
-            kExitCodesOfDaemon};
+            "  shaken export runs/first --format csv --observable summary     all numbers with their errors"};
   }
 
   void declare_options(Arguments& arguments) override {

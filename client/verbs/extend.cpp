@@ -18,8 +18,7 @@ class Extend : public Verb {
             "  shaken extend s3 --measure '10 min'               all jobs of a sweep\n"
             "  shaken extend s3 --order-sem 0.005 --at-most 1h   until S is known well enough\n"
             "  shaken extend s3 --replicas 5                     five runs of each point, with those there are\n"
-            "  shaken submit FILE -s time.measure=600s           does the same, and adds what is new",
-            kExitCodesOfDaemon};
+            "  shaken submit FILE -s time.measure=600s           does the same, and adds what is new"};
   }
 
   void declare(Arguments& arguments) override {

@@ -31,8 +31,7 @@ std::unique_ptr<Verb> make_figures() {
        "Stop it at any time: the same command goes on where it stopped. `shaken watch` and `shaken status` work\n"
        "meanwhile. What it will cost is told before it starts, and asked on a terminal. Each run that is done goes "
        "into the archive, a folder of small files that can be copied and merged. Beside each picture lie its data "
-       "as CSV.",
-       kExitCodesOfDaemon},
+       "as CSV."},
       [](Arguments& arguments) {
         arguments.list("FIGURE", "A number of the paper, 2 to 14, or a name of --list; all if left out", kFigures);
         arguments.option("--scale", "tiny|desk|paper", "Size of the runs; desk if left out");

@@ -19,8 +19,7 @@ class JobHistory : public Verb {
   VerbInfo info() const override {
     return {"history", kControlGroup, "What became of a job: every change of its state, when, and why",
             "  shaken history 1f0c           one job, by the beginning of its id\n"
-            "  shaken history 1f0c --json    for programs",
-            kExitCodesOfDaemon};
+            "  shaken history 1f0c --json    for programs"};
   }
 
   void declare(Arguments& arguments) override {

@@ -23,8 +23,7 @@ class Measure : public Verb {
             "\nA table has a row for each rod and frame, in columns as trackpy, TrackMate or ImageJ name them: a frame "
             "or a time, x, y and an angle; and, if it has them, an id, z and tilt. Its scene has the box, the rods' "
             "shape and what to measure. Samples are taken at frames alone, so periods become whole numbers of frames; "
-            "what needs more than the frames tell is left out. Both is said, and stands in summary.json.",
-            kExitCodesOfDaemon};
+            "what needs more than the frames tell is left out. Both is said, and stands in summary.json."};
   }
 
   void declare(Arguments& arguments) override {

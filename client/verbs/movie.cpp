@@ -20,8 +20,7 @@ class Movie : public Verb {
             "  shaken movie 1f0c -o - --bare --size 720x720 | ffmpeg -f rawvideo -pix_fmt rgb24 -s 720x720 -i - x.mkv\n"
             "  shaken movie 1f0c 22ab -o both.mp4           two runs side by side, with one clock\n"
             "  shaken movie 1f0c --live -o now.png          the running job's present state, from LCM\n"
-            "Styles, colours and style files: docs/pictures.md. Single frames: shaken picture",
-            kExitCodesOfDaemon};
+            "Styles, colours and style files: docs/pictures.md. Single frames: shaken picture"};
   }
 
   void declare(Arguments& arguments) override {

@@ -15,8 +15,7 @@ class Picture : public Verb {
             "  shaken picture 1f0c 22ab 77c0 --time 20s -o three.png  three runs side by side\n"
             "  shaken picture runs/first --bare --inset angles       P(theta) in a corner of the rods\n"
             "  shaken picture runs/first --view follow:17            rod 17 in the middle\n"
-            "Styles, colours and style files: docs/pictures.md",
-            kExitCodesOfDaemon};
+            "Styles, colours and style files: docs/pictures.md"};
   }
 
   void declare(Arguments& arguments) override {

@@ -15,8 +15,7 @@ std::unique_ptr<Verb> make_plot() {
        "  shaken plot s3 --format svg   as PDF or SVG instead of PNG\n"
        "  shaken plot s3 --map -o map.png   the last frames of its runs, by one or two swept numbers\n"
        "  shaken plot sim seen paper.csv   a run, an experiment and curves of a paper over each other\n"
-       "  shaken plot runs/first        what `shaken run` has left there",
-       kExitCodesOfDaemon},
+       "  shaken plot runs/first        what `shaken run` has left there"},
       [](Arguments& arguments) {
         arguments.list(
             "ID",

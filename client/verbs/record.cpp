@@ -13,7 +13,6 @@
 #include "base/interrupt.h"
 #include "base/progress_line.h"
 #include "base/text.h"
-#include "client/live/duration.h"
 #include "client/live/target.h"
 #include "client/verbs/verbs.h"
 #include "proto/bus.h"
@@ -53,8 +52,7 @@ class Record : public Verb {
             "  shaken record 1f0c                            one job, until it ends, into 1f0c.lcmlog\n"
             "  shaken record s3 --for 10min --size 500MB -o s3.lcmlog\n"
             "  shaken record --lcm-url tcpq://127.0.0.1:7700 -o far.lcmlog    another daemon's, by its relay\n"
-            "  shaken replay-log run.lcmlog                  sends it anew",
-            kExitCodesOfDaemon};
+            "  shaken replay-log run.lcmlog                  sends it anew"};
   }
 
   void declare(Arguments& arguments) override {

@@ -23,7 +23,8 @@ class ReplayLog : public Verb {
     return {"replay-log", kControlGroup, "Sends an LCM log anew, of `shaken record` or lcm-logger",
             "  shaken replay-log run.lcmlog                           as it was\n"
             "  shaken replay-log run.lcmlog --from 2min --to 3min --speed 4\n"
-            "  shaken replay-log run.lcmlog --lcm-url tcpq://127.0.0.1:7700"};
+            "  shaken replay-log run.lcmlog --lcm-url tcpq://127.0.0.1:7700",
+            kCommonExitCodes};
   }
 
   void declare(Arguments& arguments) override {

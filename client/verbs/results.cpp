@@ -23,8 +23,7 @@ std::unique_ptr<Verb> make_results() {
        "for runs that lack the name.\n"
        "A value marked ~ is of a run that is still relaxing, one marked ? of a run that is not known to be steady:\n"
        "run them longer. With --aggregate, (2) behind a mean says that only 2 runs have a "
-       "value.",
-       kExitCodesOfDaemon},
+       "value."},
       [](Arguments& arguments) {
         arguments.optional("ID", "A sweep (id or name), a job, or a folder of runs; the newest sweep if left out",
                            Names::kRun);

@@ -74,8 +74,7 @@ class Status : public Verb {
             "  shaken status s3              the jobs of sweep s3\n"
             "  shaken status 1f0c            one job, by the beginning of its id\n"
             "  shaken status s3 --failed     what failed, why, and where its log is\n"
-            "  shaken status --json | jq .   for programs",
-            kExitCodesOfDaemon};
+            "  shaken status --json | jq .   for programs"};
   }
 
   void declare(Arguments& arguments) override {

@@ -5,7 +5,6 @@
 #include "base/table.h"
 #include "base/text.h"
 #include "client/cost_estimate.h"
-#include "client/live/duration.h"
 #include "client/live/target.h"
 #include "client/scene_input.h"
 #include "client/verbs/verbs.h"
@@ -30,8 +29,7 @@ class Submit : public Verb {
             "  shaken submit sweep.json --soft-limit 10min --time-limit 2h --at-once 4\n"
             "  shaken submit second.json --after first --stop-if 'failed>10%'\n"
             "  shaken submit sweep.json --dry-run           only checks, shows the points and what they would cost\n"
-            "  shaken submit scene.json --wait && shaken results",
-            kExitCodesOfDaemon};
+            "  shaken submit scene.json --wait && shaken results"};
   }
 
   void declare(Arguments& arguments) override {

@@ -1,4 +1,3 @@
-#include "client/live/duration.h"
 #include "client/live/target.h"
 #include "client/verbs/verbs.h"
 #include "client/waiting.h"

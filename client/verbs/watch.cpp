@@ -8,7 +8,6 @@
 
 #include "base/interrupt.h"
 #include "base/text.h"
-#include "client/live/duration.h"
 #include "client/live/live.h"
 #include "client/live/target.h"
 #include "client/verbs/verbs.h"
@@ -41,7 +40,7 @@ class Watch : public Verb {
   VerbInfo info() const override {
     static const std::string examples = examples_text();
     return {"watch", kControlGroup, "Live: the rods themselves, S(t), progress, defects, time to the end",
-            examples.c_str(), kExitCodesOfDaemon};
+            examples.c_str()};
   }
 
   void declare(Arguments& arguments) override {

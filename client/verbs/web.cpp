@@ -10,8 +10,7 @@ class Web : public Verb {
     return {"web", kControlGroup, "Live in a browser: queue, phase diagram, rods, curves, files",
             "  shaken web                    prints the address to open; serves it until Ctrl-C\n"
             "  shaken web --port 9000        at another port of this machine\n"
-            "  shakend --web                 the daemon does it beside its work; `shaken web` prints its address then",
-            kExitCodesOfDaemon};
+            "  shakend --web                 the daemon does it beside its work; `shaken web` prints its address then"};
   }
 
   void declare(Arguments& arguments) override {
