@@ -10,7 +10,6 @@
 #include "base/keys/nearest.h"
 #include "base/text.h"
 #include "run/files/directory.h"
-#include "server/answers.h"
 #include "server/cleaning.h"
 #include "server/log_slice.h"
 #include "server/submission.h"

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "base/http/http_server.h"
+#include "server/answers.h"
 #include "server/daemon_info.h"
 #include "server/queue/queue.h"
 

@@ -21,7 +21,6 @@
 #include "run/files/directory.h"
 #include "scene/canonical.h"
 #include "scene/load.h"
-#include "server/answers.h"
 #include "tests/support/effort.h"
 #include "tests/unit/server/server_support.h"
 
