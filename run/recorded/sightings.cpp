@@ -82,7 +82,7 @@ class TrackRows {
       found_.heads_are_told = found_.heads_are_told && (heads_[k].are_told() || !has_axis_[k]);
     }
     if (n_missed_ > 0) {
-      found_.remarks.push_back(fmt::format("{} without a position or an angle", counted(n_missed_, "row")));
+      found_.remarks.push_back(fmt::format("{} without a position, an angle or a time", counted(n_missed_, "row")));
     }
     const auto remark = remark_on_angles(largest_angle_, "give --radians");
     if (has("angle") && !is_in_radians_ && remark) found_.remarks.push_back(*remark);
@@ -176,8 +176,10 @@ class TrackRows {
       row.is_missed = has_no_position;
     }
     if (conventions_.flips_y && !is_counted_upwards_) rod.director.y() = -rod.director.y();
-    const double frame = value(row, has("frame") ? "frame" : "t", 0);
-    if (has("t")) found_.time_of.emplace(frame, value(row, "t", 0));
+    Row instant{row.fields, row.line};
+    const double frame = value(instant, has("frame") ? "frame" : "t", 0), time = value(instant, "t", 0);
+    if (has("t") && !instant.is_missed) found_.time_of.emplace(frame, time);
+    row.is_missed |= instant.is_missed;
     n_missed_ += row.is_missed ? 1 : 0;
     if (row.is_missed || !put_into_box(rod.position, row.line)) return;
     found_.frames[frame].push_back(rod);

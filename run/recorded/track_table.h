@@ -37,8 +37,8 @@ struct TrackedRods {
 
 /// Reads a table in CSV with a row for each rod and frame: a number of the frame or a time, x and y, angle (or nx, ny),
 /// and, if it has them, an id, z, tilt (or nz), species; rows in any order. `plan` has the box and the rods' shapes.
-/// Rows without a position or an angle are rods that were missed. What is wrong is added to `problems`; then there is
-/// no result.
+/// Rows without a position, an angle or a time are rods that were missed. What is wrong is added to `problems`; then
+/// there is no result.
 std::optional<TrackedRods> read_tracks(std::string_view text, const std::string& file, const scene::RunPlan& plan,
                                        const TrackConventions& conventions, std::vector<keys::Problem>& problems);
 

@@ -175,7 +175,7 @@ TEST(TrackTable, WithHolesMeasuresWhatNeedsNoTracks) {
   EXPECT_THAT(tracks.remarks,
               ElementsAre("2 of 3 tracks are in every frame: --complete measures these alone, and then follows them; "
                           "--fill N closes gaps of up to N frames before",
-                          "1 row without a position or an angle", "2 to 3 rods in a frame, 3 on average"));
+                          "1 row without a position, an angle or a time", "2 to 3 rods in a frame, 3 on average"));
   const std::string& own = tracks.frames->header().scene_json;
   const auto made = plan_for_frames({own, "dish"}, {own, "dish"}, {}, *frame_spacing(*tracks.frames), tracks.lacking);
   ASSERT_TRUE(made) << keys::to_string(made.error());
@@ -185,6 +185,16 @@ TEST(TrackTable, WithHolesMeasuresWhatNeedsNoTracks) {
   EXPECT_THAT(found->reduction.arrays.at("/order/order"),
               ElementsAre(testing::DoubleNear(1.0 / 3, 1e-6), testing::DoubleNear(1, 1e-6),
                           testing::DoubleNear(1.0 / 3, 1e-6), testing::DoubleNear(1.0 / 3, 1e-6)));
+}
+
+TEST(TrackTable, RowsWithoutATimeSayNothingOfTheirFrame) {
+  for (const char* missed : {"1,nan,1,5,5,0\n", "nan,0.9,1,5,5,0\n"}) {
+    const TrackedRods tracks = tracks_in(std::string("frame,t,id,x,y,angle\n") + missed +
+                                         "0,0.5,2,9,9,0\n1,0.52,2,9,9,0\n2,0.54,2,9,9,0\n2,0.54,1,5,5,0\n");
+    for (const std::size_t k : {1, 2})
+      EXPECT_NEAR(frame_of(tracks, k).time - frame_of(tracks, k - 1).time, 0.02, 1e-9) << missed;
+    EXPECT_THAT(tracks.remarks, testing::Contains("1 row without a position, an angle or a time"));
+  }
 }
 
 TEST(TrackTable, CompleteTracksAreFollowed) {
