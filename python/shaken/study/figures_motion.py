@@ -1,7 +1,7 @@
 """Motion: how rods swim, diffuse and turn, and their defects."""
 import math
 from functools import partial
-from typing import Any, Callable
+from typing import Callable
 
 import numpy as np
 
@@ -20,17 +20,16 @@ from .order_checks import phase_diagram
 from .time_step import scene_of
 
 
-@shows("10", "mechanism")
+@shows("10", "mechanism", a="tilt", b="sideways", d="switching")
 def tilt(material: Material) -> Sheet:
     """How a rod swims: velocity against tilt"""
     runs = material.evidence["mechanism"]
     first = runs.at(packing=0.60)
     sheet = material.sheet(4, columns=2, height=52)
-    for panel, way, statement in ((sheet[0], "along", "tilt"), (sheet[1], "across", "sideways")):
+    for panel, way in zip(sheet, ("along", "across")):
         panel.titles(names.axis_title("/tilt/n_z"), names.axis_title(f"/tilt/v_{way}_mm_s"), f"{way} the rod, φ = 0.6")
         draw_curve(panel, first, f"/tilt/v_{way}_mm_s", look="points", seen=lambda e: e < 3 * np.nanmedian(e))
         panel.zero(x=True)
-        material.stamp(panel, statement)
     for place in (-0.2, 0.2):
         sheet[0].reference(x=place, label="the paper: fastest" if place > 0 else "")
     panel = sheet[2].titles(names.axis_title("/tilt/n_z"), "$P(n_z)$", "how often a tilt occurs")
@@ -47,11 +46,10 @@ def tilt(material: Material) -> Sheet:
         early = np.asarray(time)[:n] < float(time[0]) + 2
         panel.curve((np.asarray(time)[:n] - float(time[0]))[early], np.asarray(n_z)[:n][early], look="line")
     panel.zero()
-    material.stamp(panel, "switching")
     return sheet
 
 
-@shows("11", "mechanism")
+@shows("11", "mechanism", c="persistence")
 def paths(material: Material) -> Sheet:
     """Paths of single rods, and how long they persist; 0.2 s, below 0.70, is half the window of 400 ms over which
     velocities are averaged"""
@@ -70,7 +68,6 @@ def paths(material: Material) -> Sheet:
     draw_points(panel, runs.points(PACKING, "persistence_time_s"), "a way persists", 0)
     draw_points(panel, runs.points(PACKING, "n_z_switching_time_s"), "a tilt keeps its sign", 1)
     panel.range(y=(0, None)).reference(y=VELOCITY_WINDOW / 2, label="half the window of 400 ms")
-    material.stamp(panel, "persistence")
     return sheet
 
 
@@ -108,22 +105,21 @@ def _draw_readings(panel: Panel, evidence: Evidence, late: list[tuple[float, Est
                         name=f"parabola, MSD = {4 // factor}Dt")
 
 
-@shows("9", "diffusion", "short-rods", "diffusion-along", "long-rods")
+@shows("9", "diffusion", "short-rods", "diffusion-along", "long-rods", a="diffusion-normal", b="diffusion-law",
+       d="diffusion-along", f="diffusion-across")
 def diffusion(material: Material) -> Sheet:
     """Mean square displacement, D at short and at long times"""
     short, long_ = short_rods(material.evidence), long_rods(material.evidence)
     scale = packing_scale(short, long_)
     sheet = material.sheet(6, columns=2, height=50)
-    rows: tuple[tuple[Runs, str, str, Any, tuple[str, ...]], ...] = (
-        (short, "total", "ℓ = 2.5 mm, in the plane", "diffusion_short_mm2_s", ("diffusion-law",)),
-        (long_, "along", "ℓ = 4.5 mm, along the director",
-         _short_limit("/msd/along_mm2", "diffusion", "diffusion_mm2_s"), ("diffusion-along",)),
-        (long_, "across", "ℓ = 4.5 mm, across",
-         _short_limit("/msd/across_mm2", "diffusion", "diffusion_mm2_s"), ("diffusion-across",)))
-    for k, (runs, direction, title, short_limit, statements) in enumerate(rows):
-        draw_curves(sheet[2 * k].scale("log", "log"), runs, f"/msd/{direction}_mm2", scale, title=title)
+    rows = ((short, "total", "ℓ = 2.5 mm, in the plane"), (long_, "along", "ℓ = 4.5 mm, along the director"),
+            (long_, "across", "ℓ = 4.5 mm, across"))
+    for k, (runs, direction, title) in enumerate(rows):
+        msd = f"/msd/{direction}_mm2"
+        draw_curves(sheet[2 * k].scale("log", "log"), runs, msd, scale, title=title)
         panel = sheet[2 * k + 1].titles(names.axis_title(PACKING), "D (mm²/s)", title)
-        draw_points(panel, runs.points(PACKING, short_limit), "t → 0", 0)
+        draw_points(panel, runs.points(PACKING, "diffusion_short_mm2_s" if direction == "total" else
+                                       _short_limit(msd, "diffusion", "diffusion_mm2_s")), "t → 0", 0)
         late = points_of(runs, PACKING, partial(long_time_diffusion, direction=direction))
         if direction == "total":
             _draw_readings(panel, material.evidence, late)
@@ -133,8 +129,6 @@ def diffusion(material: Material) -> Sheet:
             panel.scale(y="log")
         else:
             panel.range(y=(0, None))
-        material.stamp(panel, *statements)
-    material.stamp(sheet[0], "diffusion-normal")
     sheet.colourbar(scale, [sheet[0], sheet[2], sheet[4]])
     return sheet
 
@@ -158,16 +152,14 @@ def diffusion_more(material: Material) -> Sheet:
     return sheet
 
 
-@shows("12", "short-rods", "long-rods", "diffusion-along")
+@shows("12", "short-rods", "long-rods", "diffusion-along", a="memory", b="c2-plateau", f="velocity-along")
 def memory(material: Material) -> Sheet:
     """Correlations in time: orientation C₂, velocity C_v"""
     short, long_ = material.evidence["short-rods"], material.evidence["long-rods"]
     scale = packing_scale(short, long_)
     sheet = material.sheet(6)
-    for panel, runs, title, statement in ((sheet[0], short, "ℓ = 2.5 mm", "memory"),
-                                          (sheet[1], long_, "ℓ = 4.5 mm", "c2-plateau")):
+    for panel, (runs, title) in zip(sheet, material.both):
         draw_curves(panel.scale("log"), runs, "/rotation/c2", scale, title=title).range(y=(0, 1)).zero()
-        material.stamp(panel, statement)
     panel = sheet[2].titles(names.axis_title(PACKING), names.axis_title("c2_plateau"), "what stays, ℓ = 4.5 mm")
     draw_points(panel, points_of(long_rods(material.evidence), PACKING, late_c2)).range(y=(0, 1))
     for panel, runs, name, title in ((sheet[3], short, "c_v", "velocity, ℓ = 2.5 mm"),
@@ -180,33 +172,28 @@ def memory(material: Material) -> Sheet:
     draw_points(panel, [(at, e) for at, e in long_rods(material.evidence).points(PACKING, late_velocity_correlation)
                         if at > 0.59])
     panel.zero()
-    material.stamp(panel, "velocity-along")
     return sheet
 
 
-@shows("13", "short-rods", "long-rods")
+@shows("13", "short-rods", "long-rods", b="rotation-saturates", c="rotation", d="rotation-short")
 def rotation(material: Material) -> Sheet:
     """Mean square angular displacement and rotational diffusion"""
     short, long_ = material.evidence["short-rods"], material.evidence["long-rods"]
     scale = packing_scale(short, long_)
     sheet = material.sheet(4, columns=2, height=52)
-    for panel, runs, title, statement in ((sheet[0], short, "ℓ = 2.5 mm", ()),
-                                          (sheet[1], long_, "ℓ = 4.5 mm", ("rotation-saturates",))):
+    for panel, (runs, title) in zip(sheet, material.both):
         draw_curves(panel.scale("log", "log"), runs, "/rotation/msad_rad2", scale, title=title)
-        material.stamp(panel, *statement)
     sheet.colourbar(scale, sheet.panels[:2])
     panel = sheet[2].titles(names.axis_title(PACKING), names.axis_title("rotational_diffusion_rad2_s"), "ℓ = 2.5 mm")
     draw_points(panel.scale(y="log"), short.points(PACKING, _short_limit("/rotation/msad_rad2", "rotation", "S")),
                 "t → 0", 0)
     draw_points(panel, short.points(PACKING, "rotational_diffusion_rad2_s"), "t → ∞", 1)
-    material.stamp(panel, "rotation")
     draw_against(sheet[3], PACKING, "alpha_rotation_short", [(short, "")], "ℓ = 2.5 mm",
                  "exponent $α_r$, short times").reference(y=1)
-    material.stamp(sheet[3], "rotation-short")
     return sheet
 
 
-@shows("14", "no-order")
+@shows("14", "no-order", c="defects")
 def defects(material: Material) -> Sheet:
     """Defects of rods that are ordered here and there"""
     runs = material.evidence["no-order"].at(3.0, 0.85)
@@ -223,7 +210,6 @@ def defects(material: Material) -> Sheet:
                                        ("speed_plus_along", "+1/2, towards its tail"))):
         draw_curve(panel, runs, f"/defects/tracks/lasting/{name}_mm_s", label, k, "points")
     panel.zero()
-    material.stamp(panel, "defects")
     draw_curves(sheet[3], runs, "/g2/g2", None, title="orientation").zero()
     return sheet
 
@@ -290,7 +276,7 @@ def accuracy(material: Material) -> Sheet:
     panel = sheet[0].titles("", "4 µs over 16 µs", "ratio of the same number")
     other = sheet[1].titles("", "difference / its error", "how significant")
     for k, name in enumerate(numbers):
-        x, ratios, errors, sigmas = [], [], [], []
+        points = []
         for place, (set_name, controls) in enumerate(sorted(material.evidence.controls.items())):
             for control in controls:
                 twin = Runs(run for run in material.evidence[set_name] if scene_of(run) == scene_of(control))
@@ -298,11 +284,10 @@ def accuracy(material: Material) -> Sheet:
                 if not (twin and a.is_known and b.is_known and a.value):
                     continue
                 error = math.hypot(a.error, b.error)
-                x.append(place + (k - 2.5) * 0.1)
-                ratios.append(b.value / a.value)
-                errors.append(abs(error / a.value))
-                sigmas.append((b.value - a.value) / error if error else math.nan)
-        if x:
+                points.append((place + (k - 2.5) * 0.1, b.value / a.value, abs(error / a.value),
+                               (b.value - a.value) / error if error else math.nan))
+        if points:
+            x, ratios, errors, sigmas = zip(*points)
             title = names.symbol(name)
             panel.curve(x, ratios, errors, label=title, colour=k, look="points", joined=False)
             other.curve(x, sigmas, label=title, colour=k, look="points", joined=False)

@@ -13,7 +13,7 @@ from .scaling import LEAST_STIFFNESS, STEEPEST, boxes, power, predicted, reading
 from .structure_checks import far_g2
 
 
-@shows("2", "long-rods", "forgetting")
+@shows("2", "long-rods", "forgetting", c="steady-state")
 def start(material: Material) -> Sheet:
     """Rods as they lie, and S(t) from the aligned start"""
     runs = material.evidence["long-rods"]
@@ -26,18 +26,17 @@ def start(material: Material) -> Sheet:
         panel.curve(order.axis, order, colour=scale and scale(packing), look="line")
     panel.range(y=(0, 1)).reference(x=400, label="the paper: steady")
     sheet.colourbar(scale, [panel])
-    material.stamp(panel, "steady-state")
     return sheet
 
 
-@shows("3", "long-rods", "short-rods", "crossings", "phases", "layers", "layer-trends")
+@shows("3", "long-rods", "short-rods", "crossings", "phases", "layers", "layer-trends", a="ordered saturates",
+       b="transition short")
 def order(material: Material) -> Sheet:
     """Mean order against area fraction, and the phase diagram"""
     runs = phase_diagram(material.evidence)
     sheet = material.sheet(2, height=62, columns=2)
     draw_against(sheet[0], PACKING, "S", labelled(runs, LENGTH), "mean order")
     sheet[0].range(y=(0, 1)).reference(y=ORDERED, label="0.5")
-    material.stamp(sheet[0], "ordered", "saturates")
     panel = sheet[1].titles(names.axis_title(PACKING), names.axis_title(LENGTH), "phase diagram")
     lengths, packings = runs.values(LENGTH), runs.values(PACKING)
     grid = np.array([[runs.at(length, packing).number("S").value if runs.at(length, packing) else np.nan
@@ -62,11 +61,10 @@ def order(material: Material) -> Sheet:
                            zorder=6)
         panel.record("layers: P(θ) has two peaks", *zip(*layered))
     panel.note("line: ⟨S⟩ = 0.5; pentagons: layers")
-    material.stamp(panel, "transition", "short")
     return sheet
 
 
-@shows("4", "long-rods", "short-rods")
+@shows("4", "long-rods", "short-rods", a="unimodal", b="broadest")
 def order_statistics(material: Material) -> Sheet:
     """Fluctuations of the order: P[S], standard deviation, Binder cumulant"""
     runs, both = material.evidence["long-rods"], material.both[::-1]
@@ -81,19 +79,17 @@ def order_statistics(material: Material) -> Sheet:
                         steady=here.number("S").steady)
     panel.range((0, 1), (0, 1.05))
     sheet.colourbar(scale, [panel])
-    material.stamp(panel, "unimodal")
     panel = draw_against(sheet[1], PACKING, "S_std", both, "how far S fluctuates", "standard deviation of S")
     phi = transition(runs)
     if phi.is_known:
         panel.reference(x=phi.value, label="⟨S⟩ = 0.5")
     panel.range(y=(0, None))
-    material.stamp(panel, "broadest")
     draw_against(sheet[2], PACKING, "binder", both, "Binder cumulant")
     sheet[2].reference(y=0, label="disorder").reference(y=1, label="order")
     return sheet
 
 
-@shows("", "layer-trends", "turned")
+@shows("", "layer-trends", "turned", d="oblique")
 def steady(material: Material) -> Sheet:
     """The axis along which rods of 3.5 mm order"""
     straight, turned = (material.evidence[name].at(3.5, 0.85) for name in ("layer-trends", "turned"))
@@ -108,11 +104,10 @@ def steady(material: Material) -> Sheet:
                 values = np.degrees(np.asarray(array)) if "director" in name else np.asarray(array)
                 panel.curve(array.axis, values, label=label if j == 0 else "", colour=k, look="line")
     sheet[2].range(y=(0, 1))
-    material.stamp(sheet[3], "oblique")
     return sheet
 
 
-@shows("", "shaking")
+@shows("", "shaking", b="activity")
 def shaking(material: Material) -> Sheet:
     """Order and motion against the strength of shaking"""
     runs = material.evidence["shaking"].beyond(GAMMA, 0)
@@ -121,11 +116,10 @@ def shaking(material: Material) -> Sheet:
         of = {"diffusion_mm2_s": long_time_diffusion}.get(name, name)
         draw_against(panel, GAMMA, of, labelled(runs, LENGTH), y=names.axis_title(name))
         panel.range(y=(0, 1 if name == "S" else None)).reference(x=7, label="the paper's")
-    material.stamp(sheet[1], "activity")
     return sheet
 
 
-@shows("", "long-rods", "size", "dilute", "elasticity", "long-range")
+@shows("", "long-rods", "size", "dilute", "elasticity", "long-range", a="transition-size", c="long-range")
 def scaling(material: Material) -> Sheet:
     """Order against the size of the box, and what the director's waves predict of it"""
     runs = boxes(material.evidence)
@@ -134,7 +128,6 @@ def scaling(material: Material) -> Sheet:
         several = [(here if len(here.values(PACKING)) > 1 else Runs(), label) for here, label in labelled(runs, SIDE)]
         draw_against(panel, PACKING, name, several, title)
     sheet[0].range(y=(0, 1)).reference(y=ORDERED, label="0.5")
-    material.stamp(sheet[0], "transition-size")
 
     panel = sheet[2].titles(names.axis_title(SIDE), names.axis_title("S"), "lines: waves").scale("log", "log")
     far = sheet[5].titles(names.axis_title(SIDE), "G₂ at half the box", "far away")
@@ -151,7 +144,6 @@ def scaling(material: Material) -> Sheet:
         sides = np.array([side for side, _ in order])
         panel.curve(sides, s.value * (sides / first) ** x, colour=k)
     stiff.reference(y=LEAST_STIFFNESS, label="8/π")
-    material.stamp(panel, "long-range")
     far.zero()
 
     panel = sheet[3].titles(names.axis_title(PACKING), "x of S ~ Lˣ", "three readings of the power")

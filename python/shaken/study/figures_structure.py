@@ -1,5 +1,5 @@
 """Structure: correlations in space, layers and what they depend on, the gap, elasticity."""
-from typing import Any, Callable, Sequence
+from typing import Any, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +15,7 @@ from .material import Material, draw_against, draw_curve, draw_curves, draw_poin
 from .structure_checks import mean_waves, ordered_in_large_boxes
 
 
-@shows("5", "short-rods", "long-rods")
+@shows("5", "short-rods", "long-rods", a="g2")
 def g2(material: Material) -> Sheet:
     """Orientational correlation G₂(r) on logarithmic axes"""
     sheet = material.sheet(2, height=58, columns=2)
@@ -24,7 +24,6 @@ def g2(material: Material) -> Sheet:
         draw_curves(panel.scale("log", "log"), runs, "/g2/g2", scale, keep=lambda r, g: r > 0.5, title=title)
         panel.range(y=(3e-3, 1.1), exactly=True)
     sheet.colourbar(scale)
-    material.stamp(sheet[0], "g2")
     return sheet
 
 
@@ -75,7 +74,7 @@ def g2_map(material: Material) -> Sheet:
     return sheet
 
 
-@shows("7", "short-rods", "long-rods", "layers")
+@shows("7", "short-rods", "long-rods", "layers", e="g-flattens")
 def distances(material: Material) -> Sheet:
     """Pair correlation g: against distance, along and across the director"""
     evidence = material.evidence
@@ -89,23 +88,16 @@ def distances(material: Material) -> Sheet:
     for panel, (runs, title) in zip((sheet[4], sheet[5]), dense):
         if runs:
             _cuts(panel, runs, "g", f"cuts, {title}", 1.0)
-    material.stamp(sheet[4], "g-flattens")
     return sheet
 
 
-def _angles(panel: Panel, runs: Runs, path: str, title: str, scale: Callable[[float], object] | None = None) -> None:
+def _angles(panel: Panel, runs: Runs, path: str, title: str, scale: ColourScale | None = None) -> None:
+    def folded(theta: NDArray[Any], density: NDArray[Any], error: NDArray[Any]) -> tuple[NDArray[Any], ...]:
+        return np.degrees(theta), np.radians((density + np.interp(-theta, theta, density)) / 2), error
+
     panel.titles("angle to the director (°)", "P(θ) (1/°)", title)
-    for k, value in enumerate(runs.values(path)):
-        found = runs.where(path, value).curve("/angles/density_per_rad")
-        if found is None:
-            continue
-        theta, density, _ = found
-        near = abs(np.degrees(theta)) <= 45
-        folded = (density + np.interp(-theta, theta, density)) / 2
-        panel.curve(np.degrees(theta)[near], np.radians(folded)[near], None,
-                    runs.where(path, value).number("S").steady, label="" if scale else names.value_label(path, value),
-                    colour=scale(value) if scale else k, look="line")
-    panel.range(y=(0, None))
+    draw_curves(panel, runs, "/angles/density_per_rad", scale, path, keep=lambda angle, density: abs(angle) <= 45,
+                made=folded, labels=scale is None, errors=False).range(y=(0, None))
 
 
 def _against(panel: Panel, series: list[tuple[Runs, str]], path: str, name: str, title: str) -> None:
@@ -114,7 +106,8 @@ def _against(panel: Panel, series: list[tuple[Runs, str]], path: str, name: str,
     draw_against(panel, path, of, formed, title, names.axis_title(name)).range(y=(0, None))
 
 
-@shows("8", "layers", "layer-trends", "long-rods", "strip", "fluid-start")
+@shows("8", "layers", "layer-trends", "long-rods", "strip", "fluid-start", b="layers", c="peaks-end", d="angle-length",
+       e="angle-end", f="g2-oscillates", g="wavelength-length", h="wavelength-end")
 def layers(material: Material) -> Sheet:
     """Layers turned by ±θ, their angle and their wavelength"""
     evidence = material.evidence
@@ -128,11 +121,9 @@ def layers(material: Material) -> Sheet:
     _angles(sheet[1], everything, PACKING, "ℓ = 4.5 mm", scale)
     sheet.colourbar(scale, [sheet[1]])
     sheet[1].reference(x=10, label="10°").reference(x=-10)
-    material.stamp(sheet[1], "layers")
     by_end = evidence["layer-trends"].at(4.0, 0.85)
     fluid = evidence["fluid-start"].at(4.0, 0.85)
     _angles(sheet[2], by_end, END, "ℓ = 4 mm, φ = 0.85")
-    material.stamp(sheet[2], "peaks-end")
     by_length = [(trends.at(packing=packing, end=0.4), f"φ = {packing:g}, L = 42 mm") for packing in (0.80, 0.85)]
     strips = evidence["strip"].at(packing=0.85, end=0.4)
     by_length += [(strips, f"φ = 0.85, {box_text(strips[0])}")] if strips else []
@@ -140,15 +131,10 @@ def layers(material: Material) -> Sheet:
     starts = [(by_end, "from rows"), (fluid, "from a fluid"), (blunt, "from a fluid, strip")]
     _against(sheet[3], by_length, LENGTH, "theta_m_deg", "angle")
     sheet[3].reference(y=10, label="the paper: about 10°")
-    material.stamp(sheet[3], "angle-length")
     _against(sheet[4], starts, END, "theta_m_deg", "angle, ℓ = 4 mm")
-    material.stamp(sheet[4], "angle-end")
     _cuts_across(sheet[5], long_, scale)
-    material.stamp(sheet[5], "g2-oscillates")
     _against(sheet[6], by_length, LENGTH, "wavelength_mm", "wavelength")
-    material.stamp(sheet[6], "wavelength-length")
     _against(sheet[7], starts, END, "wavelength_mm", "wavelength, ℓ = 4 mm")
-    material.stamp(sheet[7], "wavelength-end")
     panel = sheet[8].titles("wave number $q_⊥$ (1/mm)", "spectrum of sin 2(θ − θ$_N$)", "across the director")
     draw_curves(panel.scale(y="log"), long_, "/layers/spectrum_across", scale, keep=lambda q, s: q < 2, errors=False)
     return sheet
@@ -159,7 +145,7 @@ def _cuts_across(panel: Panel, runs: Runs, scale: ColourScale | None, path: str 
     draw_curves(panel, runs, "/pairs/cut/g2_across", scale, path, labels=scale is None)
 
 
-@shows("", "layers", "layer-trends", "strip")
+@shows("", "layers", "layer-trends", "strip", a="angle-packing", b="wavelength-packing")
 def layer_trends(material: Material) -> Sheet:
     """Angle, wavelength and order of the layers against packing"""
     trends = material.evidence.joined("layers", "layer-trends")
@@ -168,15 +154,13 @@ def layer_trends(material: Material) -> Sheet:
         strips = material.evidence["strip"].at(length, end=0.4).beyond(PACKING, 0.78)
         series += [(strips, f"{names.value_label(LENGTH, length)}, {box_text(strips[0])}")] if strips else []
     sheet = material.sheet(3)
-    for panel, name, title, statement in ((sheet[0], "theta_m_deg", "angle", "angle-packing"),
-                                          (sheet[1], "wavelength_mm", "wavelength", "wavelength-packing")):
-        _against(panel, series, PACKING, name, title)
-        material.stamp(panel, statement)
+    _against(sheet[0], series, PACKING, "theta_m_deg", "angle")
+    _against(sheet[1], series, PACKING, "wavelength_mm", "wavelength")
     draw_against(sheet[2], PACKING, "layer_order", series, "order of the layers").range(y=(0, None))
     return sheet
 
 
-@shows("", "layer-trends", "larger-box")
+@shows("", "layer-trends", "larger-box", d="larger-box")
 def larger_box(material: Material) -> Sheet:
     """Layers in a larger box"""
     small, large = (material.evidence[name].at(4.0, 0.85, end=0.4) for name in ("layer-trends", "larger-box"))
@@ -189,11 +173,10 @@ def larger_box(material: Material) -> Sheet:
             panel.titles(title=title).absent = "no runs yet"
     _angles(sheet[2], both, SIDE, "P(θ)")
     _cuts_across(sheet[3], both, None, SIDE)
-    material.stamp(sheet[3], "larger-box")
     return sheet
 
 
-@shows("", "layer-trends", "fluid-start", "strip")
+@shows("", "layer-trends", "fluid-start", "strip", f="peaks-end")
 def ends(material: Material) -> Sheet:
     """Blunt rods, from rows and from a fluid"""
     rows, fluid = (material.evidence[name].at(4.0, 0.85) for name in ("layer-trends", "fluid-start"))
@@ -203,22 +186,20 @@ def ends(material: Material) -> Sheet:
     draw_snapshots(sheet, shown, timed=False)
     for panel, runs, title in ((sheet[4], rows, "P(θ), from rows"), (sheet[5], fluid, "P(θ), from a fluid")):
         _angles(panel, runs, END, title)
-    material.stamp(sheet[5], "peaks-end")
     return sheet
 
 
-@shows("", "strip", "layers", "taper")
+@shows("", "strip", "layers", "taper", c="taper")
 def taper(material: Material) -> Sheet:
     """Tapered and untapered rods, from a fluid"""
     tapered, plain = material.evidence["layers"].at(4.5, 0.80), material.evidence["taper"].at(4.5, 0.80)
     sheet = material.sheet(3, height=58)
     draw_snapshots(sheet, [(tapered, "tapered, φ = 0.80"), (plain, "untapered, φ = 0.80")], timed=False)
     _angles(sheet[2], Runs([*tapered, *plain]), END, "P(θ)")
-    material.stamp(sheet[2], "taper")
     return sheet
 
 
-@shows("", "gaps", "layers")
+@shows("", "gaps", "layers", e="gap", h="crystal")
 def gap(material: Material) -> Sheet:
     """The gap between the plates: crystal, layers, no layers"""
     runs = Runs([*material.evidence["gaps"], *material.evidence["layers"].at(4.5, 0.80)])
@@ -226,7 +207,6 @@ def gap(material: Material) -> Sheet:
     sheet = material.sheet(8, columns=4 if material.width > 150 else 2, height=44)
     _maps(sheet, sheet.panels[:4], [(runs.at(gap=value), f"w = {value:g} mm") for value in gaps], "/pairs/g2")
     _cuts_across(sheet[4], runs, None, GAP)
-    material.stamp(sheet[4], "gap")
     _angles(sheet[5], runs, GAP, "P(θ)")
     draw_curves(sheet[6], runs, "/g2/g", None, GAP, keep=lambda r, g: r < 8, labels=True,
                 title="distances").reference(y=1)
@@ -234,11 +214,10 @@ def gap(material: Material) -> Sheet:
     draw_points(panel, runs.points(GAP, "bragg_peak"), "Bragg peak", 0)
     draw_points(panel, runs.points(GAP, "psi_6"), "ψ₆", 1)
     panel.range(y=(0, None))
-    material.stamp(panel, "crystal")
     return sheet
 
 
-@shows("", "elasticity", "size", "long-range")
+@shows("", "elasticity", "size", "long-range", b="splay-bend")
 def elasticity(material: Material) -> Sheet:
     """Director fluctuations: bend against splay"""
     runs = ordered_in_large_boxes(material.evidence)
@@ -255,7 +234,6 @@ def elasticity(material: Material) -> Sheet:
         panel.curve([wave.q for wave in waves], [wave.ratio.value for wave in waves],
                     [wave.ratio.error for wave in waves], label=f"φ = {packing:g}", colour=k, look="points")
     panel.reference(y=1)
-    material.stamp(panel, "splay-bend")
     return sheet
 
 
@@ -266,6 +244,7 @@ def fluctuations(material: Material) -> Sheet:
     scale = packing_scale(*(runs for runs, _ in material.both))
     for panel, (runs, title) in zip(sheet, material.both):
         panel.titles("mean number ⟨N⟩", "ΔN / √⟨N⟩", title).scale("log", "linear")
-        draw_curves(panel, runs, "/fluctuations/std_n", scale, over=np.sqrt).range(y=(0, None))
+        draw_curves(panel, runs, "/fluctuations/std_n", scale, made=lambda n, std, error: (
+            n, std / np.sqrt(n), error / np.sqrt(n))).range(y=(0, None))
     sheet.colourbar(scale)
     return sheet

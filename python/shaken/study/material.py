@@ -76,10 +76,19 @@ class Figure:
         return f"fig{int(self.number):02d}-{self.name}" if self.number else self.name
 
 
-def shows(number: str, *sets: str) -> Callable[[Callable[[Material], Sheet]], Figure]:
+def shows(number: str, *sets: str, **verdicts: str) -> Callable[[Callable[[Material], Sheet]], Figure]:
     """Makes of the function below it the figure of that number, which is drawn from these sets. Its name is that of the
-    function, its title the text."""
-    return lambda draw: Figure(number, draw.__name__.replace("_", "-"), " ".join(str(draw.__doc__).split()), sets, draw)
+    function, its title the text. verdicts: of a panel, by its letter, the statements whose verdicts stand above it."""
+    def figure(draw: Callable[[Material], Sheet]) -> Figure:
+        def stamped(material: Material) -> Sheet:
+            sheet = draw(material)
+            for letter, statements in verdicts.items():
+                material.stamp(next(panel for panel in sheet if panel.letter == letter), *statements.split())
+            return sheet
+
+        return Figure(number, draw.__name__.replace("_", "-"), " ".join(str(draw.__doc__).split()), sets, stamped)
+
+    return figure
 
 
 def packing_scale(*sets: Runs) -> style.ColourScale | None:
@@ -90,10 +99,10 @@ def packing_scale(*sets: Runs) -> style.ColourScale | None:
 
 def draw_curves(panel: Panel, runs: Runs, array: str, scale: style.ColourScale | None, path: str = PACKING, *,
                 keep: Callable[[NDArray[Any], NDArray[Any]], NDArray[Any]] | None = None,
-                over: Callable[[NDArray[Any]], NDArray[Any]] = np.ones_like, labels: bool = False,
-                errors: bool = True, title: str | None = None) -> Panel:
-    """An array, divided by a function of its axis, against that, the mean over replicas, a curve for each value of a
-    key. What `keep` leaves out within it is a gap. With a title the axes have theirs, too."""
+                made: Callable[..., tuple[NDArray[Any], ...]] = lambda x, y, error: (x, y, error),
+                labels: bool = False, errors: bool = True, title: str | None = None) -> Panel:
+    """An array against its axis, the mean over replicas, a curve for each value of a key, or what is `made` of (x, y,
+    error). What `keep` leaves out within it is a gap. With a title the axes have theirs, too."""
     if title is not None:
         panel.titles(names.axis_title(axes_of(array)[-1]), names.axis_title(array), title)
     for k, value in enumerate(runs.values(path)):
@@ -101,12 +110,12 @@ def draw_curves(panel: Panel, runs: Runs, array: str, scale: style.ColourScale |
         found = here.curve(array)
         if found is None:
             continue
-        x, y, error = found
+        x, y, error = made(*found)
         shown = keep(x, y) if keep else np.ones(len(x), dtype=bool)
         if not shown.any():
             continue
         part = slice(np.argmax(shown), len(shown) - np.argmax(shown[::-1]))
-        panel.curve(x[part], (np.where(shown, y, np.nan) / over(x))[part], (error / over(x))[part] if errors else None,
+        panel.curve(x[part], np.where(shown, y, np.nan)[part], error[part] if errors else None,
                     here.number("S").steady if "S" in here[0] else True,
                     label=names.value_label(path, value) if labels else "",
                     colour=scale(value) if scale else k, look="line")
