@@ -232,7 +232,7 @@ def test_open_statements_have_a_reason_and_a_price():
     found = {row[0]: row[1:] for row in rows(next_runs.open_statements(evidence, judged(evidence)))}
     says = {statement.id: statement.says for statement in STATEMENTS}
     assert set(next_runs.DECIDING) <= set(says)
-    assert found[says["larger-box"]] == ["no runs yet", "two seeds in a box of 84 mm: the set `larger-box`", "–"]
+    assert found[says["angle-end"]] == ["no runs yet", next_runs.BLUNT[0], "–"]
     assert float(found[says["long-range"]][2]) > 0, "rods of 4.5 mm have a speed"
     assert set(found) == {v.statement.says for v in judged(evidence) if v.finding.verdict in ("open", "no data")}
 
