@@ -64,9 +64,10 @@ def _xxh3(path: Path, *identity: int) -> str:
         library.XXH3_freeState(state)
 
 
-def _json_beside(path: Path, name: str) -> dict[str, Any]:
+def object_in(file: Path) -> dict[str, Any]:
+    """The object of a file that a run writes, "summary.json"; an empty one where it is not there yet, or is damaged."""
     try:
-        found = json.loads(path.with_name(name).read_text())
+        found = json.loads(file.read_text())
     except (OSError, ValueError, RecursionError):
         return {}
     return found if isinstance(found, dict) else {}
@@ -74,7 +75,7 @@ def _json_beside(path: Path, name: str) -> dict[str, Any]:
 
 def _promised(path: Path) -> dict[str, Any] | None:
     """Size and hash of a file, if the summary.json beside it has them."""
-    files = _json_beside(path, "summary.json").get("files")
+    files = object_in(path.with_name("summary.json")).get("files")
     promised = files.get(path.name) if isinstance(files, dict) else None
     return promised if isinstance(promised, dict) else None
 
@@ -102,7 +103,7 @@ def _check_content(path: Path) -> None:
         if now.st_size == promised.get("bytes") and promised.get("xxh3") == _xxh3(
                 path, now.st_dev, now.st_ino, now.st_size, now.st_mtime_ns):
             return
-    if _json_beside(path, "progress.json").get("state") != "running":  # which replaces its files one by one
+    if object_in(path.with_name("progress.json")).get("state") != "running":  # which replaces its files one by one
         raise Failed(f"{path} is damaged: it is not the file that the run has written, as its hash in "
                      "summary.json tells. Put a copy of it back; or remove summary.json beside it and submit the "
                      "scene again, which makes the run's files anew")

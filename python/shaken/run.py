@@ -14,7 +14,7 @@ from .catalogue import ARRAYS
 from .errors import ShakenError, UnknownName
 from .estimate import NAN, Estimate
 from .frames import Frame, Trajectory
-from .hdf5 import h5py_module, open_file
+from .hdf5 import h5py_module, object_in, open_file
 from .notebook import numbers_html
 from .units import split_species, split_unit, unit_of
 
@@ -116,18 +116,13 @@ class Arrays(Mapping[str, Array]):
     def __init__(self, names: list[str], read: Any) -> None:
         self._names = {name: None for name in names}
         self._read = read
-        self._known: dict[str, Array] = {}
+        self._fetch = functools.cache(self._fetched)
 
     def __getitem__(self, name: str) -> Array:
         path = name if name.startswith("/") else "/" + name
         if path not in self._names:
             raise UnknownName(f"{path} was not measured", path, self._names, "the run has")
         return self._fetch(path)
-
-    def _fetch(self, path: str) -> Array:
-        if path not in self._known:
-            self._known[path] = self._fetched(path)
-        return self._known[path]
 
     def _fetched(self, path: str) -> Array:
         values, unit = self._read(path)
@@ -268,14 +263,10 @@ class Run:
 
 def _present_state(directory: Path) -> str:
     """What progress.json says of a run that is not done."""
-    try:
-        progress = json.loads((directory / "progress.json").read_text())
-        word, why = str(progress["state"]), str(progress.get("message") or "")
-    except (OSError, ValueError, KeyError, TypeError):
-        return "the run has not ended yet"
-    if word == "failed":
-        return "the run has failed" + (f": {why}" if why else "")
-    return "the run was stopped before its end" if word == "stopped" else "the run has not ended yet"
+    progress = object_in(directory / "progress.json")
+    if progress.get("state") == "failed":
+        return "the run has failed" + (f": {why}" if (why := progress.get("message")) else "")
+    return "the run was stopped before its end" if progress.get("state") == "stopped" else "the run has not ended yet"
 
 
 def arrays_in(directory: Path, opened: Any = None) -> Arrays:

@@ -1,5 +1,4 @@
 """What the rows of `shaken-bench accuracy` come to: orders of convergence, also in words for a terminal."""
-import json
 import math
 from typing import Any, Mapping, NamedTuple, Sequence
 
@@ -7,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..text import Column, table
+from .series import grouped
 
 #: A row of a report of shaken-bench.
 Row = Mapping[str, Any]
@@ -31,10 +31,7 @@ def column(rows: Sequence[Row], path: str, factor: float = 1.0) -> NDArray[Any]:
 
 def series_of(rows: Sequence[Row], *members: str) -> list[list[Row]]:
     """Rows that are alike in some members, as one list each, in the order in which these begin."""
-    series: dict[str, list[Row]] = {}
-    for row in rows:
-        series.setdefault(json.dumps([row.get(member) for member in members]), []).append(row)
-    return list(series.values())
+    return [alike for _, alike in grouped(([row.get(member) for member in members], row) for row in rows)]
 
 
 def like(rows: Sequence[Row], row: Row, *members: str) -> Row | None:

@@ -1,5 +1,4 @@
 """What runs have measured, a figure for each observable: S(t), P(S), P(θ), G₂(r), MSD and others."""
-import json
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Iterator, Mapping, Sequence
@@ -9,11 +8,11 @@ from numpy.typing import NDArray
 
 from ..catalogue import ARRAYS
 from ..errors import ShakenError
-from ..hdf5 import open_file
+from ..hdf5 import object_in, open_file
 from ..run import axes_of, error_name
 from ..rows import newness, version_text
 from . import maps, names
-from .series import VERSION, Arrangement, label_of, mean_curve
+from .series import VERSION, Arrangement, grouped, label_of, mean_curve
 from .sheet import Sheet
 
 _DEGREES = 180 / np.pi
@@ -144,12 +143,7 @@ def read_run(directory: str | Path, parameters: Mapping[str, Any], state: str = 
     if not path.exists():
         raise Unreadable(f"no observables.h5 there: {folder}" if state in ("", "done") else
                          f"{state} before anything was measured")
-    try:
-        summary = json.loads((folder / "summary.json").read_text())
-    except (OSError, ValueError):
-        summary = {}  # it has not ended
-    if not isinstance(summary, dict):
-        summary = {}
+    summary = object_in(folder / "summary.json")
     wanted = {name for one in OF_EVERY_SPECIES
               for name in (one.x, *one.ys, error_name(one.ys[0]), one.array(one.rows)) if name}
     wanted |= {species + name for species in ("", "/rods_2", "/rods_3") for name in maps.ARRAYS + maps.DENSITY}
@@ -209,18 +203,11 @@ def curve_of(run: PlottedRun, of: Observable) -> Curve | None:
 def _averaged(curves: Sequence[Curve]) -> Iterator[Curve]:
     """One curve for all replicas at the same places; others as they are. It is steady if all of them are. Places that
     were measured, as the number of rods in a box, differ a little, and are averaged too."""
-    groups: list[list[Curve]] = []
-    for curve in curves:
-        group = next((g for g in groups if g[0].x.shape == curve.x.shape and
-                      np.allclose(g[0].x, curve.x, rtol=0.02, atol=1e-9)), None)
-        if group is None:
-            groups.append([curve])
-        else:
-            group.append(curve)
-    for group in groups:
+    for x, group in grouped(((curve.x, curve) for curve in curves), lambda known, x: known.shape == x.shape and
+                            np.allclose(known, x, rtol=0.02, atol=1e-9)):
         y, error = mean_curve([curve.y for curve in group], [curve.error for curve in group])
         states = [curve.steady for curve in group]
-        x = np.mean([curve.x for curve in group], axis=0) if len(group) > 1 else group[0].x
+        x = np.mean([curve.x for curve in group], axis=0) if len(group) > 1 else x
         yield Curve(x, y, error, False if False in states else None if None in states else True)
 
 
@@ -235,15 +222,10 @@ def run_figures(runs: Sequence[PlottedRun], width: str | None = None) -> Iterato
     version the mean is drawn, with the standard error of replica_mean; what differs in parameters or version are
     different curves."""
     versions = sorted({run.version for run in runs if run.version}, key=newness)
-    points: list[dict[str, Any]] = []
-    of_point: list[list[PlottedRun]] = []
-    for run in runs:
-        # what different versions computed are different points; a run that is not done yet is of the newest
-        point = {**run.parameters, **({VERSION: run.version or versions[-1]} if len(versions) > 1 else {})}
-        if point not in points:
-            points.append(point)
-            of_point.append([])
-        of_point[points.index(point)].append(run)
+    # what different versions computed are different points; a run that is not done yet is of the newest
+    found = grouped(({**run.parameters, **({VERSION: run.version or versions[-1]} if len(versions) > 1 else {})}, run)
+                    for run in runs)
+    points, of_point = [point for point, _ in found], [of_one for _, of_one in found]
     for of in OF_EVERY_SPECIES:
         curves = [[curve for run in of_one if (curve := curve_of(run, of)) is not None] for of_one in of_point]
         known = [k for k, found in enumerate(curves) if found]

@@ -1,6 +1,7 @@
 """Many curves in one figure: which of them share a panel, and what colours tell them apart."""
 import json
-from typing import Any, Mapping, Sequence
+import operator
+from typing import Any, Callable, Iterable, Mapping, Sequence, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,8 @@ VERSION = ""
 #: A key under which a curve carries which way a protocol goes along it: {"way": "up"}.
 WAY = "way"
 _MOST_NAMED = len(style.PALETTE)
+_Key = TypeVar("_Key")
+_Value = TypeVar("_Value")
 
 
 def label_of(parameters: Mapping[str, Any]) -> str:
@@ -46,10 +49,8 @@ class Arrangement:
             return
         by_colour = self._key_of_colours(swept)
         others = [key for key in swept if key != by_colour]
-        groups: dict[str, list[int]] = {}
-        for k, point in enumerate(self.points):
-            groups.setdefault(label_of({key: point[key] for key in others if key in point}), []).append(k)
-        self.panels = list(groups.items())
+        self.panels = grouped((label_of({key: point[key] for key in others if key in point}), k)
+                              for k, point in enumerate(self.points))
         self._colour_by(by_colour)
 
     def _key_of_colours(self, swept: Sequence[str]) -> str:
@@ -110,6 +111,19 @@ class Arrangement:
     def each(self, sheet: Sheet) -> Sequence[tuple[Panel, int]]:
         """(panel, number of the point) of all curves, in their order."""
         return [(panel, k) for panel, (_, points) in zip(sheet.panels, self.panels) for k in points]
+
+
+def grouped(pairs: Iterable[tuple[_Key, _Value]], alike: Callable[[_Key, _Key], bool] = operator.eq
+            ) -> list[tuple[_Key, list[_Value]]]:
+    """(key, values) of what has alike keys, the first of which stands for them, in the order in which they are met."""
+    groups: list[tuple[_Key, list[_Value]]] = []
+    for key, value in pairs:
+        group = next((values for known, values in groups if alike(known, key)), None)
+        if group is None:
+            groups.append((key, [value]))
+        else:
+            group.append(value)
+    return groups
 
 
 def _text(value: Any) -> str:

@@ -8,7 +8,7 @@ from ..system import scratch_folder
 from ..rows import Row, error_field, has_several_versions
 from ..units import leading_number
 from . import names, style
-from .series import VERSION, WAY, Arrangement, label_of
+from .series import VERSION, WAY, Arrangement, grouped, label_of
 from .sheet import Sheet
 
 #: The parameter that numbers the runs of a protocol, from 1.
@@ -76,7 +76,7 @@ def sweep_figure(points: Sequence[Row], x: str = "", y: str = "order.mean",
         of_protocol = set_by_stages(points) | {STAGE}
         points = sorted(points, key=lambda point: leading_number(point.parameters.get(STAGE)))
     several_versions = has_several_versions(points)
-    groups: list[Group] = []
+    placed: list[tuple[dict[str, Any], tuple[float, Row]]] = []
     for point in points:
         at = point.number(x) if x and math.isfinite(point.number(x)) else leading_number(point.parameters.get(path))
         if not math.isfinite(at) or not math.isfinite(point.number(y)):
@@ -84,11 +84,8 @@ def sweep_figure(points: Sequence[Row], x: str = "", y: str = "order.mean",
         others = {key: value for key, value in point.parameters.items() if key != path and key not in of_protocol}
         if several_versions and point.made_by:
             others[VERSION] = point.made_by
-        group = next((found for known, found in groups if known == others), None)
-        if group is None:
-            group = []
-            groups.append((others, group))
-        group.append((at, point))
+        placed.append((others, (at, point)))
+    groups: list[Group] = grouped(placed)
     if not groups:
         return None
     if of_protocol:

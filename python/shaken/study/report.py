@@ -14,6 +14,7 @@ import numpy as np
 
 from ..errors import ShakenError
 from ..estimate import Estimate
+from ..plots.series import grouped
 from ..run import Run
 from .beyond_paper import SECTIONS, strip
 from .evidence import Evidence
@@ -79,13 +80,10 @@ def index(found: Sequence[Verdict], folder: str) -> str:
 
 def origin(evidence: Evidence) -> str:
     """Which versions made the runs, how many, and when the last was finished; a list of Markdown."""
-    by_version: dict[str, list[str]] = {}
-    for run in evidence.everything:
-        versions = run.summary["versions"]
-        words = f"shaken {versions['shaken']}, physics {versions['physics']}, {versions['compiler']}"
-        by_version.setdefault(words, []).append(run.summary.get("finished") or "")
+    by_version = grouped(("shaken {shaken}, physics {physics}, {compiler}".format(**run.summary["versions"]),
+                          run.summary.get("finished") or "") for run in evidence.everything)
     return "".join(f"- {len(times)} run{'s' * (len(times) > 1)} by {words}, the last on {max(times)[:10]}\n"
-                   for words, times in sorted(by_version.items()))
+                   for words, times in sorted(by_version))
 
 
 def sets_table(evidence: Evidence) -> str:

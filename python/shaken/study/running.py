@@ -17,7 +17,9 @@ from ..archive import add_run, archived_runs
 from ..system import ends_with_us, output_of
 from ..daemon import Daemon
 from ..errors import ShakenError
+from ..plots.series import grouped
 from ..run import Run
+from .rules import markdown
 
 #: Wall time of one attempt, and of all attempts, of a run [s].
 _SOFT_LIMIT, _TIME_LIMIT = 3 * 3600, 7 * 24 * 3600
@@ -39,8 +41,6 @@ class Missing:
     part: int
     id: str
     parameters: dict[str, Any]
-    rods: int
-    seconds: float
     cost: float
 
 
@@ -86,11 +86,10 @@ class Plan:
                     continue
                 seed = point["parameters"].get("time.seed", sweep["scene"].get("time", {}).get("seed", 1))
                 parameters = {**point["parameters"], "time.seed": int(seed) + int(point["replica"]) - 1}
-                rods = int(point["n_rods"])
                 per = speed(have.values(), float(point["area_fraction"]))
                 fine = 1.6e-5 / (seconds / int(point["ticks"]))
-                self.missing.append(Missing(name, part, point["id"], parameters, rods, seconds,
-                                            rods * seconds / per * (1 if fine < 1.5 else 1.7)))
+                self.missing.append(Missing(name, part, point["id"], parameters, int(point["n_rods"]) * seconds / per *
+                                            (1 if fine < 1.5 else 1.7)))
 
     def sweep_of_missing(self, name: str) -> dict[str, Any]:
         """The sweep of what a set lacks: single runs, and chains of stages from their first stage on, for each stage
@@ -156,14 +155,10 @@ def write_plan(file: Path, program: str, sweeps: Mapping[str, dict[str, Any]], c
         disk += told["levels"][0]["disk_bytes"]
         memory = max(memory, float(told["memory_bytes"]))
         longest = max(longest, float(slurm["longest_run_s"]))
-        rows.append(f"| {name} | {told['n_runs']} | {slurm['n_tasks']} | {two_digits(slurm['core_hours'])} | "
-                    f"{_hours(slurm['longest_run_s'])} | {two_digits(told['memory_bytes'] / 1e6)} MB |")
-    text = """# Plan: the figures of Sharma & Soni (2024) by Shaken
-
-| set | runs | tasks | core-hours | longest run | memory of a task |
-|---|---|---|---|---|---|
-""" + "\n".join(rows) + f"""
-
+        rows.append([name, f"{told['n_runs']}", f"{slurm['n_tasks']}", two_digits(slurm['core_hours']),
+                     _hours(slurm['longest_run_s']), f"{two_digits(told['memory_bytes'] / 1e6)} MB"])
+    text = "# Plan: the figures of Sharma & Soni (2024) by Shaken\n\n" + markdown(
+        ["set", "runs", "tasks", "core-hours", "longest run", "memory of a task"], rows) + f"""
 - **Together** {runs} runs in {tasks} tasks of one core each, {two_digits(core_hours)} core-hours: about
   {_hours(max(longest, core_hours * 3600 / cores))} on {cores} cores.
 - **Ask for**, of a task: {_hours(1.5 * longest)} of wall time and {two_digits(1.5 * memory / 1e6)} MB of memory, half
@@ -258,11 +253,7 @@ def archive_job(job: dict[str, Any], sweeps: Iterable[str], archive: Path) -> Pa
 
 def sweeps_of_points(shaken: str, sweeps: Iterable[dict[str, Any]]) -> dict[str, list[str]]:
     """The names of the sweeps that ask for a run, by its id."""
-    found: dict[str, list[str]] = {}
-    for sweep in sweeps:
-        for point in points_of(shaken, sweep):
-            found.setdefault(point["id"], []).append(sweep["name"])
-    return found
+    return dict(grouped((point["id"], sweep["name"]) for sweep in sweeps for point in points_of(shaken, sweep)))
 
 
 def collect(daemon: Daemon, archive: Path, known: Mapping[str, list[str]]) -> list[Path]:

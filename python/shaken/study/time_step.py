@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any, Callable, Iterable
 
 from ..estimate import NAN, Estimate, derived
+from ..plots.series import grouped
 from ..run import Run
 from .evidence import BEADS, END, FREQUENCY, GAMMA, GAP, LENGTH, PACKING, SIDE, Evidence, Runs, key_of, number_of
 from .rules import judged_error, markdown, text
@@ -53,10 +54,7 @@ def layered(evidence: Evidence) -> list[Pair]:
 
 
 def _by_scene(runs: Iterable[Run]) -> dict[tuple[Any, ...], Runs]:
-    found: dict[tuple[Any, ...], Runs] = {}
-    for run in runs:
-        found.setdefault(scene_of(run), Runs()).append(run)
-    return found
+    return {scene: Runs(found) for scene, found in grouped((scene_of(run), run) for run in runs)}
 
 
 def scene_of(run: Run) -> tuple[Any, ...]:
