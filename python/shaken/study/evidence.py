@@ -13,7 +13,7 @@ from scipy import stats
 
 from ..errors import UnknownName
 from ..estimate import NAN, Estimate, derived, replica_mean
-from ..plots.series import mean_curve
+from ..plots.series import grouped, mean_curve
 from ..run import Run
 
 PACKING, LENGTH, SIDE, ASPECT = "rods.area_fraction", "rods.length", "box.side", "box.aspect"
@@ -62,14 +62,19 @@ def number_of(run: Run, name: str) -> Estimate:
         return Estimate(reason="not measured")
     estimate = run.numbers[name]
     if estimate.steady is None and not math.isfinite(estimate.drift_error):
-        order = run.numbers.get("S", Estimate())
-        return replace(estimate, steady=run.steady if run.steady is not None else _hardly_drifts(order))
+        return replace(estimate, steady=_is_steady(run))
     return estimate
 
 
-def _hardly_drifts(order: Estimate) -> bool | None:
-    """True where S drifts by less than SMALL_DRIFT with two errors to spare."""
-    return True if abs(order.drift) + 2 * order.drift_error < SMALL_DRIFT else None
+def _is_steady(run: Run) -> bool | None:
+    """Whether a run says so; where it cannot tell, True if S drifts by less than SMALL_DRIFT with two errors to spare.
+    """
+    return run.steady if run.steady is not None else True if hardly_drifts(run.numbers.get("S", Estimate())) else None
+
+
+def hardly_drifts(order: Estimate) -> bool:
+    """Whether S drifts by less than SMALL_DRIFT with two errors to spare."""
+    return abs(order.drift) + 2 * order.drift_error < SMALL_DRIFT
 
 
 #: Some runs, and a number that was taken from them.
@@ -162,8 +167,7 @@ class Runs(list[Run]):
         if found.is_known and found.steady is not True and not math.isfinite(found.drift):
             order = mean([run.numbers.get("S", Estimate()) for run in self])
             if math.isfinite(order.drift_error):
-                settled = bool(order.steady) or abs(order.drift) + 2 * order.drift_error < SMALL_DRIFT
-                return replace(found, steady=True if settled else found.steady)
+                return replace(found, steady=True if order.steady or hardly_drifts(order) else found.steady)
         return found
 
     def points(self, path: str, name: str | Callable[[Run], Estimate]) -> "list[tuple[float, Estimate]]":
@@ -199,19 +203,10 @@ def points_of(runs: Runs, path: str, of: Callable[[Runs], Estimate]) -> list[tup
 
 def of_newest_physics(runs: Iterable[Run]) -> list[Run]:
     """Of the runs of each point those of the newest physics: what different ones computed is never averaged."""
-    members = list(runs)
-    newest: dict[str, int] = {}
-
-    def point(run: Run) -> str:
-        return json.dumps(run.parameters, sort_keys=True)
-
-    for run in members:
-        newest[point(run)] = max(newest.get(point(run), 0), _physics(run))
-    return [run for run in members if _physics(run) == newest[point(run)]]
-
-
-def _physics(run: Run) -> int:
-    return int((run.summary.get("versions") or {}).get("physics") or 0)
+    members = [(json.dumps(run.parameters, sort_keys=True),
+                int((run.summary.get("versions") or {}).get("physics") or 0), run) for run in runs]
+    newest = {point: physics for point, physics, _ in sorted(members, key=lambda member: member[1])}
+    return [run for point, physics, run in members if physics == newest[point]]
 
 
 class Evidence:
@@ -224,11 +219,8 @@ class Evidence:
     def __init__(self, runs: Iterable[Run]) -> None:
         self._sets: dict[str, Runs] = {}
         self.controls: dict[str, Runs] = {}
-        everything: dict[str, list[Run]] = {}
-        for run in runs:
-            for sweep in getattr(run, "sweeps", []):
-                everything.setdefault(sweep.rpartition("-")[0] or sweep, []).append(run)
-        for name, members in everything.items():
+        for name, members in grouped((sweep.rpartition("-")[0] or sweep, run) for run in runs
+                                     for sweep in getattr(run, "sweeps", [])):
             members = of_newest_physics(members)
             steps = Counter(key_of(run, "time.step") for run in members)
             usual = max(steps, key=lambda step: (steps[step], step))
@@ -282,5 +274,11 @@ def mean_of_places(values: NDArray[Any], errors: NDArray[Any], run: Run) -> Esti
     good = np.isfinite(values)
     if not good.any():
         return Estimate(reason="not measured")
-    steady = run.steady if run.steady is not None else _hardly_drifts(run.numbers.get("S", Estimate()))
-    return Estimate(float(np.mean(values[good])), float(np.mean(errors[good])), steady)
+    return Estimate(float(np.mean(values[good])), float(np.mean(errors[good])), _is_steady(run))
+
+
+def mean_over(run: Run, name: str, places: Callable[[NDArray[Any]], Any]) -> Estimate:
+    """The same of an array, over those places that are chosen from its axis."""
+    array = run[name]
+    chosen = places(np.asarray(array.axis))
+    return mean_of_places(np.asarray(array)[chosen], np.asarray(array.error)[chosen], run)

@@ -7,7 +7,7 @@ import numpy as np
 from ..estimate import Estimate
 from ..run import Run
 from . import late_lags
-from .evidence import PACKING, SIDE, Evidence, Runs, key_of, mean_of_places, number_of, points_of
+from .evidence import PACKING, SIDE, Evidence, Runs, key_of, mean_over, number_of, points_of
 from .late_lags import long_time_diffusion
 from .rules import (NO, YES, Answer, Finding, above, below, close_to, conclude, doubt, larger, listed, needed, text,
                    trend, unknown)
@@ -80,10 +80,8 @@ def velocity_reverses(evidence: Evidence) -> Finding:
 def no_velocity_without_tilt(evidence: Evidence) -> Finding:
     runs = needed(evidence["mechanism"].at(packing=0.60))
 
-    def at_rest(run: Run) -> Estimate:
-        v = run["/tilt/v_along_mm_s"]
-        inner = np.argsort(abs(np.asarray(v.axis)))[:2]  # the bins on either side of 0
-        return mean_of_places(np.asarray(v)[inner], np.asarray(v.error)[inner], run)
+    def at_rest(run: Run) -> Estimate:  # in the bins on either side of 0
+        return mean_over(run, "/tilt/v_along_mm_s", lambda n_z: np.argsort(abs(n_z))[:2])
 
     speed, fastest = runs.of(at_rest), abs(runs.number("tilt_fastest_mm_s").value)
     return conclude([close_to(speed, 0, 0.1 * fastest)],
@@ -325,11 +323,8 @@ FREE_OF_THE_WINDOW = (0.8, 2.8)
 
 def late_velocity_correlation(run: Run) -> Estimate:
     """C_v(t) along the director [mm2/s2], its mean over lags beyond the averaging window."""
-    name = "/velocity/product_along_mm2_s2"
-    product = run[name]
-    lag = np.asarray(product.axis)
-    late = (lag >= FREE_OF_THE_WINDOW[0] - 1e-9) & (lag <= FREE_OF_THE_WINDOW[1] + 1e-9)
-    return mean_of_places(np.asarray(product)[late], np.asarray(product.error)[late], run)
+    first, last = FREE_OF_THE_WINDOW
+    return mean_over(run, "/velocity/product_along_mm2_s2", lambda lag: (lag >= first - 1e-9) & (lag <= last + 1e-9))
 
 
 @states("velocity-along", "12", "C_v along the director grows with packing up to 0.80 (ℓ = 4.5 mm)",

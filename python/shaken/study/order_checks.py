@@ -12,7 +12,7 @@ from ..estimate import Estimate
 from ..run import Run
 from . import scaling
 from .evidence import (GAMMA, LENGTH, PACKING, PAPERS_BOX, SIDE, SMALL_DRIFT, Evidence, Runs, by, crossing,
-                       key_of, points_of)
+                       hardly_drifts, key_of, points_of)
 from .late_lags import long_time_diffusion
 from .rules import (NO, NOT_RUN, YES, Answer, Finding, above, all_of, below, close_to, conclude, doubt, larger, listed,
                    needed, refutable, text, trend, unknown)
@@ -49,7 +49,7 @@ def steady_after_the_start(evidence: Evidence) -> Finding:
         start = max(float(run.summary.get("t_steady_s") or 0) for run in here)
         if not aligned:
             answer = NO
-        elif s.steady and abs(s.drift) + 2 * s.drift_error < SMALL_DRIFT:
+        elif s.steady and hardly_drifts(s):
             answer = YES if start <= longest_wait else NO
             steady, wait = steady + 1, max(wait, start)
         elif s.steady:

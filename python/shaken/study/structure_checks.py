@@ -7,7 +7,7 @@ import numpy as np
 
 from ..estimate import Estimate, derived
 from ..run import Run
-from .evidence import LENGTH, PACKING, PAPERS_BOX, SIDE, Evidence, Runs, key_of, mean_of_places
+from .evidence import LENGTH, PACKING, PAPERS_BOX, SIDE, Evidence, Runs, key_of, mean_of_places, mean_over
 from .rules import (CONTRADICTS, NOT_RUN, Finding, above, close_to, conclude, larger, listed, needed, text, unknown)
 from .statement import states
 
@@ -25,9 +25,7 @@ SAME_LENGTH = 0.05
 
 def far_g2(run: Run) -> Estimate:
     """G2 far away: its mean over the last quarter of the distances, up to half the box."""
-    g2 = run["/g2/g2"]
-    first = 3 * len(g2) // 4
-    return mean_of_places(np.asarray(g2)[first:], np.asarray(g2.error)[first:], run)
+    return mean_over(run, "/g2/g2", lambda r: slice(3 * len(r) // 4, None))
 
 
 def far_anisotropy(run: Run) -> Estimate:
