@@ -18,14 +18,12 @@ class Failed(ShakenError):
     exit_code = 1
 
 
-class NumericalTrouble(ShakenError):
+class NumericalTrouble(Failed):
     """What a simulation met that it must not go on from.
 
     tick: at which it was met
     rods: the numbers of the rods that are concerned
     """
-
-    exit_code = 1
 
     def __init__(self, said: str, tick: int, rods: Sequence[int]) -> None:
         super().__init__(f"tick {tick}, rods {', '.join(map(str, rods)) or 'none'}: {said}")

@@ -60,12 +60,11 @@ def problems_of(options: argparse.Namespace, species: Sequence[Species]) -> list
             found.append(f"--of {name}: these are spheres, which have no axis that could turn")
     if not options.of and not any(one.has_axis for one in species):
         found.append("all rods of the scene are spheres, which have no axis that could turn")
-    if options.area_fraction is not None and not 0.01 <= options.area_fraction <= 0.7:
-        found.append(f"--area-fraction takes a number from 0.01 to 0.7, not {options.area_fraction:g}")
-    if not 0.005 <= options.precision <= 0.3:
-        found.append(f"--precision takes a number from 0.005 to 0.3, not {options.precision:g}")
-    if not 1 <= options.threads <= 256:
-        found.append(f"--threads takes a number from 1 to 256, not {options.threads}")
+    for name, value, least, most in (("area-fraction", options.area_fraction, 0.01, 0.7),
+                                     ("precision", options.precision, 0.005, 0.3),
+                                     ("threads", options.threads, 1, 256)):
+        if value is not None and not least <= value <= most:
+            found.append(f"--{name} takes a number from {least:g} to {most:g}, not {value:g}")
     if options.plot is not None and options.plot.suffix not in SUFFIXES:
         found.append(f"--plot {options.plot}: a plot is a .png, .pdf or .svg")
     return found
@@ -139,7 +138,7 @@ def _run(options: argparse.Namespace, species: Sequence[Species]) -> int:
         refused += why
     rows = [(one, each) for one, found, _ in every for each in found]
     if options.json:
-        print(json.dumps(_as_json(options, every, refused), indent=2, ensure_ascii=False))
+        print(texts.json_text(_as_json(options, every, refused)))
     elif rows:
         print(table(rows), end="")
     for one, each in rows:

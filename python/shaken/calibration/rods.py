@@ -57,15 +57,11 @@ class Unmet(ShakenError):
 
 
 class NotDiffusive(Unmet):
-    """Rods whose turning is not diffusive within the longest lags.
-
-    noise: [rad/mm]; lag: the longest [s]; exponent: of the MSAD there
-    """
+    """Rods whose turning is not diffusive up to the longest lag [s] at a noise [rad/mm]; exponent: of the MSAD."""
 
     def __init__(self, noise: float, lag: float, exponent: float) -> None:
         super().__init__(f"at noise {noise:.3g} rad/mm turning is not diffusive: up to lags of {lag:.3g} s the mean "
                          f"square angle grows as lag^{exponent:.2f}")
-        self.noise, self.lag, self.exponent = noise, lag, exponent
 
 
 @dataclass(frozen=True)

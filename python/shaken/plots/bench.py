@@ -44,8 +44,8 @@ def _shares_of(rows: Sequence[Row]) -> dict[str, NDArray[Any]]:
 
 
 def _speed_figure(rows: Sequence[Row], categories: Sequence[str], series: Sequence[tuple[str, str]],
-                  width: str) -> Sheet:
-    sheet = style.sheet(width, 1, 2, _dots_height(len(rows), len(series)))
+                  width: str | None) -> Sheet:
+    sheet = style.sheet(width or "183mm", 1, 2, _dots_height(len(rows), len(series)))
     rates, phases = sheet.panels
     rates.titles(x=_RATE).scale(x="log")
     for k, (label, path) in enumerate(series):
@@ -61,13 +61,12 @@ def speed(report: Row, width: str | None) -> Figures:
     categories = [label_of({"rods.area_fraction": row["area_fraction"], "rods.length": row["length_mm"],
                             "box.side": float(f"{row['side_mm']:.3g}")}) for row in rows]
     yield "speed", _speed_figure(rows, categories, [("scheduled", "scheduled/rod_s_per_cpu_s"),
-                                                    ("reference", "reference/rod_s_per_cpu_s")], width or "183mm")
+                                                    ("reference", "reference/rod_s_per_cpu_s")], width)
 
 
 def kinds(report: Row, width: str | None) -> Figures:
     rows = report["rows"]
-    yield "kinds", _speed_figure(rows, [row["scene"] for row in rows], [("", "scheduled/rod_s_per_cpu_s")],
-                                 width or "183mm")
+    yield "kinds", _speed_figure(rows, [row["scene"] for row in rows], [("", "scheduled/rod_s_per_cpu_s")], width)
 
 
 def hard(report: Row, width: str | None) -> Figures:

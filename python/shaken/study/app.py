@@ -1,6 +1,5 @@
 """`shaken figures`: runs what the figures need, archives it, draws, judges."""
 import argparse
-import json
 import math
 import os
 import sys
@@ -12,6 +11,7 @@ from ..daemon import Daemon
 from ..errors import ShakenError
 from ..plots.style import inches
 from ..program import BAD_INPUT, FAILED, OK, Options, failed, run
+from ..text import json_text
 from ..units import seconds
 from . import running
 from .figures import FIGURES, chosen, draw
@@ -82,17 +82,13 @@ def problems_of(options: argparse.Namespace) -> list[str]:
             found.append(f"--width takes 89mm, 120mm, 183mm or another from 40mm to 500mm, not '{options.width}'")
     except ValueError:
         found.append(f"--width takes 89mm, 120mm, 183mm or another, not '{options.width}'")
-    if options.draw_only and options.dry_run:
-        found.append("--draw-only and --dry-run exclude each other")
-    found += [f"--draw-only and --{name} exclude each other" for name in ("plan", "collect")
-              if options.draw_only and getattr(options, name)]
+    found += [f"--draw-only and --{name} exclude each other" for name in ("dry-run", "plan", "collect")
+              if options.draw_only and getattr(options, name.replace("-", "_"))]
     if options.executor not in (None, "local", "slurm"):
         found.append(f"--executor takes local or slurm, not '{options.executor}'")
     if options.executor != "slurm":
-        found += [f"--{key.replace('_', '-')} is for Slurm: add --executor slurm" for key in _SLURM
+        found += [f"--{key.replace('_', '-')} is for Slurm: add --executor slurm" for key in (*_SLURM, "plan")
                   if getattr(options, key) is not None]
-        if options.plan:
-            found.append("--plan is for Slurm: add --executor slurm")
     if options.cores < 1:
         found.append("--cores must be at least 1")
     if options.budget is not None:
@@ -148,7 +144,7 @@ def _run(options: argparse.Namespace) -> int:
             running.collect(Daemon(options.root), archive, known)
         plan = running.Plan(program, all_sweeps.items(), archive, None if options.dry_run else _say)
         if options.dry_run:
-            print(json.dumps(_plan_json(plan), indent=2) if options.json else plan.table())
+            print(json_text(_plan_json(plan)) if options.json else plan.table())
             return OK
         if plan.missing:
             if not _agreed(plan, options):
@@ -188,12 +184,11 @@ def _draw(options: argparse.Namespace, figures: list[Figure], evidence: Evidence
                 origin={"Software": "shaken figures"})
     found = judged(evidence, of_figures({figure.id for figure in figures} if options.figures else ()))
     (out / "statements.md").write_text(as_table(found))
-    (out / "statements.json").write_text(json.dumps(as_json(found), indent=2, ensure_ascii=False) + "\n")
+    (out / "statements.json").write_text(json_text(as_json(found)) + "\n")
     for report in options.report:
         write_report(report, evidence)
     if options.json:
-        print(json.dumps({"scale": options.scale, "made": [str(path) for path in made], "statements": as_json(found)},
-                         indent=2, ensure_ascii=False))
+        print(json_text({"scale": options.scale, "made": list(map(str, made)), "statements": as_json(found)}))
     else:
         print("\n".join(map(str, [*made, out / "statements.md"])))
         if not options.figures:
@@ -202,8 +197,8 @@ def _draw(options: argparse.Namespace, figures: list[Figure], evidence: Evidence
 
 def _list(figures: list[Figure], options: argparse.Namespace) -> int:
     if options.json:
-        print(json.dumps([{"id": figure.id, "number": figure.number or None, "name": figure.name, "title": figure.title,
-                           "sets": figure.sets} for figure in figures], indent=2, ensure_ascii=False))
+        print(json_text([{"id": figure.id, "number": figure.number or None, "name": figure.name, "title": figure.title,
+                          "sets": figure.sets} for figure in figures]))
         return OK
     wide = max(len(figure.name) for figure in figures)
     print(f"{'PAPER':5}  {'NAME':{wide}}  SHOWS")

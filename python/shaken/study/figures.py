@@ -24,9 +24,8 @@ def chosen(words: Iterable[str]) -> list[Figure]:
     unknown = [word for word in wanted if word not in known]
     if unknown:
         meant = [match for word in unknown for match in difflib.get_close_matches(word, known, 1)]
-        raise ShakenError(f"no such figure: {', '.join(unknown)}" + (f" (did you mean {', '.join(meant)}?)" if meant
-                                                                     else
-                          f"; there are {' '.join(f.id for f in FIGURES)}"))
+        way_out = f" (did you mean {', '.join(meant)}?)" if meant else f"; there are {' '.join(f.id for f in FIGURES)}"
+        raise ShakenError(f"no such figure: {', '.join(unknown)}{way_out}")
     return [known[word] for word in dict.fromkeys(wanted)] if wanted else list(FIGURES)
 
 

@@ -39,14 +39,12 @@ class Scale:
     least_square: float = 0.0
     time: float = 1.0
     replicas: int = 1000
-    shown: str = ""
 
 
 SCALES = {scale.name: scale for scale in (
-    Scale("tiny", "draft", side=0.3, least_side=16.5, time=0.01, replicas=2, shown="minutes: to see that all is there"),
-    Scale("desk", "desk", shown="some 50 hours of one core: what decides the statements"),
-    Scale("paper", "paper", side=2.0, least_square=83.73, time=3.0,
-          shown="the paper's box, times and step: a cluster's"))}
+    Scale("tiny", "draft", side=0.3, least_side=16.5, time=0.01, replicas=2),  # minutes: to see that all is there
+    Scale("desk", "desk"),  # some 50 hours of one core: what decides the statements
+    Scale("paper", "paper", side=2.0, least_square=83.73, time=3.0))}  # the paper's box, times and step: a cluster's
 
 
 def sweep_file(folder: Path, name: str) -> dict[str, Any]:

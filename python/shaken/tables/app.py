@@ -7,14 +7,8 @@ import argparse
 import importlib
 from typing import Sequence
 
-from ..errors import Failed, ShakenError
-from ..program import FAILED, Options, not_installed, run
-
-
-class _Misunderstood(ShakenError):
-    """The daemon says what this package does not know."""
-
-    exit_code = FAILED
+from ..errors import DaemonFailed, Failed, ShakenError
+from ..program import Options, not_installed, run
 
 
 def _options(words: Sequence[str]) -> argparse.Namespace:
@@ -52,8 +46,8 @@ def main(words: Sequence[str]) -> int:
         except (AttributeError, KeyError, TypeError) as error:
             if words[0] == "export":
                 raise Failed(f"a file of the run is not as expected ({error!r})") from None
-            raise _Misunderstood(f"an answer of the daemon is not as expected ({error!r}): is it of another version?"
-                                 ) from None
+            raise DaemonFailed(f"an answer of the daemon is not as expected ({error!r}): is it of another version?"
+                               ) from None
 
     options = _options(words)
     return run(work, options, options.json)

@@ -8,7 +8,7 @@ from typing import Any, Mapping, Sequence
 
 from .. import __version__
 from ..daemon import Daemon
-from ..errors import ShakenError
+from ..errors import Failed, ShakenError
 from ..plots import runs, sweeps
 from ..plots.beside import agreement, read_beside
 from ..plots.save import origin_list
@@ -18,10 +18,8 @@ from .conditions import read, selected
 _FORMATS, _WIDTHS = ("png", "pdf", "svg"), ("89mm", "120mm", "183mm")
 
 
-class Nothing(ShakenError):
+class Nothing(Failed):
     """There is nothing to draw, and why."""
-
-    exit_code = 1
 
 
 def _picture(options: argparse.Namespace) -> Path | None:
@@ -29,20 +27,17 @@ def _picture(options: argparse.Namespace) -> Path | None:
     one. Raises ShakenError with all that is wrong."""
     suffix, is_one = Path(options.out).suffix[1:], bool(options.map or options.x or options.y)
     options.is_one = is_one
-    is_picture, problems = suffix in _FORMATS, []
-    if options.format not in ("", *_FORMATS):
-        problems.append(f"--format takes png, pdf or svg, not '{options.format}'")
-    if options.width not in ("", *_WIDTHS):
-        problems.append(f"--width takes 89mm, 120mm or 183mm, not '{options.width}'")
-    if is_picture and not is_one:
-        problems.append(f"{options.out} is one picture, and this draws several: give a folder, or --x and --y, or "
-                        "--map")
-    if options.map and (options.x or options.y):
-        problems.append("--map goes with neither --x nor --y")
-    if is_one and suffix and not is_picture and not Path(options.out).is_dir():
-        problems.append(f"{options.out}: a plot is a .png, .pdf or .svg")
-    if is_picture and options.format in _FORMATS and suffix != options.format:
-        problems.append(f"--format {options.format} does not go with {options.out}")
+    is_picture = suffix in _FORMATS
+    problems = [problem for problem, is_wrong in (
+        (f"--format takes png, pdf or svg, not '{options.format}'", options.format not in ("", *_FORMATS)),
+        (f"--width takes 89mm, 120mm or 183mm, not '{options.width}'", options.width not in ("", *_WIDTHS)),
+        (f"{options.out} is one picture, and this draws several: give a folder, or --x and --y, or --map",
+         is_picture and not is_one),
+        ("--map goes with neither --x nor --y", options.map and (options.x or options.y)),
+        (f"{options.out}: a plot is a .png, .pdf or .svg",
+         is_one and suffix and not is_picture and not Path(options.out).is_dir()),
+        (f"--format {options.format} does not go with {options.out}",
+         is_picture and options.format in _FORMATS and suffix != options.format)) if is_wrong]
     if problems:
         raise ShakenError("\n".join(problems))
     options.format = options.format or (suffix if is_picture else "png")
