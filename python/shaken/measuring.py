@@ -91,11 +91,10 @@ class _Rods:
                    _columns(velocities[0], 0.0) if velocities else None, None, None, None, has_tilts)
 
     def as_tuple(self, is_followed: bool) -> tuple[Any, ...]:
-        if not len(self.positions) == len(self.directors) == len(self.velocities if self.velocities is not None
-                                                                 else self.positions):
+        velocities = np.zeros_like(self.positions) if self.velocities is None else self.velocities
+        if not len(self.positions) == len(self.directors) == len(velocities):
             raise ShakenError(f"a frame has {len(self.positions)} positions and {len(self.directors)} directors: each "
                               "rod has one of either, and a velocity if there are any")
-        velocities = np.zeros_like(self.positions) if self.velocities is None else self.velocities
         return self.positions, self.directors, velocities, self.images if is_followed else None, self.box
 
 

@@ -33,9 +33,9 @@ def _director(panel: Panel, x: NDArray[Any], y: NDArray[Any], cosine: NDArray[An
     angle, order = np.arctan2(sine, cosine) / 2, np.hypot(cosine, sine)
     _arrows(panel, x, y, order * np.cos(angle), order * np.sin(angle), 1.0, {"headwidth": 0, "headlength": 0,
                                                                             "headaxislength": 0, "pivot": "mid"})
-    grid_x, grid_y = np.meshgrid(x, y)
-    panel.record("angle of the director (rad)", grid_x.ravel(), grid_y.ravel(), z=angle.ravel())
-    panel.record("nematic order", grid_x.ravel(), grid_y.ravel(), z=order.ravel())
+    grid_x, grid_y = map(np.ravel, np.meshgrid(x, y))
+    panel.record("angle of the director (rad)", grid_x, grid_y, z=angle.ravel())
+    panel.record("nematic order", grid_x, grid_y, z=order.ravel())
 
 
 def _arrows(panel: Panel, x: NDArray[Any], y: NDArray[Any], u: NDArray[Any], v: NDArray[Any], longest: float,
@@ -61,9 +61,8 @@ def _panels(sheet: Sheet, k: int, runs: Sequence[Mapping[str, NDArray[Any]]], pr
     flow = lower.map(x, y, maps["v_along_mm_s"], names.axis_title(f"{GROUP}/plus/v_along_mm_s"), diverging=True,
                      limits=limits["v"], bar=False)
     _arrows(lower, x, y, maps["v_along_mm_s"], maps["v_across_mm_s"], limits["v"][1], {"pivot": "mid"})
-    grid_x, grid_y = np.meshgrid(x, y)
-    lower.record(names.axis_title(f"{GROUP}/plus/v_across_mm_s"), grid_x.ravel(), grid_y.ravel(),
-                 z=maps["v_across_mm_s"].ravel())
+    grid_x, grid_y = map(np.ravel, np.meshgrid(x, y))
+    lower.record(names.axis_title(f"{GROUP}/plus/v_across_mm_s"), grid_x, grid_y, z=maps["v_across_mm_s"].ravel())
     return density, flow
 
 

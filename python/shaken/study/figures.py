@@ -33,14 +33,9 @@ def draw(figures: Iterable[Figure], evidence: Evidence, out: Path, *, width: flo
          origin: dict[str, str] | None = None) -> list[Path]:
     """Draws figures into a folder, each with its data as CSV; those whose runs are all missing are left out."""
     material = Material(evidence, width)
-    drawn = []
-    for figure in figures:
-        if not any(evidence[name] for name in figure.sets):
-            continue
-        sheet = figure.draw(material)
-        drawn.append(sheet.save(out / f"{figure.file}.{form}",
-                                {**(origin or {}), "Figure": figure.title, **runs_of(evidence, figure)}))
-    return drawn
+    return [figure.draw(material).save(out / f"{figure.file}.{form}", {**(origin or {}), "Figure": figure.title,
+                                                                       **runs_of(evidence, figure)})
+            for figure in figures if any(evidence[name] for name in figure.sets)]
 
 
 def runs_of(evidence: Evidence, figure: Figure) -> dict[str, str]:

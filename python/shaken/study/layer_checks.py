@@ -124,10 +124,7 @@ def layers_when_dense(evidence: Evidence) -> Finding:
                 answers.append(unknown(NOT_RUN).placed(f"{packing:g}"))
             continue
         two = two_peaks(runs)
-        if packing < 0.78:
-            answer = two.negated()
-        else:
-            answer = close_to(runs.of(theta_m), 10, 4) if two.word else two
+        answer = two.negated() if packing < 0.78 else close_to(runs.of(theta_m), 10, 4) if two.word else two
         answers.append(answer.placed(f"{packing:g}"))
         found.append(f"φ = {packing:g}: {_angle_text(runs)} in {box_text(runs[0])}{_start_text(runs)}")
     return conclude(answers, "; ".join(found))

@@ -35,10 +35,7 @@ class Material:
 
     def sheet(self, n_panels: int, height: float = 46.0, columns: int | None = None) -> Sheet:
         """An empty figure of so many panels: three beside each other on a page, two in a narrower column."""
-        wanted = columns or (3 if self.width > 150 else 2)
-        if self.width < 100:
-            wanted = min(wanted, 2)
-        across = min(wanted, n_panels)
+        across = min(n_panels, columns or (3 if self.width > 150 else 2), 2 if self.width < 100 else n_panels)
         return style.sheet(f"{self.width:g}mm", math.ceil(n_panels / across), across,
                            f"{height * (0.9 if self.width < 100 else 1):g}mm")
 
@@ -196,13 +193,9 @@ def draw_rods(panel: Panel, runs: Sequence[Run], title: str = "", k: int = 0, ti
     axes = panel.axes
     axes.add_collection(PolyCollection(list(shapes), facecolors=angle_colours().to_rgba(turned), edgecolors="#ffffff",
                                        linewidths=0.1, rasterized=len(shapes) > 2500))
-    axes.set_aspect("equal")
     panel.titles(title=title)
     panel.has_picture = True
-    axes.set_xlim(0, width)
-    axes.set_ylim(0, height)
-    axes.set_xticks([])
-    axes.set_yticks([])
+    axes.set(aspect="equal", xlim=(0, width), ylim=(0, height), xticks=[], yticks=[])
     if defects:
         _draw_defects(panel, snapshot, rods["length"] / 2)
     bar = next(length for length in (50, 20, 10, 5, 2, 1) if length <= width / 3)
