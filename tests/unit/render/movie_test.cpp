@@ -1,5 +1,6 @@
 #include "render/movie.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -14,6 +15,7 @@
 
 #include "base/process.h"
 #include "render/make_movie.h"
+#include "tests/support/good.h"
 #include "tests/unit/render/render_support.h"
 
 namespace shaken::render {
@@ -73,11 +75,9 @@ std::array<int, 3> bt709(const Rgb& c) {
 }
 
 void write_movie(const std::filesystem::path& file, int n_frames, double fps = 30) {
-  Result<MovieWriter> movie = MovieWriter::create(file, 128, 96, fps);
-  ASSERT_TRUE(movie) << movie.error().message;
+  Result<MovieWriter> movie = test::good(MovieWriter::create(file, 128, 96, fps));
   for (int i = 0; i < n_frames; ++i) ASSERT_TRUE(movie->add(plain(128, 96, kColours[static_cast<std::size_t>(i) % 4])));
-  const auto done = movie->finish();
-  ASSERT_TRUE(done) << done.error().message;
+  const auto done = test::good(movie->finish());
 }
 
 std::string bytes_of(const std::filesystem::path& file) {
@@ -120,8 +120,7 @@ TEST(Movie, AnUnfinishedMovieLeavesNothingAndTheOldOneStays) {
   write_movie(folder / "m.mp4", 3);
   const std::string old = bytes_of(folder / "m.mp4");
   {
-    Result<MovieWriter> movie = MovieWriter::create(folder / "m.mp4", 128, 96, 30);
-    ASSERT_TRUE(movie);
+    Result<MovieWriter> movie = test::good(MovieWriter::create(folder / "m.mp4", 128, 96, 30));
     ASSERT_TRUE(movie->add(plain(128, 96, kColours[0])));
   }
   EXPECT_EQ(listing(folder), "m.mp4");
@@ -136,16 +135,13 @@ TEST(Movie, RefusesOddSizesOddRatesAndOtherFrames) {
   EXPECT_FALSE(MovieWriter::create(folder / "m.mp4", 128, 95, 30));
   EXPECT_FALSE(MovieWriter::create(folder / "m.mp4", 128, 96, 0));
   EXPECT_FALSE(MovieWriter::create(folder / "m.mp4", 128, 96, NAN));
-  Result<MovieWriter> movie = MovieWriter::create(folder / "m.mp4", 128, 96, 30);
-  ASSERT_TRUE(movie);
+  Result<MovieWriter> movie = test::good(MovieWriter::create(folder / "m.mp4", 128, 96, 30));
   EXPECT_FALSE(movie->add(plain(96, 128, kColours[0])));
 }
 
 TEST(Movie, AFolderThatDoesNotExistIsAnError) {
-  const Result<MovieWriter> movie = MovieWriter::create("/nowhere/at/all/m.mp4", 128, 96, 30);
-  ASSERT_FALSE(movie);
-  EXPECT_NE(movie.error().message.find("/nowhere/at/all/m.mp4: No such file"), std::string::npos)
-      << movie.error().message;
+  EXPECT_THAT(test::refusal(MovieWriter::create("/nowhere/at/all/m.mp4", 128, 96, 30)),
+              testing::HasSubstr("/nowhere/at/all/m.mp4: No such file"));
 }
 
 /// While it lives, `ffmpeg` is a program of the shell with these lines; without lines there is none.
@@ -188,15 +184,13 @@ TEST(Movie, FailuresOfFfmpegAreToldAndLeaveNoFile) {
 TEST(Movie, AFilmThatHasFailedFailsAgainAndWaitsForNobody) {
   const ScratchFolder folder;
   const OtherFfmpeg ffmpeg("kill -9 $$");
-  Result<MovieWriter> movie = MovieWriter::create(folder / "m.mp4", 128, 96, 30);
-  ASSERT_TRUE(movie);
+  Result<MovieWriter> movie = test::good(MovieWriter::create(folder / "m.mp4", 128, 96, 30));
   const auto add = [&] { return movie->add(plain(128, 96, kColours[0])); };
   auto added = add();
   for (int i = 0; i < 1000 && added; ++i) added = add();
   ASSERT_FALSE(added);
   EXPECT_NE(added.error().message.find("signal 9"), std::string::npos) << added.error().message;
-  const Result<pid_t> other = start_child({.command = {"/bin/sleep", "5"}});
-  ASSERT_TRUE(other);
+  const Result<pid_t> other = test::good(start_child({.command = {"/bin/sleep", "5"}}));
   EXPECT_FALSE(add());
   EXPECT_FALSE(movie->finish());
   EXPECT_FALSE(poll_child(*other)) << "a child of somebody else's";
@@ -206,12 +200,10 @@ TEST(Movie, AFilmThatHasFailedFailsAgainAndWaitsForNobody) {
 
 TEST(Movie, AGifIsAGif) {
   const ScratchFolder folder;
-  Result<MovieWriter> movie =
-      MovieWriter::create(folder / "m.gif", 129, 96, 20, "", {{"Run id", std::string(300, 'a')}, {"Seed", "7"}});
-  ASSERT_TRUE(movie) << movie.error().message;
+  Result<MovieWriter> movie = test::good(
+      MovieWriter::create(folder / "m.gif", 129, 96, 20, "", {{"Run id", std::string(300, 'a')}, {"Seed", "7"}}));
   for (std::size_t i = 0; i < 6; ++i) ASSERT_TRUE(movie->add(plain(129, 96, kColours[i % 4])));
-  const auto done = movie->finish();
-  ASSERT_TRUE(done) << done.error().message;
+  const auto done = test::good(movie->finish());
   EXPECT_EQ(listing(folder), "m.gif");
   const std::string bytes = bytes_of(folder / "m.gif");
   EXPECT_EQ(bytes.substr(0, 6), "GIF89a");
@@ -230,8 +222,7 @@ TEST(Movie, AGifIsAGif) {
 
 TEST(Movie, WebmDecodes) {
   const ScratchFolder folder;
-  Result<MovieWriter> movie = MovieWriter::create(folder / "m.webm", 128, 96, 25);
-  ASSERT_TRUE(movie) << movie.error().message;
+  Result<MovieWriter> movie = test::good(MovieWriter::create(folder / "m.webm", 128, 96, 25));
   for (std::size_t i = 0; i < 4; ++i) ASSERT_TRUE(movie->add(plain(128, 96, kColours[i % 4])));
   ASSERT_TRUE(movie->finish());
   const Decoded decoded = decode(folder / "m.webm");
@@ -243,18 +234,16 @@ TEST(Movie, WebmDecodes) {
 TEST(Movie, OtherEndingsAreRefused) {
   const ScratchFolder folder;
   for (const char* name : {"m.avi", "m", "m.mp4.txt", "m.GIF"}) {
-    const Result<MovieWriter> movie = MovieWriter::create(folder / name, 128, 96, 30);
-    ASSERT_FALSE(movie) << name;
-    EXPECT_NE(movie.error().message.find(".mp4, .webm or .gif"), std::string::npos) << movie.error().message;
+    EXPECT_THAT(test::refusal(MovieWriter::create(folder / name, 128, 96, 30)),
+                testing::HasSubstr(".mp4, .webm or .gif"));
   }
   EXPECT_EQ(listing(folder), "");
 }
 
 TEST(Movie, SaysWhereItComesFrom) {
   const ScratchFolder folder;
-  Result<MovieWriter> movie =
-      MovieWriter::create(folder / "m.mp4", 128, 96, 30, "\u03c6 = 0.8", {{"Run id", "1f0c"}, {"Seed", "3"}});
-  ASSERT_TRUE(movie);
+  Result<MovieWriter> movie = test::good(
+      MovieWriter::create(folder / "m.mp4", 128, 96, 30, "\u03c6 = 0.8", {{"Run id", "1f0c"}, {"Seed", "3"}}));
   ASSERT_TRUE(movie->add(plain(128, 96, kColours[0])));
   ASSERT_TRUE(movie->finish());
   const Decoded decoded = decode(folder / "m.mp4");
@@ -299,8 +288,7 @@ TEST(MakeMovie, IsTheSameFileOnAnyNumberOfThreads) {
   for (const int threads : {1, 2, 5}) {
     MovieOptions options;
     options.n_threads = threads;
-    const auto made = make_movie((folder / "m.mp4").string(), small(), options, 12, turning);
-    ASSERT_TRUE(made) << made.error().message;
+    const auto made = test::good(make_movie((folder / "m.mp4").string(), small(), options, 12, turning));
     if (first.empty()) first = bytes_of(folder / "m.mp4");
     EXPECT_EQ(bytes_of(folder / "m.mp4"), first) << threads;
   }

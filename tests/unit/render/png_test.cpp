@@ -1,5 +1,6 @@
 #include "render/png.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <png.h>
 
@@ -9,6 +10,7 @@
 #include <iterator>
 #include <map>
 
+#include "tests/support/good.h"
 #include "tests/support/in_child.h"
 #include "tests/unit/render/render_support.h"
 
@@ -139,18 +141,14 @@ TEST(Png, TextsAreKept) {
 }
 
 TEST(Png, AFolderThatDoesNotExistIsAnError) {
-  const auto done = write_png("/nowhere/at/all/a.png", pattern(8, 8));
-  ASSERT_FALSE(done);
-  EXPECT_NE(done.error().message.find("/nowhere/at/all/a.png: No such file"), std::string::npos)
-      << done.error().message;
+  EXPECT_THAT(test::refusal(write_png("/nowhere/at/all/a.png", pattern(8, 8))),
+              testing::HasSubstr("/nowhere/at/all/a.png: No such file"));
 }
 
 TEST(Png, ANameThatCannotBeTakenLeavesNothingBehind) {
   const ScratchFolder folder;
   std::filesystem::create_directories(folder / "a.png/full");
-  const auto done = write_png(folder / "a.png", pattern(8, 8));
-  ASSERT_FALSE(done);
-  EXPECT_NE(done.error().message.find("a.png"), std::string::npos);
+  EXPECT_THAT(test::refusal(write_png(folder / "a.png", pattern(8, 8))), testing::HasSubstr("a.png"));
   EXPECT_EQ(listing(folder), "a.png");
 }
 

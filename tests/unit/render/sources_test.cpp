@@ -1,5 +1,6 @@
 #include "render/sources.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,6 +14,7 @@
 #include "render/interpolation.h"
 #include "run/files/directory.h"
 #include "run/files/frame_log.h"
+#include "tests/support/good.h"
 #include "tests/unit/render/render_support.h"
 
 namespace shaken::render {
@@ -31,11 +33,9 @@ TEST(TrajectorySource, ReadsARunDirectoryOrItsFile) {
   const ScratchFolder folder;
   plant_trajectory(folder.path(), 6);
   for (const auto& path : {folder.path(), folder / "trajectory.h5"}) {
-    Result<TrajectorySource> source = TrajectorySource::open(path);
-    ASSERT_TRUE(source) << source.error().message;
+    Result<TrajectorySource> source = test::good(TrajectorySource::open(path));
     EXPECT_EQ(source->n_frames(), 6u);
-    const Result<RodPicture> picture = source->picture(4, plain());
-    ASSERT_TRUE(picture) << picture.error().message;
+    const Result<RodPicture> picture = test::good(source->picture(4, plain()));
     EXPECT_DOUBLE_EQ(picture->frame.time, 0.2);
     EXPECT_DOUBLE_EQ(picture->cell.box.x(), 10);
     EXPECT_DOUBLE_EQ(picture->rod_length(), 4.5);
@@ -196,10 +196,9 @@ TEST(TrajectorySource, TakesTheDirectorFieldFromTheScene) {
 TEST(TrajectorySource, ABoxThatNoSceneHasIsRefusedAtOnce) {
   const ScratchFolder folder;
   const Cell cell{.box = 1e-6, .gap = 1.2, .shapes = {{{-2, 0, 2}, {0.2, 0.4, 0.2}}}};
-  const auto log = run::FrameLog::create(run::RunDirectory{folder.path()}.frames(), {0, cell, 1e-5, "{}", {}});
-  ASSERT_FALSE(log);
-  EXPECT_NE(log.error().message.find("a box side of 1e-06 mm; a scene has 1 to 2000 mm"), std::string::npos)
-      << log.error().message;
+  EXPECT_THAT(
+      test::refusal(run::FrameLog::create(run::RunDirectory{folder.path()}.frames(), {0, cell, 1e-5, "{}", {}})),
+      testing::HasSubstr("a box side of 1e-06 mm; a scene has 1 to 2000 mm"));
   EXPECT_FALSE(TrajectorySource::open(folder.path()));
 }
 
@@ -221,22 +220,18 @@ TEST(TrajectorySource, DisplacementsGoOnAcrossBorders) {
     ASSERT_TRUE(log.append(run::record(now)));
   }
   ASSERT_TRUE(log.sync());
-  Result<TrajectorySource> source = TrajectorySource::open(folder.path());
-  ASSERT_TRUE(source) << source.error().message;
+  Result<TrajectorySource> source = test::good(TrajectorySource::open(folder.path()));
   PictureStyle style = plain();
   EXPECT_TRUE(source->picture(2, style)->frame.displacement.empty()) << "not asked for";
   for (const auto& [span, steps] : {std::pair{0.1, 1}, {0.2, 2}, {5.0, 2}}) {
     style.displacements = span;
-    const Result<RodPicture> picture = source->picture(2, style);
-    ASSERT_TRUE(picture) << picture.error().message;
+    const Result<RodPicture> picture = test::good(source->picture(2, style));
     ASSERT_EQ(picture->frame.displacement.size(), 1u);
     EXPECT_NEAR(picture->frame.displacement[0].x(), 3 * steps, 1e-5) << span;
     EXPECT_NEAR(picture->frame.displacement[0].y(), -1 * steps, 1e-5) << span;
   }
   style.displacements = 0.01;
-  const Result<RodPicture> refused = source->picture(2, style);
-  ASSERT_FALSE(refused) << "all arrows would have no length, and none would be drawn";
-  EXPECT_NE(refused.error().message.find("recorded every 0.1 s"), std::string::npos) << refused.error().message;
+  EXPECT_THAT(test::refusal(source->picture(2, style)), testing::HasSubstr("recorded every 0.1 s"));
   EXPECT_TRUE(source->picture(0, style)) << "a film begins without";
 }
 
@@ -246,15 +241,12 @@ TEST(TrajectorySource, SaysWhatIsMissing) {
   ASSERT_FALSE(nothing);
   EXPECT_NE(nothing.error().message.find((folder / "trajectory.h5").string()), std::string::npos);
   plant_trajectory(folder.path(), 0);
-  const Result<TrajectorySource> empty = TrajectorySource::open(folder.path());
-  ASSERT_FALSE(empty);
-  EXPECT_NE(empty.error().message.find("no complete frame"), std::string::npos);
+  EXPECT_THAT(test::refusal(TrajectorySource::open(folder.path())), testing::HasSubstr("no complete frame"));
 }
 
 /// A log of LCM messages, as lcm-logger would have written it: the static part and a frame of each of two jobs.
 std::string record_two_jobs(const std::filesystem::path& log) {
-  const auto bus = proto::Bus::open("file://" + log.string() + "?mode=w");
-  EXPECT_TRUE(bus) << bus.error().message;
+  const auto bus = test::good(proto::Bus::open("file://" + log.string() + "?mode=w"));
   for (const std::string job : {"aaaa0001", "bbbb0002"}) {
     frame_static_t constants = proto::encode_cell(empty_picture(20).cell, 9000, "job " + job);
     constants.job_id = job;
@@ -275,8 +267,7 @@ std::string record_two_jobs(const std::filesystem::path& log) {
 TEST(LivePicture, PutsTheFrameOfTheJobTogetherFromItsChunks) {
   const ScratchFolder folder;
   const std::string url = record_two_jobs(folder / "live.lcmlog");
-  const Result<RodPicture> picture = live_picture(url, "bbbb", std::chrono::seconds(10), plain());
-  ASSERT_TRUE(picture) << picture.error().message;
+  const Result<RodPicture> picture = test::good(live_picture(url, "bbbb", std::chrono::seconds(10), plain()));
   EXPECT_EQ(picture->captions.label, "job bbbb0002");
   EXPECT_DOUBLE_EQ(picture->frame.time, 2.5);
   ASSERT_EQ(picture->n_rods(), 9000u);
@@ -300,8 +291,7 @@ frame_static_t mixed_constants() {
 Result<RodPicture> live(const std::filesystem::path& log, const frame_static_t& constants, double box_side = 20,
                         bool with_defects = false) {
   {
-    const auto bus = proto::Bus::open("file://" + log.string() + "?mode=w");
-    EXPECT_TRUE(bus) << bus.error().message;
+    const auto bus = test::good(proto::Bus::open("file://" + log.string() + "?mode=w"));
     bus.value()->publish(proto::kFrameStaticChannel, constants);
     proto::Frame frame;
     frame.job_id = constants.job_id;
@@ -317,8 +307,7 @@ Result<RodPicture> live(const std::filesystem::path& log, const frame_static_t& 
 
 TEST(LivePicture, KnowsKindsOfRodsTheirHeadsAndTheWalls) {
   const ScratchFolder folder;
-  const Result<RodPicture> picture = live(folder / "live.lcmlog", mixed_constants());
-  ASSERT_TRUE(picture) << picture.error().message;
+  const Result<RodPicture> picture = test::good(live(folder / "live.lcmlog", mixed_constants()));
   const Cell cell = *proto::decode_cell(mixed_constants());
   EXPECT_EQ(picture->cell, cell);
   EXPECT_NEAR(picture->found.director_angle, 0.3, 1e-4) << "of the first species alone";
@@ -330,26 +319,20 @@ TEST(LivePicture, RefusesWhatContradictsItselfOrIsTooLarge) {
   const ScratchFolder folder;
   frame_static_t bad = mixed_constants();
   bad.species_beads = {6, 1, -1};
-  const Result<RodPicture> contradicts = live(folder / "bad.lcmlog", bad);
-  ASSERT_FALSE(contradicts);
-  EXPECT_NE(contradicts.error().message.find("contradict"), std::string::npos) << contradicts.error().message;
-  const Result<RodPicture> tiny = live(folder / "bad.lcmlog", mixed_constants(), 5e-324, true);
-  ASSERT_FALSE(tiny);
-  EXPECT_NE(tiny.error().message.find("a scene has"), std::string::npos) << tiny.error().message;
+  EXPECT_THAT(test::refusal(live(folder / "bad.lcmlog", bad)), testing::HasSubstr("contradict"));
+  EXPECT_THAT(test::refusal(live(folder / "bad.lcmlog", mixed_constants(), 5e-324, true)),
+              testing::HasSubstr("a scene has"));
   // Each of these is allowed, but not together.
   frame_static_t small = mixed_constants();
   small.species_beads = {1, 2, 3};
   small.bead_radius_mm.assign(6, 0.1);
-  const Result<RodPicture> field = live(folder / "large.lcmlog", small, 2000, true);
-  ASSERT_FALSE(field);
-  EXPECT_NE(field.error().message.find("too large"), std::string::npos) << field.error().message;
+  EXPECT_THAT(test::refusal(live(folder / "large.lcmlog", small, 2000, true)), testing::HasSubstr("too large"));
   EXPECT_TRUE(live(folder / "large.lcmlog", small, 2000, false));
 }
 
 TEST(LivePicture, TimesOutWithAReason) {
-  const Result<RodPicture> picture = live_picture("memq://", "cccc", std::chrono::milliseconds(300), plain());
-  ASSERT_FALSE(picture);
-  EXPECT_NE(picture.error().message.find("no frame of job cccc"), std::string::npos);
+  EXPECT_THAT(test::refusal(live_picture("memq://", "cccc", std::chrono::milliseconds(300), plain())),
+              testing::HasSubstr("no frame of job cccc"));
 }
 
 }  // namespace

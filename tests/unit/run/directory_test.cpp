@@ -13,6 +13,7 @@
 #include "run/files/progress.h"
 #include "run/files/trajectory.h"
 #include "tests/support/damaged_hdf5.h"
+#include "tests/support/good.h"
 #include "tests/support/in_child.h"
 
 namespace shaken::run {
@@ -20,8 +21,7 @@ namespace {
 
 TEST(DirectoryLock, KeepsOtherProcessesOutAndNamesTheOwner) {
   const ScratchFolder folder;
-  const auto lock = DirectoryLock::acquire(folder / "lock");
-  ASSERT_TRUE(lock);
+  const auto lock = test::good(DirectoryLock::acquire(folder / "lock"));
   const std::string owner = "process " + std::to_string(getpid());
   EXPECT_EQ(in_child([&] {
               const auto second = DirectoryLock::acquire(folder / "lock");
@@ -45,8 +45,7 @@ TEST(DirectoryLock, IsNeverStale) {
 TEST(DirectoryLock, EndsWithItsObject) {
   const ScratchFolder folder;
   {
-    auto lock = DirectoryLock::acquire(folder / "lock");
-    ASSERT_TRUE(lock);
+    auto lock = test::good(DirectoryLock::acquire(folder / "lock"));
     const DirectoryLock moved = std::move(lock).value();
     EXPECT_FALSE(DirectoryLock::acquire(folder / "lock"));
   }
@@ -57,8 +56,7 @@ TEST(DirectoryLock, IsNotInheritedByPrograms) {
   const ScratchFolder folder;
   pid_t child = -1;
   {
-    const auto lock = DirectoryLock::acquire(folder / "lock");
-    ASSERT_TRUE(lock);
+    const auto lock = test::good(DirectoryLock::acquire(folder / "lock"));
     child = fork();
     if (child == 0) {
       execlp("sleep", "sleep", "30", nullptr);
@@ -77,8 +75,7 @@ TEST(DirectoryLock, IsHeldWhileItLives) {
   const ScratchFolder folder;
   EXPECT_FALSE(DirectoryLock::is_held(folder / "lock")) << "there is none";
   {
-    const auto lock = DirectoryLock::acquire(folder / "lock");
-    ASSERT_TRUE(static_cast<bool>(lock));
+    const auto lock = test::good(DirectoryLock::acquire(folder / "lock"));
     EXPECT_TRUE(DirectoryLock::is_held(folder / "lock"));
   }
   EXPECT_FALSE(DirectoryLock::is_held(folder / "lock"));

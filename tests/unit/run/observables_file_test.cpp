@@ -1,5 +1,6 @@
 #include "run/files/observables_file.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hdf5.h>
 
@@ -10,6 +11,7 @@
 #include "run/files/order_curve.h"
 #include "run/files/unit_of_name.h"
 #include "run/files/version.h"
+#include "tests/support/good.h"
 #include "tests/support/in_child.h"
 #include "tests/unit/run/hdf5_attributes.h"
 
@@ -78,14 +80,11 @@ TEST(ObservablesFile, ReplacesAnEarlierOne) {
 
 TEST(ObservablesFile, ErrorsNameTheFile) {
   const ScratchFolder folder;
-  const auto missing = read_observables(folder / "observables.h5");
-  ASSERT_FALSE(missing);
-  EXPECT_NE(missing.error().message.find("observables.h5"), std::string::npos) << missing.error().message;
+  EXPECT_THAT(test::refusal(read_observables(folder / "observables.h5")), testing::HasSubstr("observables.h5"));
   ASSERT_TRUE(write_file_atomically(folder / "observables.h5", "not HDF5"));
   EXPECT_FALSE(read_observables(folder / "observables.h5"));
-  const auto unwritable = write_observables(folder / "no" / "observables.h5", {});
-  ASSERT_FALSE(unwritable);
-  EXPECT_NE(unwritable.error().message.find("no/observables.h5"), std::string::npos) << unwritable.error().message;
+  EXPECT_THAT(test::refusal(write_observables(folder / "no" / "observables.h5", {})),
+              testing::HasSubstr("no/observables.h5"));
 }
 
 TEST(ObservablesFile, FullDiskIsReported) {

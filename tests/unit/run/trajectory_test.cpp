@@ -1,5 +1,6 @@
 #include "run/files/trajectory.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hdf5.h>
 
@@ -11,6 +12,7 @@
 #include "base/files.h"
 #include "base/scratch_folder.h"
 #include "run/files/version.h"
+#include "tests/support/good.h"
 #include "tests/support/in_child.h"
 #include "tests/unit/run/hdf5_attributes.h"
 
@@ -65,8 +67,7 @@ void expect_same(const Snapshot& frame, const Snapshot& s) {
 /// A log of frames at ticks 0, 1000, 2000 ...
 std::filesystem::path write_log(const ScratchFolder& folder, Tick n_frames, const TrajectoryHeader& of = header()) {
   const auto file = folder / "trajectory.part";
-  auto log = FrameLog::create(file, of);
-  EXPECT_TRUE(log) << log.error().message;
+  auto log = test::good(FrameLog::create(file, of));
   for (Tick i = 0; i < n_frames; ++i) EXPECT_TRUE(log->append(record(snapshot(1000 * i))));
   return file;
 }
@@ -74,10 +75,8 @@ std::filesystem::path write_log(const ScratchFolder& folder, Tick n_frames, cons
 /// trajectory.h5 of such a log.
 std::filesystem::path write_frames(const ScratchFolder& folder, Tick n_frames, const TrajectoryHeader& of = header()) {
   const auto file = folder / "trajectory.h5";
-  const auto frames = TrajectoryReader::open(write_log(folder, n_frames, of));
-  EXPECT_TRUE(frames) << frames.error().message;
-  const auto done = write_trajectory(file, frames->recorded());
-  EXPECT_TRUE(done) << done.error().message;
+  const auto frames = test::good(TrajectoryReader::open(write_log(folder, n_frames, of)));
+  const auto done = test::good(write_trajectory(file, frames->recorded()));
   return file;
 }
 
@@ -93,13 +92,11 @@ void expect_same(const TrajectoryHeader& a, const TrajectoryHeader& b) {
 /// Both kinds of file.
 void expect_frames(const ScratchFolder& folder, Tick n_frames, const TrajectoryHeader& of) {
   for (const auto& file : {write_log(folder, n_frames, of), write_frames(folder, n_frames, of)}) {
-    const auto reader = TrajectoryReader::open(file);
-    ASSERT_TRUE(reader) << reader.error().message;
+    const auto reader = test::good(TrajectoryReader::open(file));
     expect_same(reader->header(), of);
     ASSERT_EQ(reader->n_frames(), static_cast<std::size_t>(n_frames));
     for (Tick i = 0; i < n_frames; ++i) {
-      const auto frame = reader->frame(static_cast<std::size_t>(i));
-      ASSERT_TRUE(frame) << frame.error().message;
+      const auto frame = test::good(reader->frame(static_cast<std::size_t>(i)));
       expect_same(*frame, snapshot(1000 * i));
     }
     EXPECT_FALSE(reader->frame(static_cast<std::size_t>(n_frames)));
@@ -143,9 +140,8 @@ TEST(Trajectory, SizesOfSpeciesComeBack) {
   for (const std::vector<std::uint8_t>& wrong :
        {std::vector<std::uint8_t>{0, 0}, {0, 0, 2}, {1, 1, 1}, {0, 1, 0}, {0, 0, 0, 0}}) {
     several.cell.species_of_shape = wrong;
-    const auto log = FrameLog::create(folder / "t.part", several);
-    ASSERT_FALSE(log);
-    EXPECT_NE(log.error().message.find("contradict the species"), std::string::npos) << log.error().message;
+    EXPECT_THAT(test::refusal(FrameLog::create(folder / "t.part", several)),
+                testing::HasSubstr("contradict the species"));
   }
 }
 
@@ -155,9 +151,8 @@ TEST(Trajectory, PostsComeBack) {
   among.cell.posts = {.diameter = 1.0 / 3, .centres = {{0.1, 0.2}, {1.0 / 7, kSide / 3}, {3, 1}}};
   expect_frames(folder, 2, among);
   among.cell.posts.centres.emplace_back(kSide + 1, 2);
-  const auto log = FrameLog::create(folder / "t.part", among);
-  ASSERT_FALSE(log);
-  EXPECT_NE(log.error().message.find("a post outside of the box"), std::string::npos) << log.error().message;
+  EXPECT_THAT(test::refusal(FrameLog::create(folder / "t.part", among)),
+              testing::HasSubstr("a post outside of the box"));
 }
 
 TEST(Trajectory, ASpeciesWithoutBeadsIsRefused) {
@@ -165,9 +160,7 @@ TEST(Trajectory, ASpeciesWithoutBeadsIsRefused) {
   TrajectoryHeader several = header();
   several.cell.shapes.push_back({{0}, {0.45}});
   several.cell.shape_of_rod.assign(kRods, 2);
-  const auto log = FrameLog::create(folder / "t.part", several);
-  ASSERT_FALSE(log);
-  EXPECT_NE(log.error().message.find("beads are not there"), std::string::npos) << log.error().message;
+  EXPECT_THAT(test::refusal(FrameLog::create(folder / "t.part", several)), testing::HasSubstr("beads are not there"));
   several.cell.shape_of_rod.assign(kRods - 1, 1);
   EXPECT_FALSE(FrameLog::create(folder / "t.part", several)) << "a species for each rod";
 }
@@ -192,9 +185,7 @@ TEST(RecordedFrame, DirectorsKeepTheirSignAlsoNearThePoles) {
 TEST(RecordedFrame, AnOrientationThatIsNoneIsRefused) {
   RecordedFrame frame = record(snapshot(0));
   for (std::size_t k = 0; k < 4; ++k) frame.orientation[4 * 7 + k] = 0;
-  const auto decoded = decode(frame, {kSide, kHigh});
-  ASSERT_FALSE(decoded);
-  EXPECT_NE(decoded.error().message.find("rod 7"), std::string::npos) << decoded.error().message;
+  EXPECT_THAT(test::refusal(decode(frame, {kSide, kHigh})), testing::HasSubstr("rod 7"));
 }
 
 // Loops that fold a place into the box never end with such numbers, and drawing takes NaN for black.
@@ -244,8 +235,7 @@ TEST(FrameLog, CanBeReadWhileItGrows) {
   const ScratchFolder folder;
   auto log = FrameLog::create(folder / "t.part", header());
   for (Tick i = 0; i < 4; ++i) {
-    const auto reader = TrajectoryReader::open(folder / "t.part");
-    ASSERT_TRUE(reader) << reader.error().message;
+    const auto reader = test::good(TrajectoryReader::open(folder / "t.part"));
     EXPECT_EQ(reader->n_frames(), static_cast<std::size_t>(i));
     ASSERT_TRUE(log->append(record(snapshot(i))));
   }
@@ -262,8 +252,7 @@ TEST(FrameLog, SurvivesTheWritersSuddenEnd) {
               return true;
             }),
             128);
-  const auto reader = TrajectoryReader::open(folder / "t.part");
-  ASSERT_TRUE(reader) << reader.error().message;
+  const auto reader = test::good(TrajectoryReader::open(folder / "t.part"));
   ASSERT_EQ(reader->n_frames(), 5U);
   expect_same(*reader->frame(4), snapshot(4));
 }
@@ -272,8 +261,7 @@ TEST(FrameLog, ReopeningCutsWhatCameAfterTheCheckpoint) {
   const ScratchFolder folder;
   const auto file = write_log(folder, 5);
   {
-    auto log = FrameLog::reopen(file, 3);
-    ASSERT_TRUE(log) << log.error().message;
+    auto log = test::good(FrameLog::reopen(file, 3));
     EXPECT_EQ(log->n_frames(), 3U);
     ASSERT_TRUE(log->append(record(snapshot(2700))));
     EXPECT_EQ(log->n_frames(), 4U);
@@ -297,8 +285,7 @@ TEST(FrameLog, HalfAFrameIsLeftOutAndCut) {
       EXPECT_EQ(TrajectoryReader::open(file)->n_frames(), 2U) << size;
       EXPECT_FALSE(FrameLog::reopen(file, 3)) << size;
       EXPECT_EQ(std::filesystem::file_size(file), torn.size()) << "refused, and left as it is";
-      auto log = FrameLog::reopen(file, 2);
-      ASSERT_TRUE(log) << log.error().message;
+      auto log = test::good(FrameLog::reopen(file, 2));
       ASSERT_TRUE(log->append(record(snapshot(2000))));
       EXPECT_EQ(*read_file(file), three) << size;
     }
@@ -362,8 +349,7 @@ TEST(Trajectory, RottenFramesAreNoticed) {
     bytes.seekp(static_cast<std::streamoff>(address + at));
     bytes.put(static_cast<char>(old ^ 0x04));
     bytes.close();
-    const auto reader = TrajectoryReader::open(file);
-    ASSERT_TRUE(reader);
+    const auto reader = test::good(TrajectoryReader::open(file));
     EXPECT_FALSE(reader->frame(0)) << at;
     EXPECT_TRUE(reader->frame(1));
     std::fstream back(file, std::ios::in | std::ios::out | std::ios::binary);
@@ -374,15 +360,12 @@ TEST(Trajectory, RottenFramesAreNoticed) {
 
 TEST(Trajectory, ErrorsNameTheFile) {
   const ScratchFolder folder;
-  const auto nowhere = FrameLog::create(folder / "no" / "t.part", header());
-  ASSERT_FALSE(nowhere);
-  EXPECT_NE(nowhere.error().message.find("no/t.part"), std::string::npos) << nowhere.error().message;
+  EXPECT_THAT(test::refusal(FrameLog::create(folder / "no" / "t.part", header())), testing::HasSubstr("no/t.part"));
   ASSERT_TRUE(write_file_atomically(folder / "t.h5", "not HDF5"));
   EXPECT_FALSE(TrajectoryReader::open(folder / "t.h5"));
   EXPECT_FALSE(FrameLog::reopen(folder / "t.h5", 0));
   EXPECT_FALSE(TrajectoryReader::open(folder / "absent.h5"));
-  auto log = FrameLog::create(folder / "t.part", header());
-  ASSERT_TRUE(log);
+  auto log = test::good(FrameLog::create(folder / "t.part", header()));
   Snapshot other = snapshot(0);
   other.position.pop_back();
   EXPECT_FALSE(log->append(record(other))) << "another number of rods";
