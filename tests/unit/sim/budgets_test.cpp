@@ -190,32 +190,40 @@ TEST(GapBudgets, NobodyIsToldOfLanesThatAreGone) {
   }
 }
 
+/// A rod along y in the middle of a box, that slides along x, with its list of neighbours and what is left of its skin.
+struct SlidingRod {
+  std::array<Species, 1> species{make_species({})};
+  std::array<std::uint8_t, 1> kinds{0};
+  double half_length = species[0].half_length;
+  NeighborList list{species, kinds, 30, NeighborList::kSkin};
+  Flight flight;
+  SkinBudget reserve;
+
+  explicit SlidingRod(double speed) {
+    flight.position = {15, 15, 0.5};
+    flight.velocity = {speed, 0, 0};
+    flight.director = {0, 1, 0};
+    flight.prepare();
+    const std::array poses{Pose{flight.position, flight.director}};
+    list.build(poses);
+    reserve.measure(list, 0, poses[0], 0);
+  }
+};
+
 /// A rod that creeps along and is visited at each of many ticks, by a path so short per tick that it is less than half
 /// of the last bit of what remains: at no time may more remain than the list says when it is asked.
 void creep(double speed, bool rests) {
-  constexpr double kBox = 30;
-  const std::array species{make_species({})};
-  const std::array<std::uint8_t, 1> kinds{0};
-  NeighborList list(species, kinds, kBox, NeighborList::kSkin);
-  Flight flight;
-  flight.position = {15, 15, 0.5};
-  flight.velocity = {speed, 0, 0};
-  flight.director = {0, 1, 0};
-  flight.prepare();
-  const std::array poses{Pose{flight.position, flight.director}};
-  list.build(poses);
-  SkinBudget reserve;
-  reserve.measure(list, 0, poses[0], 0);
-  const double half_length = species[0].half_length;
+  SlidingRod rod(speed);
   for (Tick now = 1; now <= 3'000'000; ++now) {
-    const Vec3 place = flight.position + static_cast<double>(now) * kDt * flight.velocity;
+    const Vec3 place = rod.flight.position + static_cast<double>(now) * kDt * rod.flight.velocity;
     if (rests) {
-      reserve.cover_tick(flight, {kDt, 0, half_length}, now);
+      rod.reserve.cover_tick(rod.flight, {kDt, 0, rod.half_length}, now);
     } else {
-      reserve.covered_ticks(list, 0, flight, {place, flight.director}, {kDt, 0, half_length}, now, 4000);
+      rod.reserve.covered_ticks(rod.list, 0, rod.flight, {place, rod.flight.director}, {kDt, 0, rod.half_length}, now,
+                                4000);
     }
     if (now % 1000 != 0) continue;
-    ASSERT_LE(static_cast<double>(reserve.remaining(now, kDt)), list.slack(0, {place, flight.director}))
+    ASSERT_LE(static_cast<double>(rod.reserve.remaining(now, kDt)), rod.list.slack(0, {place, rod.flight.director}))
         << speed << " mm/s, tick " << now;
   }
 }
@@ -229,30 +237,19 @@ TEST(SkinBudget, CountsDownWhatARodCreeps) {
 
 // On inclined plates a rod becomes faster while it counts down. It is looked at where it has to be, and in between.
 TEST(SkinBudget, CountsDownWhatARodSlidesDownASlope) {
-  const std::array species{make_species({})};
-  const std::array<std::uint8_t, 1> kinds{0};
-  const double half_length = species[0].half_length;
   for (const double speed : {0.0, 5.0, -3.0}) {
-    NeighborList list(species, kinds, 30, NeighborList::kSkin);
+    SlidingRod rod(speed);
     Gravity gravity(9810);
     gravity.is_inclined = true;
     gravity.along = Vec2(600, 0);
-    Flight flight;
-    flight.position = {15, 15, 0.5};
-    flight.velocity = {speed, 0, 0};
-    flight.director = {0, 1, 0};
-    flight.prepare();
-    const std::array poses{Pose{flight.position, flight.director}};
-    list.build(poses);
-    SkinBudget reserve;
-    reserve.measure(list, 0, poses[0], 0);
     int n_looked = 0;
-    for (Tick now = 1; reserve.remaining(now, kDt) > SkinBudget::kLeast && n_looked < 10000; ++n_looked) {
-      const auto pose_at = [&](Tick k) { return pose_after(flight, static_cast<double>(k) * kDt, gravity); };
-      const Tick covered = reserve.covered_ticks(list, 0, flight, pose_at(now), {kDt, 600, half_length}, now, 4000);
+    for (Tick now = 1; rod.reserve.remaining(now, kDt) > SkinBudget::kLeast && n_looked < 10000; ++n_looked) {
+      const auto pose_at = [&](Tick k) { return pose_after(rod.flight, static_cast<double>(k) * kDt, gravity); };
+      const Tick covered =
+          rod.reserve.covered_ticks(rod.list, 0, rod.flight, pose_at(now), {kDt, 600, rod.half_length}, now, 4000);
       for (const Tick k : {now, now + covered / 2, now + covered, now + covered + 1}) {
-        const double slack = list.slack(0, pose_at(k));
-        ASSERT_LE(static_cast<double>(reserve.remaining(k, kDt)), slack) << speed << " mm/s, tick " << k;
+        const double slack = rod.list.slack(0, pose_at(k));
+        ASSERT_LE(static_cast<double>(rod.reserve.remaining(k, kDt)), slack) << speed << " mm/s, tick " << k;
         if (k <= now + covered) {
           ASSERT_GE(slack, 0) << speed << " mm/s, tick " << k;
         }

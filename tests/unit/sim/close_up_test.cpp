@@ -9,6 +9,7 @@
 #include "sim/contact/bead_contacts.h"
 #include "sim/neighbors/neighbor_list.h"
 #include "sim/simulation.h"
+#include "tests/support/good.h"
 #include "tests/support/short_rods.h"
 
 namespace shaken {
@@ -21,8 +22,7 @@ System dense_scene() {
 }
 
 TEST(CloseUp, ShowsEveryRodAsTheSnapshotDoesAndEveryContactOnce) {
-  auto simulation = Simulation::start(dense_scene());
-  ASSERT_TRUE(static_cast<bool>(simulation));
+  auto simulation = test::good(Simulation::start(dense_scene()));
   std::vector<int> everyone;
   for (int i = 0; i < 80; ++i) everyone.push_back(79 - i);
   int n_contacts = 0;
@@ -99,8 +99,7 @@ TEST(CloseUp, AfterTroubleWhileStoringNoRodIsUnknown) {
   int n_troubles = 0, n_others = 0;
   for (const StepperKind stepper : {StepperKind::kReference, StepperKind::kScheduled}) {
     system.stepper = stepper;
-    auto simulation = Simulation::start(system);
-    ASSERT_TRUE(static_cast<bool>(simulation));
+    auto simulation = test::good(Simulation::start(system));
     ASSERT_FALSE(simulation->advance_to(2000).has_value());
     for (Tick now = 2001; now < 2700; ++now) {
       const World before = simulation->world();

@@ -1,5 +1,6 @@
 #include "sim/start/compression.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,46 +9,17 @@
 
 #include "sim/balance.h"
 #include "sim/checkpoint.h"
-#include "sim/contact/bead_contacts.h"
-#include "sim/neighbors/neighbor_list.h"
 #include "sim/simulation.h"
 #include "sim/start/director_patterns.h"
 #include "sim/start/initial.h"
+#include "tests/support/free_rods.h"
+#include "tests/support/good.h"
 
 namespace shaken {
 namespace {
 
 System scene_at(double length, double area_fraction, double side, std::uint64_t seed = 1) {
-  System system;
-  system.rod.length = length;
-  system.rod.n_beads = beads_for_pitch(length, system.rod.end_diameter, 0.3);
-  system.box_side = side;
-  system.start = Start::kCompressed;
-  system.seed = seed;
-  system.n_rods = static_cast<int>(std::round(area_fraction * side * side / make_species(system.rod).area));
-  return system;
-}
-
-/// Every pair, no neighbour list: nothing touches, nothing sticks into a plate.
-void expect_free(const World& world) {
-  std::vector<BeadContact> contacts;
-  const System& system = world.system;
-  ASSERT_EQ(static_cast<int>(world.rods.size()), system.n_all_rods());
-  for (std::size_t i = 0; i < world.rods.size(); ++i) {
-    const Flight& rod = world.rods[i];
-    const Species& species = world.species_of(i);
-    EXPECT_NEAR(rod.director.norm(), 1, 1e-12);
-    for (int b = 0; b < species.n_beads(); ++b) {
-      const double z = rod.position.z() + species.bead_offset[b] * rod.director.z();
-      EXPECT_GE(z - species.bead_radius[b], 2 * system.amplitude);
-      EXPECT_LE(z + species.bead_radius[b], 2 * system.amplitude + system.gap);
-    }
-    for (std::size_t j = i + 1; j < world.rods.size(); ++j) {
-      find_bead_contacts(species, rod.director, world.species_of(j), world.rods[j].director,
-                         nearest_image(rod.position, world.rods[j].position, system.box()), contacts);
-    }
-  }
-  EXPECT_TRUE(contacts.empty()) << contacts.size() << " overlaps";
+  return test::scene_at(length, area_fraction, side, Start::kCompressed, seed);
 }
 
 /// S^2 from the directions in the plane.
@@ -71,9 +43,8 @@ TEST(Compression, ReachesArea085FreeOfOverlapsAndAsDisorderedAsGroupsOfAFewRods)
     constexpr int kSeeds = 6;
     for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
       SCOPED_TRACE(testing::Message() << "l = " << length << ", seed " << seed);
-      const auto world = make_compressed_world(scene_at(length, 0.85, 20, seed));
-      ASSERT_TRUE(world) << world.error().message;
-      expect_free(*world);
+      const auto world = test::good(make_compressed_world(scene_at(length, 0.85, 20, seed)));
+      test::expect_free(*world);
       sum += order_squared(*world);
       n_rods = static_cast<int>(world->rods.size());
     }
@@ -107,9 +78,8 @@ TEST(Compression, KeepsToTheDirectorsOfDomains) {
         system.box_aspect = aspect;
         system.n_rods = static_cast<int>(system.n_rods * aspect);
         system.start = Start::kPolydomain;
-        const auto world = make_compressed_world(system);
-        ASSERT_TRUE(world) << world.error().message;
-        expect_free(*world);
+        const auto world = test::good(make_compressed_world(system));
+        test::expect_free(*world);
         const DirectorAt directors = start_pattern(system);
         const auto is_inside = [&](const Vec2& place) {
           for (const Vec2& step : {Vec2(1, 0), Vec2(0, 1), Vec2(-1, 0), Vec2(0, -1)}) {
@@ -131,9 +101,8 @@ TEST(Compression, KeepsToTheDirectorsRoundAPairOfDefects) {
       system.start = Start::kDefectPair;
       system.start_separation = 14;
       system.start_angle = angle;
-      const auto world = make_compressed_world(system);
-      ASSERT_TRUE(world) << world.error().message;
-      expect_free(*world);
+      const auto world = test::good(make_compressed_world(system));
+      test::expect_free(*world);
       EXPECT_GT(order_along(*world, start_pattern(system), [](const Vec2&) { return true; }), 0.95);
     }
   }
@@ -156,8 +125,7 @@ TEST(Compression, DependsOnTheSeedAlone) {
 
 TEST(Compression, VelocitiesAreThoseOfAnyStart) {
   System system = scene_at(2.5, 0.4, 30);
-  const auto compressed = make_compressed_world(system);
-  ASSERT_TRUE(compressed) << compressed.error().message;
+  const auto compressed = test::good(make_compressed_world(system));
   double v2 = 0, w2 = 0;
   const double n = static_cast<double>(compressed->rods.size());
   for (const Flight& rod : compressed->rods) {
@@ -190,9 +158,8 @@ TEST(Compression, TakesSeveralSpeciesNarrowAndHighGapsAndScenesInThePlane) {
   defects.start_separation = 7.5;
   for (const System& system : {mixture, narrow, high, planar, domains, defects}) {
     SCOPED_TRACE(testing::Message() << "a gap of " << system.gap << ", planar: " << system.is_planar());
-    const auto world = make_compressed_world(system);
-    ASSERT_TRUE(world) << world.error().message;
-    expect_free(*world);
+    const auto world = test::good(make_compressed_world(system));
+    test::expect_free(*world);
     for (const Flight& rod : world->rods) {
       EXPECT_NEAR(rod.position.z(), 2 * system.amplitude + 0.5 * system.gap, 0.4) << "in the middle of the gap";
       if (system.is_planar()) {
@@ -211,15 +178,12 @@ TEST(Compression, PacksMixturesAsDenselyAsOneKind) {
   for (const RodShape& other : {RodShape{.length = 2.5, .n_beads = 9}, RodShape{.length = 0.8, .n_beads = 1}}) {
     SCOPED_TRACE(testing::Message() << "with rods of " << other.length << " mm");
     mixture.added[0] = AddedRods{other, static_cast<int>(std::round(0.425 * 625 / make_species(other).area))};
-    const auto world = make_compressed_world(mixture);
-    ASSERT_TRUE(world) << world.error().message;
-    expect_free(*world);
+    const auto world = test::good(make_compressed_world(mixture));
+    test::expect_free(*world);
     System rows = mixture;
     rows.start = Start::kAligned;
-    const auto refused = make_world(rows);
-    ASSERT_FALSE(refused);
-    EXPECT_NE(refused.error().message.find("rods.start \"compressed\" packs mixtures more densely"), std::string::npos)
-        << refused.error().message;
+    EXPECT_THAT(test::refusal(make_world(rows)),
+                testing::HasSubstr("rods.start \"compressed\" packs mixtures more densely"));
   }
 }
 
@@ -234,10 +198,7 @@ TEST(Compression, WhatItCannotDoItSays) {
   discs.base = discs.lid = false;
   discs.gravity = discs.amplitude = 0;
   discs.n_rods = static_cast<int>(0.95 * 64 / make_species(discs.rod).area);
-  const auto jammed = make_compressed_world(discs);
-  ASSERT_FALSE(jammed);
-  EXPECT_NE(jammed.error().message.find("the rods jammed at area fraction 0."), std::string::npos)
-      << jammed.error().message;
+  EXPECT_THAT(test::refusal(make_compressed_world(discs)), testing::HasSubstr("the rods jammed at area fraction 0."));
 }
 
 TEST(Compression, IsGivenUpWhenAsked) {
@@ -283,11 +244,10 @@ TEST(Resized, KeepsTheRodsWhereTheyAreInUnitsOfTheBox) {
     System system = before.world().system;
     system.box_side *= std::sqrt(from / to);
     system.gap = gap;
-    const auto world = make_resized_world(system, before.world());
-    ASSERT_TRUE(world) << world.error().message;
+    const auto world = test::good(make_resized_world(system, before.world()));
     EXPECT_EQ(world->system, system);
     EXPECT_EQ(world->tick, 0);
-    expect_free(*world);
+    test::expect_free(*world);
     const auto [along, moved] = likeness(before.snapshot(), snapshot(*world));
     EXPECT_GT(along, 0.95);
     EXPECT_LT(moved, 0.06) << "a millimetre";

@@ -6,46 +6,26 @@
 
 #include "base/core/sincos.h"
 #include "sim/balance.h"
-#include "sim/contact/bead_contacts.h"
-#include "sim/neighbors/neighbor_list.h"
 #include "sim/simulation.h"
-#include "sim/world.h"
+#include "tests/support/free_rods.h"
+#include "tests/support/good.h"
 
 namespace shaken {
 namespace {
 
 System scene_at(double length, double area_fraction, double side, Start start = Start::kAligned) {
-  System system;
-  system.rod.length = length;
-  system.rod.n_beads = beads_for_pitch(length, system.rod.end_diameter, 0.3);
-  system.box_side = side;
-  system.start = start;
-  system.n_rods = static_cast<int>(std::round(area_fraction * side * side / make_species(system.rod).area));
-  return system;
+  return test::scene_at(length, area_fraction, side, start);
 }
 
-/// Every pair, no neighbour list: nothing touches, nothing sticks into a plate.
 Result<std::vector<Flight>> flights_of(const System& system) {
   const World world = empty_world(system);
   return initial_flights(system, world.species, world.shape_of_rod);
 }
 
 void expect_free(const System& system, const std::vector<Flight>& flights) {
-  const Species species = make_species(system.rod);
-  ASSERT_EQ(static_cast<int>(flights.size()), system.n_rods);
-  std::vector<BeadContact> contacts;
-  for (std::size_t i = 0; i < flights.size(); ++i) {
-    for (int b = 0; b < species.n_beads(); ++b) {
-      const double z = flights[i].position.z() + species.bead_offset[b] * flights[i].director.z();
-      EXPECT_GT(z - species.bead_radius[b], 2 * system.amplitude);
-      EXPECT_LT(z + species.bead_radius[b], 2 * system.amplitude + system.gap);
-    }
-    for (std::size_t j = i + 1; j < flights.size(); ++j) {
-      find_bead_contacts(species, flights[i].director, species, flights[j].director,
-                         nearest_image(flights[i].position, flights[j].position, system.box()), contacts);
-    }
-  }
-  EXPECT_TRUE(contacts.empty()) << contacts.size() << " overlaps";
+  World world = empty_world(system);
+  world.rods = flights;
+  test::expect_free(world);
 }
 
 TEST(InitialFlights, AlignedReaches085ForAllLengths) {
@@ -53,8 +33,7 @@ TEST(InitialFlights, AlignedReaches085ForAllLengths) {
     for (const double fraction : {0.45, 0.70, 0.85}) {
       const System system = scene_at(length, fraction, 41.865);
       SCOPED_TRACE(testing::Message() << "l = " << length << ", area fraction " << fraction);
-      const auto flights = flights_of(system);
-      ASSERT_TRUE(static_cast<bool>(flights)) << flights.error().message;
+      const auto flights = test::good(flights_of(system));
       expect_free(system, *flights);
       for (const Flight& flight : *flights) EXPECT_EQ(flight.director.y(), 0.0);
     }
@@ -71,8 +50,7 @@ TEST(InitialFlights, FillRectangles) {
       system.start_angle = angle;
       system.n_rods = static_cast<int>(std::round(system.n_rods * aspect));
       SCOPED_TRACE(testing::Message() << "aspect " << aspect << ", angle " << angle << ", area fraction " << fraction);
-      const auto flights = flights_of(system);
-      ASSERT_TRUE(static_cast<bool>(flights)) << flights.error().message;
+      const auto flights = test::good(flights_of(system));
       expect_free(system, *flights);
       Vec2 reached = Vec2::Zero();
       for (const Flight& flight : *flights) reached = reached.cwiseMax(flight.position.head<2>());
@@ -101,8 +79,7 @@ TEST(InitialFlights, AtAnAngleReaches085WithoutASeam) {
       System system = scene_at(3.5, 0.85, side);
       system.start_angle = angle;
       SCOPED_TRACE(testing::Message() << side << " mm, " << angle << " degrees");
-      const auto flights = flights_of(system);
-      ASSERT_TRUE(static_cast<bool>(flights)) << flights.error().message;
+      const auto flights = test::good(flights_of(system));
       expect_free(system, *flights);
       const SinCos along = sincos(angle * kPi / 180.0);
       for (const Flight& flight : *flights) {
@@ -119,23 +96,25 @@ TEST(InitialFlights, AtAnAngleHaveRoomForPolarRodsAndOtherSpecies) {
   system.start_angle = 40;
   system.rod.profile = Profile::kPolar;
   system.added[0] = AddedRods{{.length = 2.5, .mid_diameter = 0.9, .n_beads = 11}, 40};
-  const World world = empty_world(system);
-  const auto flights = initial_flights(system, world.species, world.shape_of_rod);
-  ASSERT_TRUE(static_cast<bool>(flights)) << flights.error().message;  // which itself looks for overlaps
+  const auto flights = test::good(flights_of(system));  // which itself looks for overlaps
   int n_back = 0;
   for (const Flight& flight : *flights) n_back += flight.director.x() < 0;
   EXPECT_GT(n_back, 10) << "polar rods point either way";
 }
 
+/// The number that a refusal says can be placed.
+int promised(const System& system, const std::string& before = "in rows at most ") {
+  const auto flights = flights_of(system);
+  if (flights) return -1;
+  const std::string& message = flights.error().message;
+  const std::size_t at = message.find(before);
+  return at == std::string::npos ? -1 : std::stoi(message.substr(at + before.size()));
+}
+
 TEST(InitialFlights, AtAnAngleAreRefusedWithTheMostThatFit) {
   System system = scene_at(4.5, 1.02, 25);
   system.start_angle = 30;
-  const auto flights = flights_of(system);
-  ASSERT_FALSE(static_cast<bool>(flights));
-  const std::string before = "in rows of rods at 30 degrees at most ";
-  const std::size_t at = flights.error().message.find(before);
-  ASSERT_NE(at, std::string::npos) << flights.error().message;
-  const int most = std::stoi(flights.error().message.substr(at + before.size()));
+  const int most = promised(system, "in rows of rods at 30 degrees at most ");
   EXPECT_GT(most, 0.85 * system.n_rods / 1.02);
   system.n_rods = most;
   EXPECT_TRUE(static_cast<bool>(flights_of(system)));
@@ -149,8 +128,7 @@ TEST(InitialFlights, AtAnAngleAreRefusedWithTheMostThatFit) {
 
 TEST(InitialFlights, RandomStartIsFreeAndIsotropic) {
   const System system = scene_at(2.5, 0.35, 60, Start::kRandom);
-  const auto flights = flights_of(system);
-  ASSERT_TRUE(static_cast<bool>(flights)) << flights.error().message;
+  const auto flights = test::good(flights_of(system));
   expect_free(system, *flights);
   double c = 0, s = 0;
   for (const Flight& flight : *flights) {
@@ -171,16 +149,6 @@ TEST(InitialFlights, WhatDoesNotFitIsRefusedWithTheLargestFraction) {
   }
 }
 
-/// The number that a refusal says can be placed.
-int promised(const System& system) {
-  const auto flights = flights_of(system);
-  if (flights) return -1;
-  const std::string& message = flights.error().message;
-  const std::string before = "in rows at most ";
-  const std::size_t at = message.find(before);
-  return at == std::string::npos ? -1 : std::stoi(message.substr(at + before.size()));
-}
-
 TEST(InitialFlights, TheMostThatIsPromisedCanBePlacedAndNotOneMore) {
   for (const auto& [name, arena] : kArenaNames) {
     for (double size = 13.26; size < 34; size += 1.3) {
@@ -193,8 +161,7 @@ TEST(InitialFlights, TheMostThatIsPromisedCanBePlacedAndNotOneMore) {
       const int most = promised(system);
       ASSERT_GT(most, 0);
       system.n_rods = most;
-      const auto flights = flights_of(system);
-      ASSERT_TRUE(static_cast<bool>(flights)) << flights.error().message;
+      const auto flights = test::good(flights_of(system));
       expect_free(system, *flights);
       system.n_rods = most + 1;
       EXPECT_EQ(promised(system), most) << "one more than is promised";

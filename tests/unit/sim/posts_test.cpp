@@ -1,26 +1,24 @@
 #include "sim/posts.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <tuple>
 #include <vector>
 
-#include "sim/balance.h"
 #include "sim/motion/post_contacts.h"
-#include "sim/simulation.h"
 #include "sim/start/compression.h"
 #include "sim/start/from_another_run.h"
 #include "sim/start/initial.h"
 #include "tests/support/effort.h"
+#include "tests/support/flying_rod.h"
+#include "tests/support/good.h"
 #include "tests/support/random_rods.h"
 
 namespace shaken {
 namespace posts_test {
-
-constexpr double kG = 9810;
 
 TEST(StandingPosts, LatticeHasOneInTheMiddleOfEachPartOfTheBox) {
   const StandingPosts posts = standing_posts({.diameter = 2, .columns = 2, .rows = 3}, Box(20, 30), std::nullopt);
@@ -106,34 +104,23 @@ TEST(PostGrid, FindsWhatALookAtAllImagesFinds) {
 }
 
 /// A rod that flies among posts, in a periodic box or one with an end, often about as far from the next as asked.
-struct RodAmongPosts {
+struct RodAmongPosts : test::FlyingRod {
   Box box;
   StandingPosts posts;
   Vec2 period;
-  Species species;
-  Flight flight;
-  Gravity gravity{kG};  ///< for a part of the rods on inclined plates
-  double horizon;
 
   RodAmongPosts(test::Draw& draw, double gap)
       : box(draw.uniform(20, 50), draw.uniform(20, 50)),
         posts{draw.integer(0, 1) ? draw.uniform(0.2, 8) : 3.0, {}},
-        period(box.x(), draw.integer(0, 3) ? box.y() : 0.0),
-        species(test::random_species(draw)) {
+        period(box.x(), draw.integer(0, 3) ? box.y() : 0.0) {
+    species = test::random_species(draw);
     for (int n = draw.integer(1, 12); n > 0; --n)
       posts.centres.emplace_back(box.x() * draw.uniform(0, 1), box.y() * draw.uniform(0, 1));
     Pose pose{Vec3(box.x() * draw.uniform(-1, 2), box.y() * draw.uniform(0, 1), 0.6),
               draw.flat_direction(draw.integer(0, 3) ? 0.38 : 1)};
     const Vec3 way = draw.flat_direction(0);
     for (int step = 0; step < 40; ++step) pose.position -= (overlap(pose) + gap) * way;
-    horizon = 16e-3 * std::pow(25.0, draw.uniform(0, 1));
-    const double speed = std::pow(10.0, draw.uniform(-1, 1)) / horizon;
-    const double turning = draw.integer(0, 4) ? 0.5 * speed : 0.0;
-    begin_flight(flight, 0, pose, {draw.integer(0, 9) ? draw.vector(speed) : Vec3(Vec3::Zero()), draw.vector(turning)},
-                 box, species.inertia_par / species.inertia_perp);
-    if (draw.integer(0, 3)) return;
-    gravity.is_inclined = true;
-    gravity.along = draw.vector(0.3 * speed / horizon).head<2>();
+    begin(draw, pose, box);
   }
 
   /// Of the deepest bead, negative if all are free: every bead and every image is looked at [mm].
@@ -151,8 +138,6 @@ struct RodAmongPosts {
     }
     return most;
   }
-  double overlap_after(double t) const { return overlap(pose_after(flight, t, gravity)); }
-  Pose pose() const { return {flight.position, flight.director}; }
   PostGrid grid() const { return {posts, box, period}; }
   double safe_time() const {
     return post_safe_time(grid(), box, species, pose(), flight, horizon, gravity.along_size());
@@ -162,33 +147,16 @@ struct RodAmongPosts {
 TEST(PostSafeTime, NoBeadBeginsToTouchAPostBeforeItsBound) {
   test::Draw draw(72);
   std::vector<double> share;
-  int n_free = 0, n_short = 0;
+  test::Tried tried;
   for (int trial = 0; trial < test::draws(60000); ++trial) {
+    SCOPED_TRACE(trial);
     const RodAmongPosts rod(draw, (draw.integer(0, 9) ? 1 : -1) * std::pow(10.0, draw.uniform(-7, 0.5)));
-    const double safe = rod.safe_time();
-    ASSERT_TRUE(safe >= 0 && safe <= rod.horizon) << "trial " << trial;
-    if (rod.overlap_after(0) > 0) {
-      ASSERT_EQ(safe, 0) << "trial " << trial;
-      continue;
-    }
-    ++n_free;
-    n_short += safe < rod.horizon;
-    constexpr int kSteps = 30;
-    for (int step = 1; step <= kSteps && safe > 0; ++step)
-      ASSERT_LE(rod.overlap_after(safe * step / kSteps), 0) << "trial " << trial << " step " << step;
-    if (trial % test::draws(20) || !(safe < rod.horizon) || rod.gravity.is_inclined)
-      continue;  // as many in every build, on level plates
-    double hit = safe;
-    while (hit < rod.horizon && !(rod.overlap_after(hit) > 0)) hit += 1e-3 * rod.horizon;
-    share.push_back(safe / std::min(hit, rod.horizon));
+    const bool is_timed = trial % test::draws(20) == 0;  // as many in every build
+    ASSERT_NO_FATAL_FAILURE(test::expect_free_until_bound(rod, tried, is_timed ? &share : nullptr));
   }
-  EXPECT_GT(n_free, test::draws(40000));
-  EXPECT_GT(n_short, test::draws(10000));
-  std::sort(share.begin(), share.end());
-  std::printf("bound / true time: median %.3f, lower quartile %.3f of %zu\n", share[share.size() / 2],
-              share[share.size() / 4], share.size());
-  EXPECT_GT(share[share.size() / 2], 0.35);
-  EXPECT_LE(share.back(), 1.0);
+  EXPECT_GT(tried.n_free, test::draws(40000));
+  EXPECT_GT(tried.n_short, test::draws(10000));
+  test::expect_tight("posts", share, 0.35);
 }
 
 TEST(PostContacts, OverlapIsThatOfTheDeepestBead) {
@@ -247,24 +215,11 @@ System sphere_and_post(double restitution) {
   return system;
 }
 
-Simulation flying(const System& system, const Vec3& position, const Vec3& velocity) {
-  auto made = Simulation::start(system);
-  EXPECT_TRUE(static_cast<bool>(made)) << made.error().message;
-  World world = made->world();
-  Flight& flight = world.rods[0];
-  flight.position = position;
-  flight.velocity = velocity;
-  flight.precession = Vec3::Zero();
-  flight.prepare();
-  world.start = content(world);
-  return Simulation::start_from(world);
-}
-
 // Head-on it comes back with e times its speed. It touches 2.5 mm from the axis, after 3.5 mm: at 20 mm/s, after
 // 175 ms; in the next 25 ms it flies back.
 TEST(Posts, ASphereBouncesOffAPostHeadOn) {
   const System system = sphere_and_post(0.5);
-  Simulation simulation = flying(system, Vec3(16, 10, 0.6), Vec3(-20, 0, 0));
+  Simulation simulation = test::flying(system, {{Vec3(16, 10, 0.6), Vec3(-20, 0, 0)}});
   ASSERT_FALSE(simulation.advance_to(static_cast<Tick>(0.2 / system.dt)).has_value());
   EXPECT_EQ(simulation.world().counters.impulses_rod_post, 1);
   EXPECT_EQ(simulation.world().counters.impulses_rod_wall, 0);
@@ -280,7 +235,7 @@ TEST(Posts, ASphereBouncesOffAPostHeadOn) {
 TEST(Posts, ASphereBouncesOffAPostAskew) {
   System system = sphere_and_post(1.0);
   system.impacts = ImpactTime::kAtInstant;  // so that the normal is that of the instant
-  Simulation simulation = flying(system, Vec3(16, 11.5, 0.6), Vec3(-20, 0, 0));
+  Simulation simulation = test::flying(system, {{Vec3(16, 11.5, 0.6), Vec3(-20, 0, 0)}});
   ASSERT_FALSE(simulation.advance_to(static_cast<Tick>(0.4 / system.dt)).has_value());
   EXPECT_EQ(simulation.world().counters.impulses_rod_post, 1);
   EXPECT_NEAR(simulation.world().rods[0].velocity.x(), 5.6, 1e-3);
@@ -292,7 +247,7 @@ TEST(Posts, ASphereMeetsAPostBeyondTheBorder) {
   System system = sphere_and_post(1.0);
   system.posts->places = {Vec2(1, 19)};
   for (const double y : {19.0, 0.5}) {  // of the second, the post is at y = -1
-    Simulation simulation = flying(system, Vec3(15, y, 0.6), Vec3(20, 0, 0));
+    Simulation simulation = test::flying(system, {{Vec3(15, y, 0.6), Vec3(20, 0, 0)}});
     ASSERT_FALSE(simulation.advance_to(static_cast<Tick>(0.3 / system.dt)).has_value());
     EXPECT_EQ(simulation.world().counters.impulses_rod_post, 1);
     const Vec3 velocity = simulation.world().rods[0].velocity;
@@ -309,14 +264,14 @@ TEST(Posts, FrictionOfAPostIsCoulombs) {
   System system = sphere_and_post(0.5);
   system.posts->contact.friction = 0.1;
   system.impacts = ImpactTime::kAtInstant;
-  Simulation simulation = flying(system, Vec3(16, 11.5, 0.6), Vec3(-20, 0, 0));
+  Simulation simulation = test::flying(system, {{Vec3(16, 11.5, 0.6), Vec3(-20, 0, 0)}});
   ASSERT_FALSE(simulation.advance_to(static_cast<Tick>(0.4 / system.dt)).has_value());
   const Vec3 velocity = simulation.world().rods[0].velocity;
   const Vec3 normal(0.8, 0.6, 0), tangent(-0.6, 0.8, 0);
   EXPECT_NEAR(velocity.dot(normal), 8, 1e-3);
   EXPECT_NEAR(velocity.dot(tangent), 12 - 0.1 * 24, 3e-3);
   system.posts->contact.own[Contacts::place(0, 1)].friction = 0.3;  // of a species that is not there
-  Simulation same = flying(system, Vec3(16, 11.5, 0.6), Vec3(-20, 0, 0));
+  Simulation same = test::flying(system, {{Vec3(16, 11.5, 0.6), Vec3(-20, 0, 0)}});
   ASSERT_FALSE(same.advance_to(static_cast<Tick>(0.4 / system.dt)).has_value());
   EXPECT_EQ(same.world().rods[0].velocity, velocity);
 }
@@ -330,8 +285,7 @@ TEST(Posts, NoRodStartsInOne) {
        {std::tuple{Start::kAligned, 150}, {Start::kRandom, 130}, {Start::kCompressed, 270}}) {
     system.start = start;
     system.n_rods = n_rods;
-    const Result<World> world = is_compressed(start) ? make_compressed_world(system) : make_world(system);
-    ASSERT_TRUE(static_cast<bool>(world)) << world.error().message;
+    const Result<World> world = test::good(is_compressed(start) ? make_compressed_world(system) : make_world(system));
     const PostGrid posts(standing_posts(system), system.box(), system.box().sides());
     for (const Flight& flight : world->rods)
       EXPECT_TRUE(is_clear_of_posts(posts, world->species[0], {flight.position, flight.director}));
@@ -344,8 +298,7 @@ TEST(Posts, NoRodStartsInOne) {
   system.start = Start::kRandom;
   system.n_rods = 60;
   for (system.seed = 1; system.seed <= 5; ++system.seed) {
-    const Result<World> world = make_world(system);
-    ASSERT_TRUE(static_cast<bool>(world)) << world.error().message;
+    const Result<World> world = test::good(make_world(system));
     const PostGrid posts(standing_posts(system), system.box(), system.box().sides());
     for (const Flight& flight : world->rods)
       EXPECT_TRUE(is_clear_of_posts(posts, world->species[0], {flight.position, flight.director}));
@@ -358,9 +311,7 @@ TEST(Posts, AMessageSaysHowManyRodsFitAmongThem) {
   system.n_rods = 300;
   system.rod.length = 3;
   system.posts = Posts{.diameter = 6, .columns = 3, .rows = 3};
-  const Result<World> world = make_world(system);
-  ASSERT_FALSE(static_cast<bool>(world));
-  EXPECT_NE(world.error().message.find("in rows at most"), std::string::npos) << world.error().message;
+  EXPECT_THAT(test::refusal(make_world(system)), testing::HasSubstr("in rows at most"));
 }
 
 TEST(Posts, ARunGoesOnOnlyAmongTheSamePosts) {

@@ -4,6 +4,7 @@
 #include "sim/checkpoint.h"
 #include "sim/simulation.h"
 #include "sim/start/initial.h"
+#include "tests/support/good.h"
 
 namespace shaken {
 namespace {
@@ -38,8 +39,7 @@ System small_scene(StepperKind stepper) {
 // of each go on as those of the one box, up to rounding.
 TEST(Rectangle, OfCopiesEachFliesAsTheOneBox) {
   for (const StepperKind stepper : {StepperKind::kScheduled, StepperKind::kReference}) {
-    const Result<World> made = make_world(small_scene(stepper));
-    ASSERT_TRUE(made);
+    const Result<World> made = test::good(make_world(small_scene(stepper)));
     Simulation one = Simulation::start_from(*made);
     Simulation three = Simulation::start_from(side_by_side(*made, 3));
     ASSERT_FALSE(one.advance_to(2000));
@@ -65,8 +65,7 @@ TEST(Rectangle, OfCopiesEachFliesAsTheOneBox) {
 TEST(Rectangle, ACheckpointBelongsToItsShape) {
   System system = small_scene(StepperKind::kScheduled);
   system.box_aspect = 2;
-  const Result<World> made = make_world(system);
-  ASSERT_TRUE(made);
+  const Result<World> made = test::good(make_world(system));
   const std::vector<std::byte> saved = save_checkpoint(*made);
   EXPECT_TRUE(restore_checkpoint(system, saved));
   system.box_aspect = 1;

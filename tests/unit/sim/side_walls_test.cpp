@@ -4,29 +4,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
-#include "sim/balance.h"
-#include "sim/simulation.h"
 #include "tests/support/effort.h"
+#include "tests/support/flying_rod.h"
 #include "tests/support/random_rods.h"
 
 namespace shaken {
 namespace side_walls_test {
 
-constexpr double kG = 9810;
-
-/// A rod that is about as far from a wall as asked, and flies as in a shaken layer or slower, over longer horizons.
-struct RodByWall {
+/// A flying rod that is about as far from a wall as asked.
+struct RodByWall : test::FlyingRod {
   SideWalls walls;
   double box_side;
-  Species species;
-  Flight flight;
-  Gravity gravity{kG};  ///< for a part of the rods on inclined plates
-  double horizon;
 
-  RodByWall(test::Draw& draw, double gap) : species(test::random_species(draw)) {
+  RodByWall(test::Draw& draw, double gap) {
+    species = test::random_species(draw);
     walls.arena = static_cast<Arena>(draw.integer(0, kArenaNames.size() - 1));
     const double middle = walls.arena == Arena::kAnnulus ? draw.uniform(0.1, 12) : 0.0;
     walls.inner = middle;
@@ -49,16 +42,7 @@ struct RodByWall {
       if ((moved - middle_of_box).norm() > walls.size + walls.length) break;  // there may be no such place that way
       pose.position = moved;
     }
-
-    horizon = 16e-3 * std::pow(25.0, draw.uniform(0, 1));
-    const double speed = std::pow(10.0, draw.uniform(-1, 1)) / horizon;
-    const double ratio = species.inertia_par / species.inertia_perp;
-    const double turning = draw.integer(0, 4) ? 0.5 * speed : 0.0;
-    begin_flight(flight, 0, pose, {draw.integer(0, 9) ? draw.vector(speed) : Vec3(Vec3::Zero()), draw.vector(turning)},
-                 box_side, ratio);
-    if (draw.integer(0, 3)) return;
-    gravity.is_inclined = true;
-    gravity.along = draw.vector(0.3 * speed / horizon).head<2>();
+    begin(draw, pose, box_side);
   }
 
   /// Of the deepest bead, negative if all are free: every bead is looked at [mm].
@@ -70,8 +54,6 @@ struct RodByWall {
     }
     return most;
   }
-  double overlap_after(double t) const { return overlap(pose_after(flight, t, gravity)); }
-  Pose pose() const { return {flight.position, flight.director}; }
   double safe_time() const {
     return wall_safe_time(walls, box_side, species, pose(), flight, horizon, gravity.along_size());
   }
@@ -180,36 +162,16 @@ TEST(SideWalls, AreaIsWhatLiesWithin) {
 TEST(WallSafeTime, NoBeadBeginsToTouchAWallBeforeItsBound) {
   test::Draw draw(31);
   std::vector<double> share[kArenaNames.size()];
-  int n_free = 0, n_short = 0;
+  test::Tried tried;
   for (int trial = 0; trial < test::draws(100000); ++trial) {
+    SCOPED_TRACE(trial);
     const RodByWall rod(draw, (draw.integer(0, 9) ? 1 : -1) * std::pow(10.0, draw.uniform(-7, 0.5)));
-    const double safe = rod.safe_time();
-    ASSERT_TRUE(safe >= 0 && safe <= rod.horizon) << "trial " << trial;
-    if (rod.overlap_after(0) > 0) {
-      ASSERT_EQ(safe, 0) << "trial " << trial;
-      continue;
-    }
-    ++n_free;
-    n_short += safe < rod.horizon;
-    constexpr int kSteps = 30;
-    for (int step = 1; step <= kSteps && safe > 0; ++step)
-      ASSERT_LE(rod.overlap_after(safe * step / kSteps), 0) << "trial " << trial << " step " << step;
-    if (trial % test::draws(10) || !(safe < rod.horizon) || rod.gravity.is_inclined)
-      continue;  // as many in every build, on level plates
-    double hit = safe;
-    while (hit < rod.horizon && !(rod.overlap_after(hit) > 0)) hit += 1e-3 * rod.horizon;
-    share[static_cast<int>(rod.walls.arena)].push_back(safe / std::min(hit, rod.horizon));
+    auto* timed = trial % test::draws(10) == 0 ? &share[static_cast<int>(rod.walls.arena)] : nullptr;  // in every build
+    ASSERT_NO_FATAL_FAILURE(test::expect_free_until_bound(rod, tried, timed));
   }
-  EXPECT_GT(n_free, test::draws(80000));
-  EXPECT_GT(n_short, test::draws(20000));
-  for (const auto& [name, arena] : kArenaNames) {
-    auto& of = share[static_cast<int>(arena)];
-    std::sort(of.begin(), of.end());
-    std::printf("%s: bound / true time: median %.3f, lower quartile %.3f of %zu\n", name, of[of.size() / 2],
-                of[of.size() / 4], of.size());
-    EXPECT_GT(of[of.size() / 2], 0.4);
-    EXPECT_LE(of.back(), 1.0);
-  }
+  EXPECT_GT(tried.n_free, test::draws(80000));
+  EXPECT_GT(tried.n_short, test::draws(20000));
+  for (const auto& [name, arena] : kArenaNames) test::expect_tight(name, share[static_cast<int>(arena)], 0.4);
 }
 
 TEST(WallSafeTime, OfARodThatFliesStraightAtAWall) {
@@ -307,8 +269,7 @@ TEST(SideWalls, ARodThatBouncesWithoutLossKeepsItsEnergyAndStaysWithin) {
     System system = elastic_rod_within({.arena = arena, .size = 20, .inner = 4, .length = length, .narrow = 1});
     system.rod = {.length = 3.0, .n_beads = 9, .profile = Profile::kPolar};
     system.dt = 1e-5;
-    auto simulation = Simulation::start(system);
-    ASSERT_TRUE(static_cast<bool>(simulation)) << simulation.error().message;
+    auto simulation = test::good(Simulation::start(system));
     World world = simulation->world();
     world.rods[0].velocity = Vec3(70, 50, 0);
     world.rods[0].precession = Vec3(0, 0, 30);
@@ -336,17 +297,9 @@ TEST(SideWalls, AnEllipseSendsASmallSphereFromFocusToFocus) {
   constexpr double kDiameter = 2e-2, kSpeed = 100;
   System system = elastic_rod_within({.arena = Arena::kEllipse, .size = 24, .length = 40});
   system.rod = {.length = kDiameter, .mid_diameter = kDiameter, .end_diameter = kDiameter, .n_beads = 1};
-  auto made = Simulation::start(system);
-  ASSERT_TRUE(static_cast<bool>(made)) << made.error().message;
   const Vec3 middle(21, 21, 0.6), foci[] = {middle + Vec3(16, 0, 0), middle - Vec3(16, 0, 0)};
   for (const double angle : {0.3, 1.2, 2.0, 3.0, 4.5}) {
-    World world = made->world();
-    world.rods[0].position = foci[0];
-    world.rods[0].velocity = kSpeed * Vec3(std::cos(angle), std::sin(angle), 0);
-    world.rods[0].precession = Vec3::Zero();
-    world.rods[0].prepare();
-    world.start = content(world);
-    Simulation simulation = Simulation::start_from(world);
+    Simulation simulation = test::flying(system, {{foci[0], kSpeed * Vec3(std::cos(angle), std::sin(angle), 0)}});
     for (int bounce = 1; bounce <= 2; ++bounce) {  // each way is as long as the long axis
       ASSERT_FALSE(simulation.advance_to(static_cast<Tick>(bounce * 40 / kSpeed / system.dt)).has_value());
       EXPECT_EQ(simulation.world().counters.impulses_rod_wall, bounce);
@@ -367,18 +320,8 @@ TEST(SideWalls, AChannelGoesOnAcrossTheBorder) {
   system.gravity = 0;
   system.base = system.lid = false;
   system.rod_rod = {0.0, 1.0};
-  auto made = Simulation::start(system);
-  ASSERT_TRUE(static_cast<bool>(made)) << made.error().message;
-  World world = made->world();
-  for (const int i : {0, 1}) {
-    Flight& flight = world.rods[i];
-    flight.position = Vec3(i == 0 ? 10.0 : 4.0, 3.6, 0.6);
-    flight.velocity = Vec3(i == 0 ? 40.0 : -40.0, 0, 0);
-    flight.precession = Vec3::Zero();
-    flight.prepare();
-  }
-  world.start = content(world);
-  Simulation simulation = Simulation::start_from(world);
+  Simulation simulation =
+      test::flying(system, {{Vec3(10, 3.6, 0.6), Vec3(40, 0, 0)}, {Vec3(4, 3.6, 0.6), Vec3(-40, 0, 0)}});
   // they touch after 2.5 mm each, and are then 1.5 mm on the other side of the border, or short of it
   ASSERT_FALSE(simulation.advance_to(static_cast<Tick>(0.1 / system.dt)).has_value());
   const World& now = simulation.world();
