@@ -121,8 +121,6 @@ scene::RunPlan everything() {
   plan.pairs = scene::MeasurePairs{0.02, 9, 6};
   plan.density->duration = 0.02;
   plan.trajectory = scene::Trajectory{0.1};
-  plan.stream.reset();
-  plan.movie.reset();
   return plan;
 }
 

@@ -24,28 +24,20 @@
 #include "run/loop/saved_run.h"
 #include "scene/canonical.h"
 #include "scene/length.h"
+#include "tests/support/good.h"
 #include "tests/support/in_child.h"
+#include "tests/unit/run/small_plan.h"
 
 namespace shaken::run {
 namespace {
 
 using testing::HasSubstr;
 
-scene::RunPlan small_plan() {
-  scene::RunPlan plan;
-  plan.system.rod.n_beads = 7;
-  plan.system.rod.length = 2.5;
-  plan.system.n_rods = 24;
-  plan.system.box_side = 12;
-  plan.system.dt = 2e-5;
-  plan.measure_time = 0.3;
-  plan.order = scene::MeasureOrder{0.002};
-  plan.angles = scene::MeasureAngles{0.004, 36};
-  plan.tilt = scene::MeasureTilt{0.001, 10};
-  plan.defects = scene::MeasureDefects{0.02, 1.25, 0.3125};
-  plan.trajectory = scene::Trajectory{0.01};
-  plan.stream.reset();
-  plan.movie.reset();
+/// small_plan() without anything that is measured or recorded.
+scene::RunPlan bare_plan() {
+  scene::RunPlan plan = small_plan();
+  static_cast<scene::MeasurePlan&>(plan) = {};
+  plan.trajectory.reset();
   return plan;
 }
 
@@ -55,18 +47,14 @@ nlohmann::json summary_in(const std::filesystem::path& folder) {
 }
 
 RunOutcome run_in(const std::filesystem::path& folder, const scene::RunPlan& plan, const RunCallbacks& callbacks = {}) {
-  RunOptions options;
-  options.directory = folder;
-  options.job_id = "job";
-  return run(plan, options, callbacks);
+  return run(plan, options_in(folder), callbacks);
 }
 
 /// Runs in pieces: each is stopped once the simulated time has passed the next of `stops` [s].
 void run_with_stops(const std::filesystem::path& folder, const scene::RunPlan& plan, const std::vector<double>& stops) {
   for (const double time : stops) {
     std::atomic<bool> stop = false;
-    RunOptions options;
-    options.directory = folder;
+    RunOptions options = options_in(folder);
     options.stop = &stop;
     options.progress_every = WallSeconds(0);
     RunCallbacks callbacks;
@@ -175,8 +163,7 @@ TEST(Run, FillsItsDirectory) {
   EXPECT_EQ(read_progress(directory.progress())->state, "done");
   EXPECT_EQ(read_progress(directory.progress())->fraction(), 1.0);
 
-  const auto trajectory = TrajectoryReader::open(directory.trajectory());
-  ASSERT_TRUE(trajectory);
+  const auto trajectory = test::good(TrajectoryReader::open(directory.trajectory()));
   ASSERT_EQ(trajectory->n_frames(), 31U);
   EXPECT_EQ(trajectory->frame(0)->tick, 0);
   EXPECT_EQ(trajectory->frame(30)->tick, 15000);
@@ -198,8 +185,7 @@ TEST(Run, StopsWhileItCompressesAndNeedNotDoSoAgain) {
   ASSERT_EQ(run_in(straight.path(), plan).state, RunState::kDone);
 
   std::atomic<bool> stop = true;
-  RunOptions options;
-  options.directory = folder.path();
+  RunOptions options = options_in(folder.path());
   options.stop = &stop;
   EXPECT_EQ(run(plan, options).state, RunState::kStopped);
   EXPECT_EQ(read_progress(RunDirectory{folder.path()}.progress())->state, "stopped");
@@ -262,37 +248,27 @@ void flip_a_byte(const std::filesystem::path& file) {
   ASSERT_TRUE(write_file(file, content));
 }
 
-TEST(Run, FallsBackToThePreviousCheckpoint) {
-  const ScratchFolder folder;
-  stop_twice(folder);
-  flip_a_byte(RunDirectory{folder.path()}.checkpoint());
-  ASSERT_EQ(run_in(folder.path(), small_plan()).state, RunState::kDone);
-  expect_same_results(undisturbed(), folder.path());
-}
-
-TEST(Run, StartsAnewIfNoCheckpointIsWhole) {
-  const ScratchFolder folder;
-  stop_twice(folder);
-  flip_a_byte(RunDirectory{folder.path()}.checkpoint());
-  flip_a_byte(RunDirectory{folder.path()}.previous_checkpoint());
-  ASSERT_EQ(run_in(folder.path(), small_plan()).state, RunState::kDone);
-  expect_same_results(undisturbed(), folder.path());
-}
-
-TEST(Run, StartsAnewIfTheTrajectoryIsLost) {
-  const ScratchFolder folder;
-  stop_twice(folder);
-  std::filesystem::remove(RunDirectory{folder.path()}.frames());
-  ASSERT_EQ(run_in(folder.path(), small_plan()).state, RunState::kDone);
-  expect_same_results(undisturbed(), folder.path());
+// It falls back to the previous checkpoint, or starts anew where none is whole or the trajectory is lost.
+TEST(Run, WhoseFilesAreDamagedIsBitwiseTheStraightRun) {
+  using Damage = std::function<void(const RunDirectory&)>;
+  const Damage newest = [](const RunDirectory& of) { flip_a_byte(of.checkpoint()); };
+  const Damage both = [&](const RunDirectory& of) { newest(of), flip_a_byte(of.previous_checkpoint()); };
+  const Damage frames = [](const RunDirectory& of) { std::filesystem::remove(of.frames()); };
+  for (const auto& [what, damage] : {std::pair{"checkpoint", newest}, {"checkpoints", both}, {"frames", frames}}) {
+    SCOPED_TRACE(what);
+    const ScratchFolder folder;
+    stop_twice(folder);
+    damage(RunDirectory{folder.path()});
+    ASSERT_EQ(run_in(folder.path(), small_plan()).state, RunState::kDone);
+    expect_same_results(undisturbed(), folder.path());
+  }
 }
 
 TEST(SavedRun, GoesOnFromTheNewestCheckpointThatCanBeUsed) {
   const ScratchFolder folder;
   stop_twice(folder);
   const RunDirectory directory{folder.path()};
-  const Result<scene::RunPlan> plan = read_plan(directory);
-  ASSERT_TRUE(plan);
+  const Result<scene::RunPlan> plan = test::good(read_plan(directory));
   const std::string id = scene::run_id(*plan);
   const auto resumed = [&](Tick before = std::numeric_limits<Tick>::max()) {
     return resume_last(directory, id, plan->system, before);
@@ -312,8 +288,7 @@ TEST(SavedRun, GoesOnFromTheNewestCheckpointThatCanBeUsed) {
 TEST(Run, SurvivesASuddenEnd) {
   const ScratchFolder folder;
   EXPECT_EQ(in_child([&] {
-              RunOptions options;
-              options.directory = folder.path();
+              RunOptions options = options_in(folder.path());
               options.checkpoint_every = WallSeconds(0.001);
               options.progress_every = WallSeconds(0);
               RunCallbacks callbacks;
@@ -333,8 +308,7 @@ TEST(Run, ReadsNoSceneOnceMoreThatItWasGiven) {
   const ScratchFolder folder;
   ASSERT_TRUE(write_file(RunDirectory{folder.path()}.scene(), "{"));
   EXPECT_THAT(run_in(folder.path(), small_plan()).message, HasSubstr("a run whose scene cannot be read"));
-  RunOptions options;
-  options.directory = folder.path();
+  RunOptions options = options_in(folder.path());
   options.is_own_scene = true;
   EXPECT_EQ(run(small_plan(), options).state, RunState::kDone);
   EXPECT_EQ(*read_file(RunDirectory{folder.path()}.scene()), "{");
@@ -423,9 +397,7 @@ TEST(Run, ThatIsStoppedOnItsWayToALaterEndKnowsTheFormerOne) {
 
 TEST(Run, GoesOnUntilTheErrorIsSmallEnough) {
   const ScratchFolder folder;
-  RunOptions options;
-  options.directory = folder.path();
-  options.job_id = "job";
+  RunOptions options = options_in(folder.path());
   options.progress_every = WallSeconds(0.01);
   std::vector<double> fractions;
   RunCallbacks callbacks;
@@ -482,8 +454,7 @@ TEST(Run, EndsAtTheLatestWhereUntilSays) {
 
 TEST(Run, RefusesADirectoryInUse) {
   const ScratchFolder folder;
-  const auto lock = DirectoryLock::acquire(RunDirectory{folder.path()}.lock());
-  ASSERT_TRUE(lock);
+  const auto lock = test::good(DirectoryLock::acquire(RunDirectory{folder.path()}.lock()));
   const RunOutcome outcome = run_in(folder.path(), small_plan());
   EXPECT_EQ(outcome.state, RunState::kFailed);
   EXPECT_NE(outcome.message.find(std::to_string(getpid())), std::string::npos) << outcome.message;
@@ -496,8 +467,7 @@ TEST(Run, NamesTheFileThatCannotBeWritten) {
   const RunOutcome outcome = run_in(folder.path(), small_plan());
   EXPECT_EQ(outcome.state, RunState::kFailed);
   EXPECT_NE(outcome.message.find("trajectory.part"), std::string::npos) << outcome.message;
-  const auto progress = read_progress(RunDirectory{folder.path()}.progress());
-  ASSERT_TRUE(progress);
+  const auto progress = test::good(read_progress(RunDirectory{folder.path()}.progress()));
   EXPECT_EQ(progress->state, "failed");
   EXPECT_EQ(progress->message, outcome.message);
 }
@@ -506,8 +476,7 @@ TEST(Run, GoesOnAfterAFullDisk) {
   const ScratchFolder folder;
   EXPECT_EQ(in_child([&] {
               limit_file_size(110000);
-              RunOptions options;
-              options.directory = folder.path();
+              RunOptions options = options_in(folder.path());
               options.checkpoint_every = WallSeconds(0.001);
               const RunOutcome outcome = run(small_plan(), options);
               return outcome.state == RunState::kFailed &&
@@ -554,13 +523,8 @@ TEST(Run, NumericalTroubleIsReportedAndNeverRepaired) {
 
 TEST(Run, EmptyPlanLeavesNoTrajectoryAndNoObservables) {
   const ScratchFolder folder;
-  scene::RunPlan bare = small_plan();
+  scene::RunPlan bare = bare_plan();
   bare.measure_time = 0.01;
-  bare.order.reset();
-  bare.angles.reset();
-  bare.tilt.reset();
-  bare.defects.reset();
-  bare.trajectory.reset();
   ASSERT_EQ(run_in(folder.path(), bare).state, RunState::kDone);
   EXPECT_FALSE(std::filesystem::exists(RunDirectory{folder.path()}.trajectory()));
   EXPECT_TRUE(read_observables(RunDirectory{folder.path()}.observables())->empty());
@@ -569,13 +533,7 @@ TEST(Run, EmptyPlanLeavesNoTrajectoryAndNoObservables) {
 
 TEST(Run, MeasuringAndRecordingDoNotDisturbTheMotion) {
   const ScratchFolder folder;
-  scene::RunPlan bare = small_plan();
-  bare.order.reset();
-  bare.angles.reset();
-  bare.tilt.reset();
-  bare.defects.reset();
-  bare.trajectory.reset();
-  ASSERT_EQ(run_in(folder.path(), bare).state, RunState::kDone);
+  ASSERT_EQ(run_in(folder.path(), bare_plan()).state, RunState::kDone);
   EXPECT_EQ(summary_in(folder.path())["state_hash"], summary_in(undisturbed())["state_hash"]);
 }
 
@@ -624,8 +582,7 @@ TEST(Run, LiveFramesComeAtTheirOwnRateAndAreThoseOfTheTrajectory) {
   scene::RunPlan plan = small_plan();
   plan.stream = scene::Stream{1000};
   plan.trajectory = scene::Trajectory{plan.measure_time};  // the first and the last state alone
-  RunOptions options;
-  options.directory = folder / "run";
+  RunOptions options = options_in(folder / "run");
   options.job_id = "0123456789abcdef";
   options.label = "rods.length=2.5";
   options.lcm_url = "file://" + (folder / "live.lcmlog").string() + "?mode=w";
@@ -633,8 +590,7 @@ TEST(Run, LiveFramesComeAtTheirOwnRateAndAreThoseOfTheTrajectory) {
   EXPECT_EQ(summary_in(options.directory)["state_hash"], summary_in(undisturbed())["state_hash"])
       << "streaming changes nothing";
 
-  const auto log = proto::Bus::open("file://" + (folder / "live.lcmlog").string() + "?speed=0");
-  ASSERT_TRUE(log);
+  const auto log = test::good(proto::Bus::open("file://" + (folder / "live.lcmlog").string() + "?speed=0"));
   std::vector<frame_t> frames;
   std::vector<observables_t> observables;
   int n_static = 0;
@@ -652,8 +608,7 @@ TEST(Run, LiveFramesComeAtTheirOwnRateAndAreThoseOfTheTrajectory) {
   EXPECT_GE(observables.size(), 1U);
   ASSERT_GE(frames.size(), 1U);
 
-  const auto trajectory = TrajectoryReader::open(RunDirectory{options.directory}.trajectory());
-  ASSERT_TRUE(trajectory);
+  const auto trajectory = test::good(TrajectoryReader::open(RunDirectory{options.directory}.trajectory()));
   std::map<Tick, Snapshot> recorded;
   for (std::size_t i = 0; i < trajectory->n_frames(); ++i) {
     const auto frame = trajectory->frame(i);
@@ -711,8 +666,7 @@ TEST(Run, LcmThatCannotStartIsOnlyAWarning) {
   const ScratchFolder folder;
   scene::RunPlan plan = small_plan();
   plan.stream = scene::Stream{20};
-  RunOptions options;
-  options.directory = folder.path();
+  RunOptions options = options_in(folder.path());
   options.lcm_url = "nonsense://";
   ASSERT_EQ(run(plan, options).state, RunState::kDone);
   EXPECT_EQ(summary_in(folder.path())["state_hash"], summary_in(undisturbed())["state_hash"]);

@@ -13,6 +13,8 @@
 #include "run/loop/loop.h"
 #include "scene/canonical.h"
 #include "scene/keys/observables.h"
+#include "tests/support/good.h"
+#include "tests/unit/run/small_plan.h"
 
 namespace shaken::run {
 namespace {
@@ -23,24 +25,16 @@ using testing::UnorderedElementsAre;
 constexpr Tick kSpacing = 500;  ///< of the frames below
 
 scene::RunPlan recorded_plan() {
-  scene::RunPlan plan;
-  plan.system.rod.n_beads = 7;
-  plan.system.rod.length = 2.5;
-  plan.system.n_rods = 24;
-  plan.system.box_side = 12;
-  plan.system.dt = 2e-5;
+  scene::RunPlan plan = small_plan();
   plan.steady = 0.1;
   plan.measure_time = 0.2;
   plan.order = scene::MeasureOrder{0.01};
   plan.angles = scene::MeasureAngles{0.02, 36};
   plan.tilt = scene::MeasureTilt{0.01, 10};
   plan.tilt->phases = scene::SamplePhases::kLocked;
-  plan.defects = scene::MeasureDefects{0.02, 1.25, 0.3125};
   plan.g2.emplace().every = 0.02;
   plan.msd.emplace().every = 0.01;
   plan.trajectory = scene::Trajectory{kSpacing * plan.system.dt};
-  plan.stream.reset();
-  plan.movie.reset();
   return plan;
 }
 
@@ -55,21 +49,15 @@ keys::Loaded<FramesPlan> asked_for(const std::string& asked, const std::vector<s
 TEST(MeasuredFrames, GiveTheNumbersOfTheRun) {
   const ScratchFolder folder;
   const scene::RunPlan plan = recorded_plan();
-  RunOptions options;
-  options.directory = folder.path();
-  ASSERT_EQ(run(plan, options).state, RunState::kDone);
+  ASSERT_EQ(run(plan, options_in(folder.path())).state, RunState::kDone);
   const RunDirectory files{folder.path()};
-  const auto frames = TrajectoryReader::open(files.trajectory());
-  ASSERT_TRUE(frames) << frames.error().message;
+  const auto frames = test::good(TrajectoryReader::open(files.trajectory()));
   ASSERT_EQ(*frame_spacing(frames->recorded()), kSpacing);
-  const auto made = asked_for("");
-  ASSERT_TRUE(made) << keys::to_string(made.error());
+  const auto made = test::good(asked_for(""));
   EXPECT_TRUE(made->remarks.empty());
-  const auto found = measure_frames(made->plan, frames->recorded());
-  ASSERT_TRUE(found) << found.error().message;
+  const auto found = test::good(measure_frames(made->plan, frames->recorded()));
 
-  const auto of_run = read_observables(files.observables());
-  ASSERT_TRUE(of_run);
+  const auto of_run = test::good(read_observables(files.observables()));
   ASSERT_EQ(found->reduction.arrays.size(), of_run->size());
   for (const auto& [path, values] : *of_run) {
     const std::vector<double>& again = found->reduction.arrays.at(path);
@@ -86,8 +74,8 @@ TEST(MeasuredFrames, GiveTheNumbersOfTheRun) {
 }
 
 TEST(MeasuredFrames, AreSampledAtWholeNumbersOfFramesAndSoItIsSaid) {
-  const auto made = asked_for("", {"measure.msd.every=4 ms", "measure.tilt.every=25 ms", "measure.tilt.phases=spread"});
-  ASSERT_TRUE(made) << keys::to_string(made.error());
+  const auto made =
+      test::good(asked_for("", {"measure.msd.every=4 ms", "measure.tilt.every=25 ms", "measure.tilt.phases=spread"}));
   EXPECT_DOUBLE_EQ(made->plan.msd->every, 0.01);
   EXPECT_DOUBLE_EQ(made->plan.tilt->every, 0.03);
   EXPECT_EQ(made->plan.tilt->phases, scene::SamplePhases::kLocked);
@@ -97,8 +85,8 @@ TEST(MeasuredFrames, AreSampledAtWholeNumbersOfFramesAndSoItIsSaid) {
 }
 
 TEST(MeasuredFrames, LackWhatTheyDoNotTell) {
-  const auto made = asked_for("", {"measure.collisions=true", "measure.stress=true", "measure.temperatures=true"});
-  ASSERT_TRUE(made) << keys::to_string(made.error());
+  const auto made =
+      test::good(asked_for("", {"measure.collisions=true", "measure.stress=true", "measure.temperatures=true"}));
   EXPECT_FALSE(made->plan.collisions || made->plan.stress || made->plan.temperatures);
   EXPECT_TRUE(made->plan.msd);
   EXPECT_THAT(made->remarks, UnorderedElementsAre("measure.collisions is left out: it needs impacts",
@@ -157,8 +145,7 @@ TEST(MeasuredFrames, AreEquallyFarApart) {
   EXPECT_THAT(frame_spacing(AtTicks({})).error().message, HasSubstr("no frames"));
   EXPECT_THAT(frame_spacing(AtTicks({500, 500})).error().message, HasSubstr("not later than the first"));
   EXPECT_THAT(frame_spacing(AtTicks({100, 600})).error().message, HasSubstr("not at a multiple"));
-  const auto made = asked_for("");
-  ASSERT_TRUE(made);
+  const auto made = test::good(asked_for(""));
   EXPECT_TRUE(measure_frames(made->plan, AtTicks({500, 1000, 1500})));
   EXPECT_EQ(measure_frames(made->plan, AtTicks({0, 500, 1500})).error().message,
             "frame 2 is at tick 1500, where others are 500 ticks apart");

@@ -202,10 +202,6 @@ TEST(Measurements, EachKeepsItsOwnTime) {
 TEST(Measurements, WhatIsNotInThePlanDoesNotExist) {
   scene::RunPlan nothing;
   nothing.steady = 1.0;
-  nothing.order.reset();
-  nothing.angles.reset();
-  nothing.tilt.reset();
-  nothing.defects.reset();
   Measurements measurements(nothing);
   EXPECT_EQ(measurements.next_due(0), kNever);
   measurements.sample(random_snapshot(0));

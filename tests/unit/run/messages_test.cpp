@@ -9,6 +9,7 @@
 #include "scene/keys/fields.h"
 #include "sim/balance.h"
 #include "sim/start/initial.h"
+#include "tests/support/good.h"
 
 namespace shaken::run {
 namespace {
@@ -17,8 +18,7 @@ World small_world() {
   System scene;
   scene.n_rods = 4;
   scene.box_side = 20;
-  Result<World> world = make_world(scene);
-  EXPECT_TRUE(world);
+  Result<World> world = test::good(make_world(scene));
   return std::move(world).value();
 }
 
@@ -85,8 +85,7 @@ TEST(Messages, DefectsCanBeSent) {
   sample.time = 1.5;
   sample.smoothing = 2.25;
   sample.defects = {{Vec2(1, 2), 0.5, 0.1}, {Vec2(3, 4), -0.5, 0.2}};
-  const auto defects = proto::decode<defects_t>(proto::encode(make_defects(sample)));
-  ASSERT_TRUE(defects);
+  const auto defects = test::good(proto::decode<defects_t>(proto::encode(make_defects(sample))));
   EXPECT_EQ(defects->x_mm, (std::vector<double>{1, 3}));
   EXPECT_EQ(defects->charge, (std::vector<double>{0.5, -0.5}));
 }
@@ -104,16 +103,15 @@ World mixed_world() {
   scene.added = {AddedRods{polar, 2}, AddedRods{sphere, 1}};
   scene.walls = SideWalls{};
   scene.walls->size = 30;
-  Result<World> world = make_world(scene);
-  EXPECT_TRUE(world);
+  Result<World> world = test::good(make_world(scene));
   return std::move(world).value();
 }
 
 TEST(Messages, ACellComesBackFromItsMessage) {
   for (const World& world : {small_world(), mixed_world()}) {
     Cell cell = world.cell();
-    const auto sent = proto::decode<frame_static_t>(proto::encode(proto::encode_cell(cell, 6, "rods.length=4.5")));
-    ASSERT_TRUE(sent);
+    const auto sent =
+        test::good(proto::decode<frame_static_t>(proto::encode(proto::encode_cell(cell, 6, "rods.length=4.5"))));
     EXPECT_EQ(sent->n_rods, 6);
     EXPECT_EQ(sent->label, "rods.length=4.5");
     EXPECT_EQ(sent->arena, cell.walls ? "disc" : "");
@@ -131,8 +129,7 @@ TEST(Messages, AnArenaComesBackWithItsLengths) {
                                  SideWalls{.arena = Arena::kWedge, .size = 3, .inner = 0, .length = 4.5},
                                  SideWalls{Arena::kWedge, 3, 0, Contacts{0.01, 0.3}, 4.5, 1.0 / 3}}) {
     cell.walls = walls;
-    const auto sent = proto::decode<frame_static_t>(proto::encode(proto::encode_cell(cell, 6, "")));
-    ASSERT_TRUE(sent);
+    const auto sent = test::good(proto::decode<frame_static_t>(proto::encode(proto::encode_cell(cell, 6, ""))));
     if (walls.narrow == 0) {
       EXPECT_EQ(sent->arena, std::string(name_of(walls.arena)) + (walls.arena == Arena::kWedge ? " 0" : ""));
     }
@@ -149,8 +146,7 @@ TEST(Messages, AnArenaComesBackWithItsLengths) {
 
 TEST(Messages, PostsComeBackAndFitIntoOneDatagram) {
   StandingPosts posts{.diameter = 2.5, .centres = {{1, 2}, {0.125, 40}}};
-  const auto sent = proto::decode<posts_t>(proto::encode(proto::encode_posts(posts)));
-  ASSERT_TRUE(sent);
+  const auto sent = test::good(proto::decode<posts_t>(proto::encode(proto::encode_posts(posts))));
   EXPECT_EQ(proto::decode_posts(*sent), posts);
   const double most = scene::field_at("posts.columns").high * scene::field_at("posts.rows").high;
   posts.centres.resize(static_cast<std::size_t>(most), Vec2(1, 1));

@@ -1,5 +1,6 @@
 #include "run/cost/run_cost.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,28 +13,22 @@
 #include "run/loop/open_run.h"
 #include "scene/length.h"
 #include "sim/effects/registry.h"
+#include "tests/support/good.h"
+#include "tests/unit/run/small_plan.h"
 
 namespace shaken::run {
 namespace {
 
 scene::RunPlan busy_plan() {
-  scene::RunPlan plan;
-  plan.system.rod.n_beads = 7;
-  plan.system.rod.length = 2.5;
-  plan.system.n_rods = 60;
-  plan.system.box_side = 14;
+  scene::RunPlan plan = small_plan(60, 14);
   plan.system.dt = 1e-5;
   plan.measure_time = 1.5;
-  plan.order = scene::MeasureOrder{0.002};
-  plan.angles = scene::MeasureAngles{0.004, 36};
   plan.tilt = scene::MeasureTilt{0.003, 10};
-  plan.defects = scene::MeasureDefects{0.02, 1.25, 0.3125};
   plan.g2 = scene::MeasureG2{0.05, 20};
   plan.msd = scene::MeasureMsd{0.01};
   plan.pairs = scene::MeasurePairs{0.1, 21, 0};
   plan.layers = scene::MeasureLayers{0.05};
   plan.lattice = scene::MeasureLattice{0.3};
-  plan.trajectory = scene::Trajectory{0.01};
   return plan;
 }
 
@@ -45,14 +40,10 @@ double bytes_of(const std::filesystem::path& file) { return static_cast<double>(
 
 TEST(RunCost, FindsWhatARunThenTakes) {
   const scene::RunPlan plan = busy_plan();
-  const auto probed = probed_from_start(plan, 0.2);
-  ASSERT_TRUE(probed) << probed.error().message;
+  const auto probed = test::good(probed_from_start(plan, 0.2));
 
   const ScratchFolder folder;
-  RunOptions options;
-  options.directory = folder.path();
-  options.job_id = "job";
-  ASSERT_EQ(run(plan, options, {}).state, RunState::kDone);
+  ASSERT_EQ(run(plan, options_in(folder.path())).state, RunState::kDone);
   const RunDirectory directory{folder.path()};
   const auto summary = nlohmann::json::parse(*read_file(directory.summary()));
 
@@ -80,7 +71,6 @@ TEST(RunCost, KnowsWhatALongRunThenKeeps) {
   scene::RunPlan nothing = busy_plan();
   static_cast<scene::MeasurePlan&>(nothing) = {};
   nothing.trajectory.reset();
-  nothing.stream.reset();
   const auto disk = [&](const scene::RunPlan& plan) { return probed_from_start(plan, 0.01).value().disk; };
 
   scene::RunPlan plan = nothing;
@@ -120,8 +110,7 @@ TEST(RunCost, KnowsWhatALongRunThenKeeps) {
 }
 
 TEST(RunCost, SharesAddUpToTheWhole) {
-  const auto probed = probed_from_start(busy_plan(), 0.1);
-  ASSERT_TRUE(probed) << probed.error().message;
+  const auto probed = test::good(probed_from_start(busy_plan(), 0.1));
   const auto report = cost_report(busy_plan(), *probed);
   EXPECT_GT(report["memory_bytes"].get<double>(), 1e6);
   double sum = 0;
@@ -145,11 +134,9 @@ TEST(RunCost, SharesAddUpToTheWhole) {
 
 TEST(RunCost, GoesOnFromAnyState) {
   const scene::RunPlan plan = busy_plan();
-  auto simulation = Simulation::start(plan.system);
-  ASSERT_TRUE(static_cast<bool>(simulation));
+  auto simulation = test::good(Simulation::start(plan.system));
   ASSERT_FALSE(simulation->advance_to(100).has_value());
-  const auto probed = cost_of_run(plan, std::move(simulation).value(), 0.02);
-  ASSERT_TRUE(probed) << probed.error().message;
+  const auto probed = test::good(cost_of_run(plan, std::move(simulation).value(), 0.02));
   EXPECT_GT(probed->simulated, 0);
   EXPECT_GT(probed->tick_cpu, 0);
 }
@@ -158,16 +145,13 @@ TEST(RunCost, EndsInTroubleWithItsWords) {
   scene::RunPlan plan = busy_plan();
   plan.system.amplitude = 5;
   plan.system.dt = 2e-4;  // too long a step for such plates
-  const auto refused = probed_from_start(plan, 0.02);
-  ASSERT_FALSE(refused);
-  EXPECT_NE(refused.error().message.find("numerical trouble at tick"), std::string::npos);
+  EXPECT_THAT(test::refusal(probed_from_start(plan, 0.02)), testing::HasSubstr("numerical trouble at tick"));
 }
 
 TEST(Effects, AreListedWithTheKeyThatDecides) {
   scene::RunPlan plan = busy_plan();
   plan.trajectory.reset();
   plan.movie = scene::Movie{};
-  plan.stream.reset();
   std::map<std::string, EffectLine> lines;
   for (const EffectLine& line : list_effects(plan)) EXPECT_TRUE(lines.emplace(line.name, line).second) << line.name;
   EXPECT_TRUE(lines.at("measure_order").on);

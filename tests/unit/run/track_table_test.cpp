@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "run/recorded/measure_frames.h"
 #include "sim/snapshot.h"
+#include "tests/support/good.h"
 
 namespace shaken::run {
 namespace {
@@ -26,9 +27,6 @@ scene::RunPlan dish() {
   plan.system.box_side = 20;
   plan.order = scene::MeasureOrder{kInterval};
   plan.msd.emplace().every = kInterval;
-  plan.trajectory.reset();
-  plan.stream.reset();
-  plan.movie.reset();
   return plan;
 }
 
@@ -168,6 +166,15 @@ const std::string kHoles =
     "2,1,3,1,0\n2,2,5,5,90\n2,3,9,9,0\n"
     "3,1,4,1,0\n3,2,5,5,90\n3,3,9,9,0\n";
 
+/// What is measured of tracks, after what their own scene asks for and they can tell.
+Reduction measured(const TrackedRods& tracks) {
+  const std::string& own = tracks.frames->header().scene_json;
+  const auto made =
+      test::good(plan_for_frames({own, "dish"}, {own, "dish"}, {}, *frame_spacing(*tracks.frames), tracks.lacking));
+  EXPECT_EQ(made->plan.msd.has_value(), !tracks.lacking.contains(Needs::kIdentities));
+  return test::good(measure_frames(made->plan, *tracks.frames))->reduction;
+}
+
 TEST(TrackTable, WithHolesMeasuresWhatNeedsNoTracks) {
   const TrackedRods tracks = tracks_in(kHoles);
   EXPECT_FALSE(tracks.has_constant_number);
@@ -176,13 +183,7 @@ TEST(TrackTable, WithHolesMeasuresWhatNeedsNoTracks) {
               ElementsAre("2 of 3 tracks are in every frame: --complete measures these alone, and then follows them; "
                           "--fill N closes gaps of up to N frames before",
                           "1 row without a position, an angle or a time", "2 to 3 rods in a frame, 3 on average"));
-  const std::string& own = tracks.frames->header().scene_json;
-  const auto made = plan_for_frames({own, "dish"}, {own, "dish"}, {}, *frame_spacing(*tracks.frames), tracks.lacking);
-  ASSERT_TRUE(made) << keys::to_string(made.error());
-  EXPECT_FALSE(made->plan.msd);
-  const auto found = measure_frames(made->plan, *tracks.frames);
-  ASSERT_TRUE(found) << found.error().message;
-  EXPECT_THAT(found->reduction.arrays.at("/order/order"),
+  EXPECT_THAT(measured(tracks).arrays.at("/order/order"),
               ElementsAre(testing::DoubleNear(1.0 / 3, 1e-6), testing::DoubleNear(1, 1e-6),
                           testing::DoubleNear(1.0 / 3, 1e-6), testing::DoubleNear(1.0 / 3, 1e-6)));
 }
@@ -204,13 +205,8 @@ TEST(TrackTable, CompleteTracksAreFollowed) {
   EXPECT_EQ(tracks.plan.system.n_rods, 2);
   EXPECT_FALSE(tracks.lacking.contains(Needs::kIdentities));
   EXPECT_THAT(tracks.remarks[0], "2 of 3 tracks are in every frame: the others are left out");
-  const std::string& own = tracks.frames->header().scene_json;
-  const auto made = plan_for_frames({own, "dish"}, {own, "dish"}, {}, *frame_spacing(*tracks.frames), tracks.lacking);
-  ASSERT_TRUE(made) << keys::to_string(made.error());
-  const auto found = measure_frames(made->plan, *tracks.frames);
-  ASSERT_TRUE(found) << found.error().message;
   // one of two rods moves by 1 mm a frame
-  EXPECT_THAT(found->reduction.arrays.at("/msd/total_mm2").at(0), testing::DoubleNear(0.5, 1e-5));
+  EXPECT_THAT(measured(tracks).arrays.at("/msd/total_mm2").at(0), testing::DoubleNear(0.5, 1e-5));
 }
 
 TEST(TrackTable, GapsAreFilledStraightOnByTheShorterWay) {
@@ -325,16 +321,12 @@ TEST(TrackTable, OfTwoSpeciesIsMeasuredSpeciesBySpecies) {
   expect_rod(frame_of(tracks, 0), 0, {5, 5}, 90);
   expect_rod(frame_of(tracks, 1), 0, {6, 5}, 90);
   expect_rod(frame_of(tracks, 1), 2, {1, 1}, 0);
-  const std::string& own = tracks.frames->header().scene_json;
-  const auto made = plan_for_frames({own, "dish"}, {own, "dish"}, {}, *frame_spacing(*tracks.frames), tracks.lacking);
-  ASSERT_TRUE(made) << keys::to_string(made.error());
-  const auto found = measure_frames(made->plan, *tracks.frames);
-  ASSERT_TRUE(found) << found.error().message;
+  const auto arrays = measured(tracks).arrays;
   using testing::DoubleNear;
-  EXPECT_THAT(found->reduction.arrays.at("/order/order"), ElementsAre(DoubleNear(1, 1e-6), DoubleNear(1, 1e-6)));
-  EXPECT_THAT(found->reduction.arrays.at("/rods_2/order/order"), ElementsAre(DoubleNear(0, 1e-6), DoubleNear(1, 1e-6)));
-  EXPECT_THAT(found->reduction.arrays.at("/msd/total_mm2").at(0), DoubleNear(0.5, 1e-5));
-  EXPECT_THAT(found->reduction.arrays.at("/rods_2/msd/total_mm2").at(0), DoubleNear(0, 1e-9));
+  EXPECT_THAT(arrays.at("/order/order"), ElementsAre(DoubleNear(1, 1e-6), DoubleNear(1, 1e-6)));
+  EXPECT_THAT(arrays.at("/rods_2/order/order"), ElementsAre(DoubleNear(0, 1e-6), DoubleNear(1, 1e-6)));
+  EXPECT_THAT(arrays.at("/msd/total_mm2").at(0), DoubleNear(0.5, 1e-5));
+  EXPECT_THAT(arrays.at("/rods_2/msd/total_mm2").at(0), DoubleNear(0, 1e-9));
 
   const auto refused = [&](const std::string& table) { return refusal_of(table, at_intervals(), mixed); };
   EXPECT_THAT(refused("frame,x,y,angle\n0,1,2,3\n"),
