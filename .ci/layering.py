@@ -86,7 +86,7 @@ ALLOWED = {
                       "sim/world.h", "sim/motion/side_walls.h", "sim/start/from_another_run.h"],
     # benches time whole simulations
     "bench": ["base", "scene", "run/files", "analysis", "sim/rod", "sim/system.h", "sim/snapshot.h", "sim/world.h",
-              "sim/balance.h", "sim/simulation.h", "sim/effects/registry.h"],
+              "sim/balance.h", "sim/simulation.h", "sim/effects/registry.h", "sim/motion/start_motion.h"],
 }
 # Rooms of a folder: each may use what the folder may, and the rooms before it.
 ROOMS = {"analysis": ["errors", "geometry", "lags"], "scene": ["keys", "resolve"],

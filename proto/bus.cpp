@@ -83,13 +83,15 @@ lcm_t* create(const std::string& url) {
 /// Why udpm cannot start: connects a datagram socket to the group, which sends nothing but needs the same route. LCM
 /// does this too, but then prints an uninitialised address to stderr.
 Result<void> check_udpm(const std::string& url) {
-  const std::string target = url.substr(kUdpm.size(), url.find('?') - kUdpm.size());
-  const std::string address = target.substr(0, target.find(':'));
+  const auto group_in = [](const std::string& udpm) {
+    const std::string target = udpm.substr(kUdpm.size(), udpm.find('?') - kUdpm.size());
+    return target.substr(0, target.find(':'));
+  };
+  const std::string named = group_in(url), address = named.empty() ? group_in(kDefaultUrl) : named;
   sockaddr_in group{};
   group.sin_family = AF_INET;
   group.sin_port = htons(kDefaultPort);  // any port: only the route counts
-  if (inet_aton(address.empty() ? "239.255.76.67" : address.c_str(), &group.sin_addr) == 0 ||
-      !IN_MULTICAST(ntohl(group.sin_addr.s_addr))) {
+  if (inet_aton(address.c_str(), &group.sin_addr) == 0 || !IN_MULTICAST(ntohl(group.sin_addr.s_addr))) {
     return Error{"LCM cannot start: '" + address + "' in '" + url +
                  "' is not a multicast address (224.0.0.0 to 239.255.255.255)"};
   }
@@ -99,8 +101,8 @@ Result<void> check_udpm(const std::string& url) {
   const int reason = errno;
   close(fd);
   if (routed) return {};
-  return Error{"LCM cannot start: no multicast route to " + (address.empty() ? std::string("239.255.76.67") : address) +
-               " (" + std::strerror(reason) + "). As root: ip route add 224.0.0.0/4 dev lo"};
+  return Error{"LCM cannot start: no multicast route to " + address + " (" + std::strerror(reason) +
+               "). As root: ip route add 224.0.0.0/4 dev lo"};
 }
 
 /// LCM 1.3.1 takes a name for 0.0.0.0, which is this machine, without a word.

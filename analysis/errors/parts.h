@@ -6,11 +6,12 @@
 #include <vector>
 
 #include "analysis/errors/estimate_curve.h"
+#include "base/core/kept.h"
 
 namespace shaken::analysis {
 
-/// As many parts of time as errors are taken from, at most.
-inline constexpr std::size_t kMostParts = 64;
+/// As many parts of time as errors are taken from, at most: those that sums are kept for.
+inline constexpr std::size_t kMostParts = kMostStretches;
 /// With fewer parts, or fewer independent ones among them, there is no error.
 inline constexpr std::size_t kFewestParts = 10;
 inline constexpr double kFewestIndependent = 5;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "analysis/geometry/periodic.h"
+#include "base/core/box_grids.h"
 #include "base/core/check.h"
 
 namespace shaken::analysis {
@@ -73,10 +74,9 @@ double theta_of(const Vec2& q) { return fold_half_turn(0.5 * std::atan2(q.y(), q
 Grid::Grid(const Box& box, double mesh) {
   SHAKEN_CHECK(box.shorter() > 0.0 && mesh > 0.0, "box and mesh must be positive");
   SHAKEN_CHECK(box.longer() / mesh <= kMostGridNodes, "the mesh is too fine for the box");
-  // A mesh that divides the box must not gain a node by rounding.
-  const auto nodes = [mesh](double side) { return std::max(4, static_cast<int>(std::ceil(side / mesh - 1e-9))); };
-  columns = nodes(box.x());
-  rows = nodes(box.y());
+  const Vec2 nodes = grid_nodes(box, mesh);
+  columns = static_cast<int>(nodes.x());
+  rows = static_cast<int>(nodes.y());
 }
 
 DirectorField::DirectorField(std::span<const Vec3> positions, std::span<const Vec3> directors, const Region& region,

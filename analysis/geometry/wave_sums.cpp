@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 
+#include "base/core/box_grids.h"
 #include "base/core/check.h"
 
 namespace shaken::analysis {
@@ -56,8 +57,8 @@ void put_powers(double weight, double angle, std::size_t waves, std::size_t plac
 WaveVectors::WaveVectors(const Box& in_box, int most_waves)
     : box(in_box),
       waves(most_waves),
-      most_m(static_cast<int>(most_waves / in_box.longer() * in_box.x() * (1 + 1e-12))),
-      most_n(static_cast<int>(most_waves / in_box.longer() * in_box.y() * (1 + 1e-12))) {
+      most_m(static_cast<int>(shaken::most_waves(in_box, most_waves).x())),
+      most_n(static_cast<int>(shaken::most_waves(in_box, most_waves).y())) {
   SHAKEN_CHECK(waves >= 1 && box.shorter() > 0.0, "a box and waves in it");
 }
 

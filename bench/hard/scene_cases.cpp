@@ -12,6 +12,7 @@
 #include "bench/hard/hard.h"
 #include "scene/sweeps/sweep.h"
 #include "sim/balance.h"
+#include "sim/motion/start_motion.h"
 #include "sim/simulation.h"
 
 namespace shaken::bench {
@@ -34,8 +35,6 @@ const std::vector<std::pair<const char*, std::vector<std::string>>> kFiles{
     {"order", {"order-sorted", "order-reversed", "order-shuffled"}},
 };
 
-/// Root mean square of the speed at the start, of three components (sim/motion/start_motion.h) [mm/s].
-constexpr double kStartSpeed = 20.0 * 1.7320508;
 /// The energy balance must close to this, as a fraction of all that changed hands; and to a rounding for each impulse.
 constexpr double kLedgerLimit = 1e-12;
 constexpr double kLedgerPerImpulse = 1e-16;
@@ -92,8 +91,8 @@ double energy_limit(const World& world, double duration) {
   const System& scene = world.system;
   const double e = std::max(scene.rod_base.restitution, scene.rod_lid.restitution);
   const double slid = scene.gravity_on_plates().along_size() * duration;  // [mm/s]
-  const double speed =
-      (1 + e) / (1 - e) * world.plates.peak_speed() + std::sqrt(2 * scene.gravity * scene.gap) + kStartSpeed + slid;
+  const double speed = (1 + e) / (1 - e) * world.plates.peak_speed() + std::sqrt(2 * scene.gravity * scene.gap) +
+                       std::sqrt(3.0) * kStartSpeed + slid;
   return 0.5 * world.species.front().mass * speed * speed;
 }
 

@@ -14,6 +14,7 @@
 #include "proto/frame_codec.h"
 #include "run/live/messages.h"
 #include "run/loop/effects.h"
+#include "run/loop/loop.h"
 #include "run/loop/movie_process.h"
 #include "run/loop/open_run.h"
 #include "scene/canonical.h"
@@ -28,8 +29,6 @@ constexpr double kPart = 0.04;   ///< of the run's own time, for the steps of it
 constexpr double kLeast = 0.03;  ///< for the steps of a probe: less tells little, and nobody feels it [s]
 constexpr double kPilot = 2e-3;  ///< for the first steps by which that is judged, about [s]
 constexpr int kFrames = 8;       ///< recorded to see what a frame costs
-constexpr double kCheckpointEvery =
-    30;  ///< the worker's default; wall-clock time, which is CPU time if it runs alone [s]
 
 double bytes_in(const std::filesystem::path& file) { return static_cast<double>(std::filesystem::file_size(file)); }
 
@@ -193,7 +192,7 @@ class Prober {
     SHAKEN_TRY(write_checkpoint(directory, scene::run_id(plan_), checkpoint));
     cost_.checkpoints.each = thread_cpu_seconds() - begin;
     // one at the end, and one now and then before
-    cost_.checkpoints.count = 1 + static_cast<std::int64_t>(cost_.total() / kCheckpointEvery);
+    cost_.checkpoints.count = 1 + static_cast<std::int64_t>(cost_.total() / kCheckpointEvery.count());
     cost_.disk.checkpoints =
         bytes_in(directory.checkpoint()) * std::min<double>(2, static_cast<double>(cost_.checkpoints.count));
     return {};

@@ -15,6 +15,9 @@
 
 namespace shaken::run {
 
+/// Wall-clock time from one checkpoint to the next; CPU time of a run that is alone.
+inline constexpr WallSeconds kCheckpointEvery{30};
+
 /// How, not what, to run: nothing here changes a result.
 struct RunOptions {
   std::filesystem::path directory;
@@ -23,7 +26,7 @@ struct RunOptions {
   std::string label;                   ///< the swept parameters, for viewers
   std::optional<std::string> lcm_url;  ///< none: no live state
   int n_threads = 1;                   ///< that share each tick; the results do not depend on it
-  WallSeconds checkpoint_every{30};
+  WallSeconds checkpoint_every = kCheckpointEvery;
   WallSeconds progress_every{0.5};
   const std::atomic<bool>* stop = nullptr;  ///< once true, the run ends with a checkpoint; null: it never does
 };

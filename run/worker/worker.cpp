@@ -64,7 +64,7 @@ struct WorkerOptions {
   std::string lcm_url = proto::default_url();
   bool no_lcm = false;
   int n_threads = 1;
-  double checkpoint_every = 30;
+  double checkpoint_every = kCheckpointEvery.count();
   bool quiet = false;
   std::string probe;
   double probe_cpu = 1.0;

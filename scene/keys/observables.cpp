@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "base/core/box_grids.h"
 #include "base/core/check.h"
 #include "base/core/kept.h"
 #include "scene/keys/measured_species.h"
@@ -28,14 +29,10 @@ Field phases(Access access) {
 /// Wave vectors up to `waves` of them to the longer side of the box, one of each pair +-q
 /// (analysis/geometry/wave_sums.h).
 double half_plane(double waves, const Box& box) {
-  const Vec2 most = (waves / box.longer() * box.sides() * (1 + 1e-12)).array().floor();
+  const Vec2 most = most_waves(box, waves);
   return (most.x() + 1) * (2 * most.y() + 1);
 }
 
-/// Nodes of a grid over the box (analysis/geometry/director_field.h).
-double field_nodes(const Box& box, double mesh) {
-  return std::max(4.0, std::ceil(box.x() / mesh - 1e-9)) * std::max(4.0, std::ceil(box.y() / mesh - 1e-9));
-}
 /// Bytes of a director field while it is made: Q, the density of rods and that of the nodes, each node's sum by rows
 /// and in all.
 double field_bytes(double nodes) { return 5 * kNumberBytes * nodes; }
@@ -43,7 +40,7 @@ double field_bytes(double nodes) { return 5 * kNumberBytes * nodes; }
 MeasureMemory of_defects(const Sizes& sizes) {
   const System& system = sizes.plan.system;
   const MeasureDefects& defects = *sizes.plan.defects;
-  const double nodes = field_nodes(system.box(), defects.grid_for(system.rod.length));
+  const double nodes = grid_nodes(system.box(), defects.grid_for(system.rod.length)).prod();
   // Zeros of a Gaussian field that is smoothed over s: 1 / (4 pi s^2) of them an area (Halperin, Les Houches 35, 813
   // (1981)); the field has no more than one in a mesh.
   const double smoothing = defects.smoothing_for(system.rod.length);
@@ -59,14 +56,14 @@ MeasureMemory of_defect_maps(const Sizes& sizes) {
   const System& system = sizes.plan.system;
   // Errors are found from copies of all stretches, twice, and from what each stretch adds to each number.
   const double bins = sizes.plan.defect_maps->bins, copies = 3 * sizes.stretches * kNumberBytes * map_sums(bins);
-  const double nodes = field_nodes(system.box(), sizes.plan.defect_maps->grid_for(system.rod.length));
+  const double nodes = grid_nodes(system.box(), sizes.plan.defect_maps->grid_for(system.rod.length)).prod();
   return {0, std::max(field_bytes(nodes), copies)};
 }
 
 MeasureMemory of_density(const Sizes& sizes) {
   const MeasureDensity& density = *sizes.plan.density;
   const System& system = sizes.plan.system;
-  const double cells = field_nodes(system.box(), density.grid_for(system.rod.length));
+  const double cells = grid_nodes(system.box(), density.grid_for(system.rod.length)).prod();
   const double maps = std::floor(sizes.samples / std::max(1.0, std::round(density.duration / density.every)));
   const double bytes = maps * (cells + 1) * kNumberBytes;
   return {bytes + 3 * kNumberBytes * cells, 0, bytes, kSpare * bytes};

@@ -90,7 +90,7 @@ class DetectionPhase {
   std::size_t bytes() const { return heap_bytes(contacts_, may_change_); }
 
  private:
-  /// Lists the pairs that come up and are not deferred. Those gained in this tick stand on the list already.
+  /// Lists the pairs that come up and are not deferred, behind those that the first tick has gained.
   void list_due(Tick now, Share& share) {
     std::vector<int>& pairs = share.searched;
     const std::ptrdiff_t n_gained = std::ssize(pairs);

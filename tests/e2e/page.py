@@ -1,8 +1,8 @@
 """Uses the page as a person does, in a headless Chromium, and says what is not as it should be.
 
 usage: page.py ADDRESS SCREENSHOT [--live]
-ADDRESS is what shaken-web prints. A sweep "waits" of one held job that takes long must be there; the rest is submitted here. With --live
-the bus must work. Exits 1 at the first thing that is wrong; the screenshot shows the end."""
+ADDRESS is what shaken-web prints. A sweep "waits" of one held job that takes long must be there; the rest is submitted
+here. With --live the bus must work. Exits 1 at the first thing that is wrong; the screenshot shows the end."""
 import json
 import os
 import shutil

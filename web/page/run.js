@@ -28,7 +28,7 @@ export class RunPanel {
     this.angleChart = new Curve(byId("angle-chart"), "θ (degrees)", "P(θ) per degree", {min: 0});
     this.orderChart.onDrag((time) => this.goTo(time));
     this.canvas = this.makeCanvas();
-    window.shakenRun = this;  // for whoever looks at it with the browser's tools
+    window.shakenRun = this;  // for the page's tests, and for whoever looks at it with the browser's tools
     byId("colouring").onchange = () => this.redraw();
     byId("defects").onchange = () => this.redraw();
     byId("reset-view").onclick = async () => (await this.canvas)?.reset();
