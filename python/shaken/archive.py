@@ -9,6 +9,7 @@ import json
 import lzma
 import math
 import os
+import re
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Callable, Iterable, Iterator
@@ -16,6 +17,7 @@ from typing import Any, Callable, Iterable, Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from .catalogue import ARRAYS
 from .errors import ShakenError
 from .frames import Frame
 from .run import Arrays, DirectoryRun, Run
@@ -29,8 +31,8 @@ _HIGHEST = 1 << 26  # bytes that a file may grow to when it is read: nobody's di
 
 #: Points that are kept of curves against time that have more, by their groups; each is the mean of those that it stands
 #: for.
-_MOST_POINTS = {"/defects": 350, **dict.fromkeys(("/order", "/drift", "/temperatures", "/polar", "/clusters",
-                                                  "/collisions", "/stress"), 1050)}
+_MOST_POINTS = {row["axes"][0].removesuffix("/time_s"): 1050 for row in ARRAYS.values()
+                if len(row["axes"]) == 1 and re.fullmatch("/[^/]+/time_s", row["axes"][0])} | {"/defects": 350}
 #: Left out: what no figure shows, or what follows from others.
 _NO_FIGURE = ("/defects/tracks/speed_", "/msd/relative_across", "/msd/relative_along")
 _TRACE_TIME = 2.0    # seconds of which a trace keeps every point of n_z
