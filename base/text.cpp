@@ -105,7 +105,7 @@ std::string printable(std::string_view text, Lines lines) {
 std::string with_error(double value, double error) {
   if (!(error > 0 && std::isfinite(error))) return fmt::format("{:.3g} (error unknown)", value);
   const double exponent = std::floor(std::log10(error));
-  const int decimals = std::max(0, static_cast<int>(-exponent) + (error / std::pow(10.0, exponent) < 2 ? 1 : 0));
+  const int decimals = std::clamp(static_cast<int>(-exponent) + (error / std::pow(10.0, exponent) < 2 ? 1 : 0), 0, 12);
   return fmt::format("{0:.{2}f} +- {1:.{2}f}", value, error, decimals);
 }
 

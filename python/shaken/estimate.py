@@ -139,11 +139,12 @@ def exactly(value: float) -> Estimate:
 
 
 def decimals(error: float) -> int:
-    """Decimals that show an error with two figures where it begins with a 1, else with one."""
+    """Decimals that show an error with two figures where it begins with a 1, else with one; at most 12, the noise of
+    rounding."""
     if not math.isfinite(error) or error <= 0:
         return 3
     exponent = math.floor(math.log10(error))
-    return max(0, -exponent + (1 if error / 10.0**exponent < 2 else 0))
+    return min(12, max(0, -exponent + (1 if error / 10.0**exponent < 2 else 0)))
 
 
 def student_factor(n: int) -> float:

@@ -116,13 +116,18 @@ class Arrays(Mapping[str, Array]):
     def __init__(self, names: list[str], read: Any) -> None:
         self._names = {name: None for name in names}
         self._read = read
-        self._fetch = functools.cache(self._fetched)
+        self._known: dict[str, Array] = {}
 
     def __getitem__(self, name: str) -> Array:
         path = name if name.startswith("/") else "/" + name
         if path not in self._names:
             raise UnknownName(f"{path} was not measured", path, self._names, "the run has")
         return self._fetch(path)
+
+    def _fetch(self, path: str) -> Array:
+        if path not in self._known:
+            self._known[path] = self._fetched(path)
+        return self._known[path]
 
     def _fetched(self, path: str) -> Array:
         values, unit = self._read(path)
