@@ -19,7 +19,7 @@ struct SteadinessRow {
   std::optional<bool> steady;  ///< "steady" in summary.json
   const char* mark;            ///< before a value
   const char* word;
-  const char* advice;          ///< what it means for the value, and what to do
+  const char* advice;  ///< what it means for the value, and what to do
 };
 
 /// In the order of Steadiness.
