@@ -22,6 +22,10 @@ export class QueuePanel {
   }
 
   note(sweeps) {
+    const ids = sweeps.map(({id}) => id);
+    for (const [id, {button}] of this.items) {
+      if (!ids.includes(id)) this.items.delete(id) && button.parentElement.remove();
+    }
     for (const sweep of sweeps) {
       let item = this.items.get(sweep.id);
       if (!item) {
