@@ -7,7 +7,7 @@
 
 namespace shaken::analysis {
 
-/// The mean of what n summands add up to; NaN of none.
+/// The mean of what n summands add up to, or what was found over the number that was expected; NaN of none.
 template <class Number>
 double mean_of(double sum, Number n) {
   return n > 0 ? sum / static_cast<double>(n) : kNaN;

@@ -9,7 +9,7 @@
 
 #include "analysis/errors/saved.h"
 #include "analysis/errors/steady.h"
-#include "base/core/kept.h"
+#include "base/core/series_limits.h"
 
 namespace shaken::analysis {
 

@@ -10,7 +10,7 @@
 
 #include "analysis/errors/saved.h"
 #include "base/core/check.h"
-#include "base/core/kept.h"
+#include "base/core/series_limits.h"
 
 namespace shaken::analysis {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "analysis/errors/estimate_curve.h"
-#include "base/core/kept.h"
+#include "base/core/series_limits.h"
 
 namespace shaken::analysis {
 

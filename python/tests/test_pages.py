@@ -99,6 +99,8 @@ def test_archived_runs_that_are_named_as_deciding_a_statement_are_read_by_it():
         run.numbers = Noting(run.numbers)
     evidence, checks = Evidence(runs), {statement.id: statement.check for statement in STATEMENTS}
     for statement, (text, batches) in DECIDING.items():
+        named = {float(packing) for packing in re.findall(r"\b0\.\d+\b(?! mm)", text)}
+        assert named <= {batch.packing for batch in batches}, f"{statement}: a packing that nobody counts"
         sets = set(sets_in(text))
         assert sets and batches, f"{statement}: no set or no run is named"
         read.clear()

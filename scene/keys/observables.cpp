@@ -7,7 +7,7 @@
 
 #include "base/core/box_grids.h"
 #include "base/core/check.h"
-#include "base/core/kept.h"
+#include "base/core/series_limits.h"
 #include "scene/keys/measured_species.h"
 
 namespace shaken::scene {

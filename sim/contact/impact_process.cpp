@@ -98,8 +98,8 @@ ImpactProcess::Leg ImpactProcess::slipping_leg(const End& end) const {
     const double faster = -q.dot(rate_t(q));  // mu times the change of the speed; a leg goes half of the way to rest
     return {q, faster < 0 ? -0.5 * mu_ * speed / faster : kNever, false};
   }
-  // Otherwise until slip has turned by turn_, or, where that comes first, what turns it has changed by 4 turn_ of
-  // itself or the speed has fallen by 2 turn_ of itself.
+  // Otherwise until slip has turned by turn_, or, where that comes first, until the part of itself by which what turns
+  // it has changed, and twice the part by which the speed has fallen, add up to 4 turn_.
   const double change = std::abs(slope) + std::max(0.0, -2.0 * along);
   return midpoint_leg(
       rate, std::min({end(rate_n(-mu_ * direction)), turn_ * speed / std::abs(aside), 4.0 * turn_ * speed / change}));

@@ -58,8 +58,9 @@ BLUNT = ("the three seeds with ends of 0.5 mm at 0.825 of the set `strip`, for 1
 
 #: What would decide each statement that is open or may be again, by its id: all runs that are wanted, done or not.
 DECIDING: dict[str, tuple[str, tuple[Batch, ...]]] = {
-    "long-range": ("0.55, 0.60 and 0.65 in a box of 134 mm, two seeds: the set `long-range`",
-                   (Batch(4.5, 0.60, 133.968, 400, 6),)),
+    "long-range": ("0.55, 0.60 and 0.65 in a box of 134 mm, two seeds, at 0.60 three: the set `long-range`",
+                   (Batch(4.5, 0.55, 133.968, 400, 2), Batch(4.5, 0.60, 133.968, 400, 3),
+                    Batch(4.5, 0.65, 133.968, 400, 2))),
     "g2-oscillates": ("the seeds from the seventh on in the strip: the set `strip`",
                       (Batch(4.5, 0.80, STRIP, 280, 9), Batch(4.5, 0.85, STRIP, 310, 12))),
     "rotation-saturates": ("eight seeds at 0.80 and 0.85: the set `diffusion-along`",
