@@ -27,7 +27,7 @@ class DisjointSets {
     parent_[j] = i;
     size_[i] += size_[j];
   }
-  /// Of each set, the largest first.
+  /// The size of each set, the largest first.
   std::vector<std::size_t> sizes() const {
     std::vector<std::size_t> sizes;
     for (std::size_t i = 0; i < parent_.size(); ++i) {

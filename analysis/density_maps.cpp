@@ -20,7 +20,7 @@ constexpr int kPlacesInCell = 32;
 /// Lags of the correlation, at most.
 constexpr std::size_t kMostLags = 512;
 
-/// Of each cell what lies within walls, 0 to 1 (rows * columns).
+/// The share of each cell that lies within walls, 0 to 1 (rows * columns).
 std::vector<double> shares_within(const Region& region, const Grid& grid) {
   if (!region.has_walls()) return std::vector<double>(grid.nodes(), 1.0);
   const Vec2 mesh(region.box().x() / grid.columns, region.box().y() / grid.rows);

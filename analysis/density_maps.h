@@ -28,7 +28,7 @@ struct DensitySummary {
 /// which less than a tenth does is left out, with the rods in it.
 class DensityMaps : public Saved<DensityMaps> {
  public:
-  /// Of less than this share of a cell nothing is said.
+  /// The least share of a cell within walls of which anything is said.
   static constexpr double kLeastShare = 0.1;
 
   /// `interval` between samples [s].

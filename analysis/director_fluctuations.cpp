@@ -119,7 +119,7 @@ struct Waves {
   double square(std::size_t n, std::size_t m) const { return re[n][m] * re[n][m] + im[n][m] * im[n][m]; }
 };
 
-/// Of each place in the periodic unit square the index of the nearest other one; its own if there is no other.
+/// The index of the other place that is nearest to each, in the periodic unit square; its own if there is no other.
 std::vector<std::size_t> nearest_of_each(const std::vector<Vec2>& places) {
   const int side = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(places.size()))));
   const auto cell_at = [side](const Vec2& place) {

@@ -45,7 +45,7 @@ struct DirectorSpectrum {
 /// What rods do not share with the rod nearest to them, after the measured waves' part of that, is their own:
 ///   <e^2> = <s^2> - <s s'> - sum_q (P_q - floor) / L^2 (1 - <cos q . (r - r')>),   ' of the nearest.
 /// Without the last two, rods side by side that lean together count as noise, and the short waves come out negative.
-/// Of fewer than 336 rods, S_0 = 1.
+/// With fewer than 336 rods, S_0 = 1.
 ///
 /// The director may wander: samples are summed in sectors of 5 degrees of its angle, and every sector has its own
 /// wave vectors along and across.

@@ -12,7 +12,7 @@ constexpr double kTotal[] = {1, 1, 0, 0};
 constexpr double kAlong[] = {1, 0, 0, 0};
 constexpr double kAcross[] = {0, 1, 0, 0};
 
-/// Of motion relative to that of all rods, as if the mean of all took nothing away: with the factor N / (N - 1).
+/// Motion relative to that of all rods, as if the mean of all took nothing away: with the factor N / (N - 1).
 class Relative {
  public:
   explicit Relative(std::size_t n_rods) : f_(static_cast<double>(n_rods) / (static_cast<double>(n_rods) - 1)) {}

@@ -59,7 +59,7 @@ class MeanSquareDisplacement : public Saved<MeanSquareDisplacement> {
 
   /// At `time` [s]: unwrapped centres (n_rods) [mm], and the angle of the nematic director [rad].
   void accumulate(double time, std::span<const Vec3> unwrapped, double director);
-  /// Of the origins from `t_steady` [s] on.
+  /// Averages over the origins from `t_steady` [s] on.
   MsdCurve reduce(double t_steady = -std::numeric_limits<double>::max()) const;
   Diffusion diffusion(double t_steady = -std::numeric_limits<double>::max()) const;
 

@@ -51,7 +51,7 @@ class Rotation : public Saved<Rotation> {
 
   /// Directors (n_rods) at `time` [s]; n_rods is the same in every call.
   void accumulate(double time, std::span<const Vec3> directors);
-  /// Of the origins from `t_steady` [s] on.
+  /// Averages over the origins from `t_steady` [s] on.
   RotationCurve reduce(double t_steady = -std::numeric_limits<double>::max()) const;
   RotationSummary summarize(double t_steady = -std::numeric_limits<double>::max()) const;
 

@@ -62,7 +62,7 @@ class SelfScattering : public Saved<SelfScattering> {
   /// At `time` [s]: unwrapped centres (n_rods) [mm], and the angle of the nematic director [rad]; n_rods is the same in
   /// every call.
   void accumulate(double time, std::span<const Vec3> unwrapped, double director);
-  /// Of the origins from `t_steady` [s] on.
+  /// Averages over the origins from `t_steady` [s] on.
   ScatteringCurve reduce(double t_steady = -std::numeric_limits<double>::max()) const;
   static ScatteringSummary summarize(const ScatteringCurve& curve);
 

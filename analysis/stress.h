@@ -44,7 +44,7 @@ class PressureSums : public Summed<PressureSums> {
  public:
   /// Means of `duration` [s] in the frame of a director at the angle `director` [rad].
   void accumulate(double duration, const PlaneTensor& kinetic, const PlaneTensor& collisional, double director);
-  /// Of `n_rods`. NaN without any time, and with a kinetic part in it of a single rod.
+  /// The pressure of `n_rods`. NaN without any time, and with a kinetic part in it of a single rod.
   Pressure reduce(std::size_t n_rods) const;
 
   static constexpr const char* kName = "PressureSums";

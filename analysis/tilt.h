@@ -35,8 +35,8 @@ class TiltVelocity : public Summed<TiltVelocity> {
   void accumulate(std::span<const Vec3> directors, std::span<const Vec3> velocities);
   TiltMeans means() const;
 
-  /// Of all `blocks`, successive stretches of time, with errors by the jackknife over them. `empty` is one without
-  /// samples, of the same bins.
+  /// The curve of all `blocks`, successive stretches of time, with errors by the jackknife over them. `empty` is one
+  /// without samples, of the same bins.
   static TiltCurve reduce(const TiltVelocity& empty, const std::vector<TiltVelocity>& blocks);
 
   static constexpr const char* kName = "TiltVelocity";

@@ -35,8 +35,8 @@ struct TiltSummary {
   double zero_sigma = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Of all `blocks`, successive stretches of time, with errors by the jackknife over them, given which bins are chosen.
-/// `empty` is one without samples, of the same bins.
+/// The summary of all `blocks`, successive stretches of time, with errors by the jackknife over them, given which bins
+/// are chosen. `empty` is one without samples, of the same bins.
 TiltSummary summarize_tilt(const TiltVelocity& empty, const std::vector<TiltVelocity>& blocks);
 
 }  // namespace shaken::analysis

@@ -85,7 +85,7 @@ double maximum_of(const AnglePdf& pdf, double start, double reach) {
   return std::abs(fold_half_turn(place));
 }
 
-/// Of the two Gaussians alone: x = theta_m tanh(x theta_m / width^2).
+/// The maximum of the two Gaussians alone: x = theta_m tanh(x theta_m / width^2).
 double maximum_of_model(double theta_m, double width) {
   double x = theta_m;
   for (int step = 0; step < 200; ++step) x = theta_m * std::tanh(x * theta_m / (width * width));

@@ -112,7 +112,7 @@ Estimate estimate(const LagCurve& curve, std::span<const double> weights, const 
   return estimate_of(curve, weights, integral.value, integral.derivatives);
 }
 
-/// Of the correlation, which is 1 at lag zero.
+/// The integral of the correlation, which is 1 at lag zero.
 Estimate normalised(const LagCurve& curve, std::span<const double> weights, const Integral& integral) {
   if (!std::isfinite(integral.value)) return {};
   const double square = product(curve, weights, 0);

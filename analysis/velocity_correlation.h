@@ -64,7 +64,7 @@ class VelocityCorrelation : public Saved<VelocityCorrelation> {
   /// At `time` [s]: unwrapped centres (n_rods) [mm], and the angle of the nematic director [rad]; n_rods is the same in
   /// every call.
   void accumulate(double time, std::span<const Vec3> unwrapped, double director);
-  /// Of the origins t0 from `t_steady` [s] on.
+  /// Averages over the origins t0 from `t_steady` [s] on.
   VelocityCurve reduce(double t_steady = -std::numeric_limits<double>::max()) const;
   VelocitySummary summarize(double t_steady = -std::numeric_limits<double>::max()) const;
 

@@ -15,7 +15,7 @@ double read_clock(clockid_t clock) {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// Of one reading of this thread's clock, the least of several batches [s].
+/// The time that one reading of this thread's clock takes, the least of several batches [s].
 double cost_of_reading() {
   constexpr int kBatches = 20;
   constexpr int kReadings = 2000;

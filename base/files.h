@@ -67,7 +67,7 @@ void remove_unfinished(const std::filesystem::path& file);
 /// reads it for ever.
 Result<std::string> read_file(const std::filesystem::path& file);
 
-/// Of a regular file, at most `size` bytes from `offset` on, which counts from the file's end where it is negative.
+/// At most `size` bytes of a regular file from `offset` on, which counts from the file's end where it is negative.
 /// Empty where the file ends before that.
 Result<std::string> read_part(const std::filesystem::path& file, std::int64_t offset, std::size_t size);
 

@@ -70,7 +70,7 @@ constexpr std::optional<JobState> job_state(std::string_view word) {
   }
   return std::nullopt;
 }
-/// Of a word that a daemon has sent.
+/// The same of a word that a daemon has sent; one that is not known has no worker.
 constexpr bool has_worker(std::string_view word) { return has_worker(job_state(word).value_or(JobState::kQueued)); }
 
 }  // namespace shaken

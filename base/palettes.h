@@ -51,10 +51,10 @@ Colour name_colour(std::size_t index);
 /// A colour of its own for each of many rods.
 Colour number_colour(std::size_t number);
 
-/// Of what has no value.
+/// The colour of what has no value.
 Colour no_value_colour();
 
-/// Of a field where there is no order: blue-grey, lighter over a light page.
+/// The colour of a field where there is no order: blue-grey, lighter over a light page.
 Colour no_order_colour(bool is_page_dark);
 
 /// From one colour (t = 0) to another (1), by their sRGB components.

@@ -21,7 +21,7 @@ namespace {
 
 constexpr int kParentHasGone = 1;
 constexpr int kCannotRun = 127;
-/// Of a child of whose end the system does not know, as if it had been killed.
+/// The end of a child of which the system does not know: as if it had been killed.
 constexpr ProcessEnd kLost{0, SIGKILL};
 
 std::vector<char*> argument_vector(const std::vector<std::string>& command) {

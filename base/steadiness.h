@@ -7,7 +7,7 @@
 
 namespace shaken {
 
-/// Of what kind of time an average is. All that shows averages has the same marks and words for it.
+/// The kind of time that an average is of. All that shows averages has the same marks and words for it.
 enum class Steadiness {
   kSteady,    ///< a steady state, or no average over time
   kRelaxing,  ///< one in which the run still relaxed

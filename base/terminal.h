@@ -11,7 +11,7 @@ struct TerminalSize {
   int lines = 0;
 };
 
-/// Of the terminal that `descriptor` writes to; nothing if it is none, or does not know its size.
+/// The size of the terminal that `descriptor` writes to; nothing if it is none, or does not know its size.
 inline std::optional<TerminalSize> terminal_size(int descriptor) {
   winsize size{};
   if (ioctl(descriptor, TIOCGWINSZ, &size) != 0 || size.ws_col == 0 || size.ws_row == 0) return std::nullopt;

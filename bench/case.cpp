@@ -47,7 +47,7 @@ Simulation simulate(const Case& wanted) {
   return simulation;
 }
 
-/// Of the text of a scene with further settings.
+/// The case of the text of a scene with further settings.
 Case loaded_case(std::string_view text, double warm_up, const std::string& label, std::vector<std::string> settings) {
   settings.insert(settings.end(), {"time.steady=0", fmt::format("time.measure={:.17g}", warm_up)});
   const auto loaded = scene::load_scene(text, label, settings);

@@ -45,12 +45,13 @@ inline constexpr std::pair<double, double> kWarmUps{1e-3, 1e4};  ///< that may b
 /// The values that a scene's field may have, in its default unit.
 std::pair<double, double> limits_of(std::string_view field);
 
-/// Of a scene as a user would write it, but for what says how long it runs and what it measures: `warm_up` says the
-/// one, and it measures nothing. Throws Failure with all that is wrong with the scene.
+/// The case of a scene as a user would write it, but for what says how long it runs and what it measures: `warm_up`
+/// says the one, and it measures nothing. Throws Failure with all that is wrong with the scene.
 Case case_of(nlohmann::json scene, double warm_up, const std::string& label);
-/// Of a scene file, with its own time step. Throws Failure with all that is wrong with it.
+/// The case of a scene file, with its own time step. Throws Failure with all that is wrong with it.
 Case read_case(const std::filesystem::path& file, double warm_up);
-/// Of rods in a periodic box; everything that is not named here is the scene file's default. Its label is label_of.
+/// The case of rods in a periodic box; everything that is not named here is the scene file's default. Its label is
+/// label_of.
 Case make_case(double length, double area_fraction, double side, double dt, double warm_up);
 
 /// A case after its warm-up.

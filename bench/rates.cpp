@@ -54,7 +54,7 @@ Layout of_threads() {
            kSame}};
 }
 
-/// Of scenes that take turns.
+/// The layout for scenes that take turns.
 Layout of_series(const char* file, const char* bench, const std::string& by) {
   return {file,
           bench,

@@ -30,7 +30,7 @@ struct SlurmEstimate {
   double refill = 0;      ///< least time in which the daemon hands all tasks over [s]
   bool too_long = false;  ///< a task takes longer than it may
 
-  /// Of the sweep, with the daemon's handing over [s].
+  /// The time of the sweep, with the daemon's handing over [s].
   double all() const { return std::max(wall, refill); }
 };
 

@@ -67,7 +67,7 @@ class LogReader {
   Result<std::optional<LoggedMessage>> next();
   /// Goes on to the first message that is not earlier than `utime`, without reading what lies between.
   Result<void> skip_to(std::int64_t utime);
-  /// Of the first message; none in an empty log.
+  /// The time of the first message; none in an empty log.
   std::optional<std::int64_t> first_utime() const { return first_; }
   /// Whether the file ends within a message: whoever wrote it was killed, or had no more room. That message is left
   /// out.

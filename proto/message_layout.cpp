@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::size_t kFingerprintBytes = 8;
 
-/// Of a number, be it by itself or in an array; none of a space.
+/// Bytes of a number, be it by itself or in an array; a space has none.
 constexpr std::size_t bytes_of(char field) {
   if (field == '8' || field == 'D') return 8;
   if (field == '4' || field == 'W') return 4;

@@ -26,13 +26,13 @@ std::string typeset(const std::string& text);
 /// Where drawing with Cairo happens. Coordinates are pixels from the upper left corner.
 class Canvas {
  public:
-  /// Of pixels.
+  /// A canvas of pixels.
   Canvas(int width, int height, const Colour& page);
-  /// Of pixels, with nothing on it: what is drawn is laid over a picture afterwards.
+  /// A canvas of pixels with nothing on it: what is drawn is laid over a picture afterwards.
   static Canvas transparent(int width, int height);
-  /// Of lines and areas, as a file of the format that `ending` names: ".svg" or ".pdf". A PDF has a title and, as
-  /// keywords, the notes; its pages are as large as so many pixels are at `dpi` to the inch. Without a
-  /// page's colour there is nothing under what is drawn.
+  /// A canvas of lines and areas, as a file of the format that `ending` names: ".svg" or ".pdf". A PDF has a title and,
+  /// as keywords, the notes; its pages are as large as so many pixels are at `dpi` to the inch. Without a page's colour
+  /// there is nothing under what is drawn.
   static Result<Canvas> vector(const std::filesystem::path& file, const std::string& ending, int width, int height,
                                const std::optional<Colour>& page, const std::string& title, const Notes& notes,
                                double dpi = 72);
@@ -55,11 +55,11 @@ class Canvas {
   void paste(const Image& image, int x, int y, double opacity = 1);
   /// Draws a picture smoothly over `rect`, of which its outer pixels' middles are the edges.
   void spread(const Image& image, const Rect& rect) const;
-  /// Of pixels only.
+  /// The pixels of a canvas that has them.
   Image image() const;
   /// Lays a transparent canvas over a picture of its size.
   void lay_over(DeepImage& image) const;
-  /// Of an SVG: the elements of all text, which Cairo would write as outlines. They belong at the file's end.
+  /// The elements of all text of an SVG, which Cairo would write as outlines. They belong at the file's end.
   std::string svg_words() const { return svg_words_ ? *svg_words_ : ""; }
   /// Whether everything was drawn so far: after a font that cannot be read, say, Cairo draws nothing any more.
   Result<void> check() const;

@@ -35,7 +35,7 @@ class DefectLinks {
   /// Where defects were from `time - span` to `time`, each with its whole way in that time, in pieces without such
   /// steps.
   std::vector<DefectTrail> trails(double time, double span) const;
-  /// Of the defects with that charge the one that has lived longest, or after `rank` others; of equal ones the older.
+  /// The defect with that charge that has lived longest, or after `rank` others; the older of equal ones.
   std::optional<DefectLife> longest(double charge, std::size_t rank) const;
   /// Defects with that charge.
   std::size_t count(double charge) const;

@@ -24,7 +24,7 @@ std::string defects_text(const RodPicture& picture, const PictureStyle& style, d
 /// How many rods of one species there are, and their S.
 std::string species_text(const Cell& cell, const Frame& frame, std::size_t species);
 
-/// Of a film: how far it is, as a bar along the picture's lower edge.
+/// Draws how far a film is, as a bar along the picture's lower edge.
 void draw_time_bar(const Canvas& canvas, const Captions& captions, const PictureStyle& style);
 
 /// How fast a film plays, "1/10 speed", "6× speed", from simulated seconds per second; nothing if it is not known.

@@ -28,12 +28,13 @@ Layout layout_for(const RodPicture& picture, const PictureStyle& style) {
 
 constexpr int kLeastSide = 40;  // of a box among others [pixels]
 
-/// Of a picture and those beside it, the one of panel `i`.
+/// The picture of panel `i`: this one, or one of those beside it.
 const RodPicture& panel_of(const RodPicture& picture, std::size_t i) {
   return i == 0 ? picture : picture.beside[i - 1];
 }
 
-/// Of bodies without axes there is no director field: no defects, lines, order in the background, plots of angles or S.
+/// Bodies without axes have no director field: the style without defects, lines, order in the background, plots of
+/// angles or S.
 PictureStyle drawable(PictureStyle style, const RodPicture& picture) {
   const bool any =
       picture.cell.has_axes() || std::any_of(picture.beside.begin(), picture.beside.end(),

@@ -120,7 +120,7 @@ struct Asked {
   bool defects = false;
   bool field = false;    ///< the director field
   bool density = false;  ///< the area fraction around each rod
-  /// Of the director field in which defects are looked for [mm]; 0: the defaults of a run.
+  /// Smoothing and mesh of the director field in which defects are looked for [mm]; 0: the defaults of a run.
   double smoothing = 0, grid = 0;
 };
 

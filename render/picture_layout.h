@@ -32,7 +32,7 @@ Layout layout_of(const PictureStyle& style, const Contents& contents);
 /// Gives the inset its place on the box, or on the stage, if the style asks for one that has none yet.
 void place_inset(Layout& layout, const PictureStyle& style);
 
-/// Of a view in perspective: the stage over the whole width, and a strip below it with all that is written.
+/// The layout of a view in perspective: the stage over the whole width, and a strip below it with all that is written.
 Layout stage_layout_of(const PictureStyle& style, const Contents& contents);
 
 }  // namespace shaken::render

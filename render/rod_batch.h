@@ -17,7 +17,7 @@ struct RodInstance {
 
 /// The rods of one species, as the shaders of each pass get them.
 struct RodBatch {
-  /// Of a species that check_drawable() (render/rods_pass.h) has let through; without rods.
+  /// A batch for a species that check_drawable() (render/rods_pass.h) has let through; without rods.
   explicit RodBatch(const BeadRow& row);
   /// Hands beads and rods to `program`, which must be in use, and draws one quad for each rod from the bound RodBuffer.
   void draw(GLuint program) const;

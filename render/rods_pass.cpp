@@ -20,7 +20,7 @@ namespace {
 
 /// Where light comes from: over the left shoulder of who looks.
 Vec3 light_in(const Camera& camera) { return -0.42 * camera.right + 0.50 * camera.up - 0.757 * camera.forward; }
-/// Of shadows, in greatest radii.
+/// The margin of shadows, in greatest radii.
 constexpr double kMargin = 1.1;
 
 /// What keeps a picture from being drawn, if anything.

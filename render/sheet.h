@@ -12,7 +12,7 @@ namespace shaken::render {
 template <class Channel>
 class Sheet;
 
-/// Of 8 bits a colour: one canvas, drawn on in that order.
+/// A sheet of 8 bits a colour: one canvas, drawn on in that order.
 template <>
 class Sheet<std::uint8_t> {
  public:
@@ -27,7 +27,7 @@ class Sheet<std::uint8_t> {
   Canvas canvas_;
 };
 
-/// Of 16 bits a colour. Cairo has 8: what it draws is put together with the rods in the end.
+/// A sheet of 16 bits a colour. Cairo has 8: what it draws is put together with the rods in the end.
 template <>
 class Sheet<std::uint16_t> {
  public:

@@ -70,7 +70,7 @@ class TrajectorySource {
   /// How far each rod has come, from the frame nearest to `span` seconds before the one of `index`, to `now`.
   Result<std::vector<Vec2>> displacements(const Snapshot& now, std::size_t index, double span) const;
   Result<RodPicture> bare_picture(const Snapshot& frame, Asked asked) const;
-  /// Of a frame at, or next to, the recorded one of `index`.
+  /// The picture of a frame at, or next to, the recorded one of `index`.
   Result<RodPicture> picture_of(const Snapshot& frame, std::size_t index, const PictureStyle& style);
 
   OrderHistory history_;

@@ -15,7 +15,7 @@ struct View {
   double side = 0;
   Vec2 period{0, 0};  ///< of the plane, in x and in y; 0: nothing is repeated
 };
-/// Of a periodic box that is longer than wide, the longer side: its images stand beside it.
+/// Shows a periodic box that is longer than wide by its longer side: its images stand beside it.
 View view_of(const RodPicture& picture, const PictureStyle& style);
 /// What is framed in the view [mm], from its corner: the view itself, unless more than the box is seen.
 struct Framed {

@@ -39,7 +39,7 @@ RunPlan placed_alike(const RunPlan& plan) {
 /// there may be a hundred thousand.
 class Placings {
  public:
-  /// Of a point whose rods are placed as another's were; null if it is the first, which is then added.
+  /// What was found of an earlier point whose rods are placed alike; null if this is the first, which is then added.
   bool* find_or_add(const RunPlan& plan) {
     const System& system = plan.system;
     std::size_t hash = 0;
@@ -56,7 +56,7 @@ class Placings {
     last_ = &known_.emplace(hash, Placing{&plan, true})->second;
     return nullptr;
   }
-  /// Of the one that was added last.
+  /// Marks the one that was added last.
   void cannot_be_placed() { last_->second = false; }
 
  private:

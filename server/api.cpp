@@ -304,7 +304,7 @@ struct Handlers {
     return {answer};
   }
 
-  /// Of "/v1/jobs/ID/ACTION" and "/v1/sweeps/ID/ACTION".
+  /// Answers "/v1/jobs/ID/ACTION" and "/v1/sweeps/ID/ACTION".
   Answer control(const Call& call) const {
     const auto parts = split(call.request.path, '/');
     const std::string& action = parts.back();

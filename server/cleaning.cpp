@@ -23,7 +23,7 @@ bool is_folder(const fs::path& path) {
   return fs::symlink_status(path, error).type() == fs::file_type::directory;
 }
 
-/// Of all files in a folder; links count nothing.
+/// The size of all files in a folder; links count nothing.
 std::int64_t bytes_below(const fs::path& folder) {
   std::error_code error;
   std::int64_t bytes = 0;

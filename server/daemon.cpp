@@ -125,7 +125,7 @@ std::string lcm_url_in_slurm(const DaemonConfig& config) {
   return config.lcm_url_is_asked_for && config.lcm_url.starts_with("tcpq://") ? config.lcm_url : "";
 }
 
-/// Of runs on this machine, or of those in Slurm.
+/// The options for runs on this machine, or for those in Slurm.
 SupervisorOptions supervisor_options(const DaemonConfig& config, const DaemonInfo& info, bool in_slurm) {
   SupervisorOptions options{info.runs(), in_slurm ? kManyTasks : config.slots,
                             lcm_options(in_slurm ? lcm_url_in_slurm(config) : config.lcm_url),

@@ -47,7 +47,7 @@ struct Cell {
     if (species_of_shape.empty()) return k;
     return static_cast<std::size_t>(std::ranges::find(species_of_shape, k) - species_of_shape.begin());
   }
-  /// Of `values`, which has one for each rod, those of the rods of species `k`.
+  /// Those of `values`, which has one for each rod, that are of rods of species `k`.
   template <class Value>
   std::vector<Value> of_species(std::size_t k, const std::vector<Value>& values) const {
     if (has_one_species() && k == 0) return values;

@@ -11,7 +11,7 @@ struct Gravity {
   bool is_inclined = false;   ///< or else `along` is passed over
 
   Gravity() = default;
-  /// Of level plates.
+  /// Gravity between level plates.
   Gravity(double down_) : down(down_) {}
 
   double along_size() const { return is_inclined ? along.norm() : 0.0; }

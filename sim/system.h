@@ -92,17 +92,18 @@ struct Contacts : ContactParameters {
       : ContactParameters(common) {}
   Contacts(double mu, double e) : ContactParameters{mu, e} {}
 
-  /// Of each pair with an added species: (0, 1), (1, 1), (0, 2), (1, 2), (2, 2). A surface meets species b as (0, b).
+  /// The contact of each pair with an added species: (0, 1), (1, 1), (0, 2), (1, 2), (2, 2). A surface meets species b
+  /// as (0, b).
   std::array<OwnContact, 5> own{};
   /// The place of species a and b, in either order, of which one is added.
   static constexpr std::size_t place(std::size_t a, std::size_t b) {
     return a <= b ? b * (b + 1) / 2 + a - 1 : place(b, a);
   }
-  /// Of rods of species a and b.
+  /// The contact of rods of species a and b.
   ContactParameters of(std::size_t a, std::size_t b) const {
     return a + b > 0 ? own[place(a, b)].over(*this) : ContactParameters(*this);
   }
-  /// Of a surface and rods of species b.
+  /// The contact of a surface and rods of species b.
   ContactParameters of(std::size_t b) const { return of(0, b); }
 
   friend bool operator==(const Contacts&, const Contacts&) = default;
@@ -300,7 +301,7 @@ struct System {
   Gravity gravity_on_plates() const;
   /// The base is too weak to throw rods, which come to rest on it.
   bool lets_rods_rest() const { return base && peak_acceleration() < gravity_on_plates().down; }
-  /// Of rods of a species [rad/mm].
+  /// The noise of rods of a species [rad/mm].
   double noise_of(std::size_t number) const {
     return number == 0 ? rotational_noise : added_noise[number - 1].value_or(rotational_noise);
   }

@@ -83,7 +83,7 @@ struct PoseAndMotion {
   Pose pose;  ///< where the rod would be if the box had not been left since its flight began
   Motion motion;
 };
-/// Of rod `i` at `tick`, at which it flies already.
+/// Pose and motion of rod `i` at `tick`, at which it flies already.
 PoseAndMotion rod_at(const World& world, std::size_t i, Tick tick);
 
 /// Every rod evaluated at the world's tick.

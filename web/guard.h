@@ -30,8 +30,8 @@ class Guard {
   ///   ticket (web/tickets.h) has been given for.
   std::optional<http::TurnedAway> stop(const http::Request& head) const;
 
-  /// Of every answer, refusals too: nothing but what is served here is loaded, run or asked; text that came from
-  /// outside stays text.
+  /// The headers of every answer, refusals too: nothing but what is served here is loaded, run or asked; text that came
+  /// from outside stays text.
   static const http::Headers& headers();
 
   /// What to open in a browser. The token is in a part of it that is not sent.

@@ -71,7 +71,7 @@ Result<std::string> frame(const RecordedRun& run, const std::string& word) {
   return packed(SHAKEN_TRY(run.frame(index)));
 }
 
-/// Of rod `rod`, up to frame `word`.
+/// The path of rod `rod`, up to frame `word`.
 Result<std::string> path(const RecordedRun& run, const std::string& rod, const std::string& word) {
   const auto last = SHAKEN_TRY(index_in(run, word));
   const auto which = number_in<std::size_t>(rod);

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 /// After which a bad file is tried again: the machine may only have been busy.
 constexpr std::chrono::seconds kMemory{60};
 constexpr std::size_t kMostBad = 1000;
-/// Of one answer [bytes].
+/// The longest answer [bytes].
 constexpr std::size_t kMostAnswer = std::size_t{512} << 20;
 constexpr int kSignalled = 128;  // and what is above it
 

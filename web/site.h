@@ -44,7 +44,7 @@ class Site {
  private:
   http::Reply routed(const http::Request& request);
   http::Reply page_file(const std::string& name) const;
-  /// Of the queue, and of a run if one is named.
+  /// A stream of events of the queue, and of a run if one is named.
   http::Reply events(const std::string& run);
   http::Reply ticket(const http::Request& request);
   http::Reply of_run(const std::string& run, const std::vector<std::string>& rest, const http::Request& request);

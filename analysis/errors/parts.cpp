@@ -19,7 +19,7 @@ struct Noise {
   double inefficiency;  // g
 };
 
-/// Of `residuals` about a fit of `fitted` numbers, where the estimate of the correlation has the bias
+/// The noise of `residuals` about a fit of `fitted` numbers, where the estimate of the correlation has the bias
 /// -(bias_0 + bias_1 rho) / n.
 Noise noise_of(std::span<const double> residuals, double fitted, double bias_0, double bias_1) {
   const auto n = static_cast<double>(residuals.size());

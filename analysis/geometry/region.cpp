@@ -11,7 +11,7 @@
 namespace shaken::analysis {
 namespace {
 
-/// Of a disc of radius r about one corner of a rectangle, the area inside of the rectangle.
+/// The area that a disc of radius r about a corner of a rectangle has inside of the rectangle.
 double quarter_in_rectangle(double width, double height, double r) {
   if (r * r >= width * width + height * height) return width * height;
   const double right = std::min(width, r);
@@ -22,7 +22,7 @@ double quarter_in_rectangle(double width, double height, double r) {
   return height * flat + below_arc(right) - below_arc(flat);
 }
 
-/// Of a rectangle round the centre, whose half sides are `half`; they may be infinite.
+/// The area of a disc about `place` in a rectangle round the centre, whose half sides are `half`; they may be infinite.
 double in_rectangle(const Vec2& half, const Vec2& place, double r) {
   double area = 0;
   for (const double width : {half.x() - place.x(), half.x() + place.x()}) {

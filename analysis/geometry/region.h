@@ -15,7 +15,7 @@ class Region {
  public:
   /// A periodic box, or the arena that `walls` leave of it. Not explicit: a box is a region.
   Region(const Box& box, const std::optional<SideWalls>& walls = std::nullopt);
-  /// Of a square box.
+  /// The region of a square box.
   Region(double side) : Region(Box(side)) {}
 
   const Box& box() const { return box_; }

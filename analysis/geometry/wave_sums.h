@@ -22,7 +22,7 @@ struct WaveVectors {
   int most_m, most_n;
 
   std::size_t size() const { return static_cast<std::size_t>(most_m + 1) * static_cast<std::size_t>(2 * most_n + 1); }
-  /// Of (m, n) among them, n fastest.
+  /// The place of (m, n) among them, n fastest.
   std::size_t index(int m, int n) const {
     return static_cast<std::size_t>(m) * static_cast<std::size_t>(2 * most_n + 1) +
            static_cast<std::size_t>(n + most_n);

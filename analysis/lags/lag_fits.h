@@ -12,8 +12,8 @@ namespace shaken::analysis {
 struct GrowthFit {
   double lag_from = std::numeric_limits<double>::quiet_NaN();  ///< shortest lag of the window [s]
   double lag_to = std::numeric_limits<double>::quiet_NaN();    ///< longest [s]
-  /// Of the least-squares line with an intercept, [unit of the mean square / s]. In d dimensions D = slope / (2 d),
-  /// also where a persistent or caged beginning has shifted the line.
+  /// The slope of the least-squares line with an intercept, [unit of the mean square / s]. In d dimensions D = slope /
+  /// (2 d), also where a persistent or caged beginning has shifted the line.
   Estimate slope;
   Estimate exponent;  ///< slope of the least-squares line of logarithm on logarithm; 1 is normal diffusion
 };
@@ -28,9 +28,9 @@ struct ShortAndLong {
   GrowthFit at_long;
 };
 
-/// Of the linear combination of a curve's quantities with `weights` (quantities), a mean square. Errors come from the
-/// stretches of origin time (LagCurve::estimate). Windows of fewer than three lags give NaN, as do exponents where the
-/// mean square is not positive.
+/// The growth of the linear combination of a curve's quantities with `weights` (quantities), a mean square. Errors come
+/// from the stretches of origin time (LagCurve::estimate). Windows of fewer than three lags give NaN, as do exponents
+/// where the mean square is not positive.
 ShortAndLong growth(const LagCurve& curve, std::span<const double> weights);
 
 /// alpha(lag) = d ln MS / d ln lag from the neighbouring lags (at the ends from the last two); NaN at lag zero and

@@ -13,7 +13,7 @@ class Box {
   /// Not explicit: a number is the side of a square.
   Box(double side) : sides_(side, side) {}
   Box(double x, double y) : sides_(x, y) {}
-  /// Of side `side` along x, and `aspect` times as much along y.
+  /// A box of side `side` along x, and `aspect` times as much along y.
   static Box of_aspect(double side, double aspect) { return {side, side * aspect}; }
 
   double x() const { return sides_.x(); }

@@ -64,7 +64,7 @@ class HttpServer {
   HttpServer(int port, Gate gate, Handler handler, const Headers& headers = {});
   /// Waits for every connection to end.
   ~HttpServer();
-  /// Of 127.0.0.1.
+  /// The port of 127.0.0.1 at which it listens.
   int port() const;
   /// Whether clients find it: its socket file, if it has one, is still there, and still its own.
   bool is_reachable() const;

@@ -30,7 +30,7 @@ class Draft {
   /// The block is on.
   bool is_on(std::string_view block) const;
   bool is_on(std::size_t block) const;
-  /// Of the text as a whole.
+  /// The place of the text as a whole.
   const Place& place() const { return place_; }
 
  private:

@@ -30,7 +30,7 @@ bool fits_pattern(const std::string& text, const std::string& pattern) {
 std::string quoted(const std::vector<std::string>& names) { return fmt::format("\"{}\"", fmt::join(names, "\", \"")); }
 
 /// A value like the one written that would be allowed: the same digits with another unit or with the point moved.
-/// Of several the one nearest to the default.
+/// Of several such values it is the one nearest to the default.
 std::string slip_of_the_pen(const Rule& rule, const Written& written) {
   const double* usual = std::get_if<double>(&rule.fallback);
   if (!usual || *usual <= 0 || written.number.digits <= 0) return {};

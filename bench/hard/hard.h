@@ -89,7 +89,7 @@ inline constexpr int kHistoryPoints = 200;
 /// Failure if the rods cannot be placed, or on numerical trouble.
 std::vector<HistoryPoint> history_of(const System& scene, double seconds, const OnProgress& on_progress);
 
-/// Of all beads of all species [mm].
+/// The least radius of all beads of all species [mm].
 double thinnest_radius(const World& world);
 
 /// The three scenes order-sorted, order-reversed and order-shuffled, of which the statistics are compared.

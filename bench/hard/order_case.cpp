@@ -20,8 +20,8 @@ constexpr int kSettling = 11;  ///< one part in so many of a replica is not coun
 
 struct Quantity {
   const char* name;
-  /// Of a difference, as a fraction of the mean: four errors or more of that of two orders at the effort that
-  /// is the default, so that means that are the same are nearly always shown to be.
+  /// The tolerance of a difference, as a fraction of the mean: four errors or more of that of two orders at the effort
+  /// that is the default, so that means that are the same are nearly always shown to be.
   double bound;
 };
 constexpr std::size_t kQuantities = 6;
@@ -65,7 +65,7 @@ std::variant<Means, NumericalTrouble> means_of(const System& scene, double secon
   return sum;
 }
 
-/// Of the two orders that are farthest from being the same.
+/// The outcome of the two orders that are farthest from being the same.
 Outcome outcome_of(const Quantity& quantity, const std::array<std::vector<double>, 3>& samples,
                    const OrderEffort& effort) {
   const double bound = quantity.bound * effort.slack;

@@ -25,8 +25,8 @@ struct Apart {
   Sameness within(double bound) const;
 };
 
-/// Of independent samples, each of which is as good as any other. The interval is Welch's (Biometrika 34, 28 (1947)),
-/// with student_quantile, which needs three degrees of freedom at least.
+/// Compares independent samples, each of which is as good as any other. The interval is Welch's (Biometrika 34, 28
+/// (1947)), with student_quantile, which needs three degrees of freedom at least.
 Apart compare_means(std::span<const double> first, std::span<const double> second);
 
 }  // namespace shaken::bench

@@ -10,7 +10,7 @@ namespace shaken::client {
 /// A colour of a cell: 0xRRGGBB, the terminal's own, or one of the eight that the terminal's theme defines.
 using Ink = std::int32_t;
 inline constexpr Ink kOwnInk = -1;
-/// Of the theme, 0 to 7: black, red, green, yellow, blue, magenta, cyan, white.
+/// The ink of the theme, 0 to 7: black, red, green, yellow, blue, magenta, cyan, white.
 constexpr Ink theme_ink(int number) { return -2 - number; }
 
 /// By what rods are coloured.
@@ -37,9 +37,9 @@ Tone layer_tone(double theta);
 /// 24 for half a turn.
 Tone wheel_tone(double angle);
 Tone tilt_tone(double n_z);
-/// Of rods that are coloured by species.
+/// The tone of rods that are coloured by species.
 Tone species_tone(std::size_t species);
-/// Of all rods of another species than the first, where those have colours of angles.
+/// The tone of all rods of another species than the first, where those have colours of angles.
 Tone other_tone(std::size_t species);
 
 Ink ink_of(const shaken::Colour& colour);

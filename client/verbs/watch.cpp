@@ -21,7 +21,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using OpenedBus = Result<std::unique_ptr<proto::Bus>>;
 
-/// Of the help.
+/// The examples of the help.
 std::string examples_text() {
   std::string text =
       "  shaken watch                  all that is queued or runs, of any sweep; else the newest sweep\n"

@@ -14,8 +14,8 @@ namespace shaken::client {
 /// both sides. Where walls end the box nothing is repeated. Rows go down, y goes up.
 class RodSamples {
  public:
-  /// Of the walls and of all rods. Numbers must be finite and the sides of the box positive; `colouring` is not kAuto.
-  /// `frame` must outlive this.
+  /// Samples of the walls and of all rods. Numbers must be finite and the sides of the box positive; `colouring` is not
+  /// kAuto. `frame` must outlive this.
   RodSamples(const RodFrame& frame, const RodView& view, Colouring colouring, int width, int height);
 
   int width() const { return width_; }

@@ -37,7 +37,7 @@ std::string colour_code(Ink ink, int base, ColourDepth depth) {
   return fmt::format("{};2;{};{};{}", base + 8, part(ink, 16), part(ink, 8), part(ink, 0));
 }
 
-/// Of the cells that look like `cell`, the one that needs the fewest changes of colour after `style`: nothing of a
+/// The cell, among those that look like `cell`, that needs the fewest changes of colour after `style`: nothing of a
 /// blank is seen but what is behind it, and a half block may be turned over.
 ScreenCell cheapest(const ScreenCell& cell, const ScreenCell& style) {
   if (cell.glyph == U' ') return {.fore = style.fore, .back = cell.back, .bold = style.bold, .dim = style.dim};

@@ -17,7 +17,7 @@
 
 namespace shaken::relay {
 
-/// Of a relay, since it was started.
+/// What a relay has counted since it was started.
 struct Counters {
   std::atomic<std::int64_t> clients{0};    ///< connected now
   std::atomic<std::int64_t> messages{0};   ///< that came in

@@ -27,7 +27,7 @@ inline Doubles array_of(const std::vector<Vec3>& vectors) {
   return array;
 }
 
-/// Of an array (n, 3); fails with what it is called where it has another shape.
+/// The rows of an array (n, 3); fails with what it is called where it has another shape.
 inline std::vector<Vec3> vectors_of(const Doubles& array, const std::string& name) {
   if (array.ndim() != 2 || array.shape(1) != 3) throw py::value_error(name + " must have the shape (n, 3)");
   std::vector<Vec3> vectors(static_cast<std::size_t>(array.shape(0)));

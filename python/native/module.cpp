@@ -49,7 +49,7 @@ bool goes_on() {
   const py::gil_scoped_acquire held;
   return PyErr_CheckSignals() == 0;
 }
-/// Of work that asks: that it was ended, rather than what it says of it.
+/// The result of work that asks whether to end: that it was ended, rather than what it says of it.
 template <class T>
 T value_unless_interrupted(Result<T> result) {
   if (PyErr_Occurred() != nullptr) throw py::error_already_set();

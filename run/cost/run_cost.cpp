@@ -97,7 +97,7 @@ class Prober {
     return {};
   }
 
-  /// Of each measurement by itself, as if the rods stood still.
+  /// Times each measurement by itself, as if the rods stood still.
   void time_samples() {
     Observables arrays;
     for (const MeasurementKind& kind : measurement_kinds()) {

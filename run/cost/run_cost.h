@@ -25,7 +25,7 @@ struct DiskUse {
   double trajectory = 0;
   double observables = 0;
   double checkpoints = 0;  ///< the last two
-  /// Of trajectory.part, which goes when trajectory.h5 is made of it; until then both need room.
+  /// Bytes of trajectory.part, which goes when trajectory.h5 is made of it; until then both need room.
   double trajectory_part = 0;
   double total() const { return trajectory + observables + checkpoints; }
   /// Bytes at the end of the run, before trajectory.part goes.

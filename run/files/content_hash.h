@@ -16,7 +16,7 @@ struct ContentHash {
   bool operator==(const ContentHash&) const = default;
 };
 
-/// Of a regular file. It is read as a whole, some GB in a second at best.
+/// The hash of a regular file. It is read as a whole, some GB in a second at best.
 Result<ContentHash> content_hash(const std::filesystem::path& file);
 
 /// Fails, with what to do, if `file` is not what the summary.json beside it says that the run has written. Nothing is

@@ -32,7 +32,7 @@ struct RunDirectory {
   /// Both, the newer first.
   std::array<std::filesystem::path, 2> checkpoints() const { return {checkpoint(), previous_checkpoint()}; }
   std::filesystem::path trouble() const { return root / "trouble.json"; }
-  /// Of a run whose rods come from a file: what they come from (run/import/).
+  /// Says where the rods of a run come from that begins with those of a file (run/import/).
   std::filesystem::path imported() const { return root / "imported.json"; }
   std::filesystem::path log() const { return root / "worker.log"; }
   std::filesystem::path movie() const { return root / "movie.mp4"; }

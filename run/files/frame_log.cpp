@@ -25,9 +25,9 @@ using Json = nlohmann::json;
 constexpr std::string_view kFramesMagic = "SHKNFRAM";
 constexpr std::uint32_t kFramesVersion = 1;
 constexpr std::size_t kHashBytes = sizeof(std::uint64_t);
-/// Of magic, version and length.
+/// Bytes of magic, version and length.
 constexpr std::size_t kPrefixBytes = kFramesMagic.size() + 2 * sizeof(std::uint32_t);
-/// Of a header: one byte a rod and a scene; more is no header of ours.
+/// A header has one byte a rod and a scene; more is no header of ours.
 constexpr std::uint32_t kMostHeaderBytes = 1U << 28;
 
 template <class Value>

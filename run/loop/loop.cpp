@@ -362,7 +362,8 @@ Result<Opened> open_run(const scene::RunPlan& plan, const RunDirectory& director
   return Opened{std::move(run), true};
 }
 
-/// Of a run that is done: what its frames were recorded in is of no use any more, where trajectory.h5 has them all.
+/// Removes what the frames of a run that is done were recorded in, which is of no use any more where trajectory.h5 has
+/// them all.
 void drop_logged_frames(const RunDirectory& directory) {
   const Result<bool> is_there = file_exists(directory.frames());
   if (is_there && !*is_there) return;

@@ -12,7 +12,7 @@ namespace {
 using analysis::ClusterNumbers;
 using analysis::ClusterSeries;
 
-/// Of the octaves that sizes can be in.
+/// The distribution over the octaves that sizes can be in.
 struct ClusterSizes {
   std::vector<double> smallest, rods, density;
 };

@@ -20,7 +20,7 @@ struct Output {
   std::string_view name;     ///< ends in the unit; of an array: its path below "/NAME/"
   std::string_view meaning;  ///< for the pages
   bool has_error = false;    ///< of an array: whether there is one with `_sem` as well (every number has an error)
-  /// Of a number: why it has no value where it has none and the measurement says no more.
+  /// Why a number has no value where it has none and the measurement says no more.
   std::string_view if_none = "too few samples, or too short a run";
   /// The key of its block that sets the time over which it is taken, where its value depends on that ("window"), and
   /// how many such times.

@@ -27,7 +27,8 @@ namespace shaken::run {
 /// plan does not ask for costs nothing.
 class Measurements {
  public:
-  /// Of the species that the plan measures; `cell` says which rods these are, and may be left out if there is but one.
+  /// Measures the species that the plan names; `cell` says which rods these are, and may be left out if there is but
+  /// one.
   explicit Measurements(const scene::RunPlan& plan, Cell cell = {});
 
   /// The first tick >= `from` at which a sample is due; kNever if nothing is measured.
@@ -66,7 +67,7 @@ class Measurements {
     const MeasuredOrder* order = nullptr;      ///< one of `timed`, or null
     const MeasuredDefects* defects = nullptr;  ///< the same
   };
-  /// Of one species, whose names have no prefix yet.
+  /// The reduction of one species, whose names have no prefix yet.
   Reduction reduce(const OfSpecies& rods, std::optional<double> t_steady, double sim_seconds) const;
   /// What saved states call it: "order", "rods_2/order".
   static std::string tag(const OfSpecies& rods, const Timed& timed);

@@ -10,7 +10,7 @@
 
 namespace shaken::run {
 
-/// Of all rods of a run, whatever their species, up to a tick.
+/// Totals of all rods of a run, whatever their species, up to a tick.
 struct RunTotals {
   analysis::CollisionTotals collisions{};
   analysis::StressTotals stress{};
@@ -19,7 +19,7 @@ struct RunTotals {
 /// The measured rods at one tick, with what several measurements need of them, worked out once and only on demand.
 class Sample {
  public:
-  /// Of the measured `rods` among `all`, which must outlive the moment.
+  /// A sample of the measured `rods` among `all`, which must outlive it.
   Sample(const Snapshot& rods, const Snapshot& all, const RunTotals& totals)
       : rods_(rods), all_(all), totals_(totals) {}
 

@@ -84,7 +84,7 @@ keys::Loaded<Task> task_of(const MeasureOptions& asked, const TrajectoryReader& 
   return Task{std::move(made), &frames.recorded()};
 }
 
-/// Of a table; `tracks` takes what the task is of.
+/// The task of measuring a table; `tracks` takes what it is of.
 keys::Loaded<Task> task_of(const MeasureOptions& asked, std::optional<TrackedRods>& tracks) {
   if (asked.scene.empty()) {
     return std::vector<keys::Problem>{

@@ -32,11 +32,11 @@ double thickest_bead(const RodShape& rod);
 /// What a rod covers, lying flat, on average over the sizes [mm^2].
 double mean_area_of(const RodShape& rod);
 
-/// Of the rods of the first species: N A / L^2, with A the area of one rod lying flat.
+/// The area fraction of the rods of the first species: N A / L^2, with A the area of one rod lying flat.
 double area_fraction_of(const System& scene);
-/// Of the rods of all species.
+/// The area fraction of the rods of all species.
 double total_area_fraction_of(const System& scene);
-/// Of rods of any species.
+/// The area fraction of `count` rods of any species.
 double area_fraction_of(const System& scene, const RodShape& rod, int count);
 
 }  // namespace shaken::scene

@@ -493,7 +493,7 @@ const Observable& observable(std::string_view name) {
 
 namespace {
 
-/// Of each of 16 levels the last 8 of every 2^k-th sample are kept for lags to come (analysis/lags/lag_average.h).
+/// The last 8 of every 2^k-th sample, of each of 16 levels, are kept for lags to come (analysis/lags/lag_average.h).
 double kept_for_lags(double samples) {
   double kept = 0;
   for (int k = 0; k < 16; ++k) kept += std::min(8.0, std::ceil(samples / std::exp2(k)));

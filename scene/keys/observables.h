@@ -79,8 +79,9 @@ const std::vector<Observable>& observables();
 /// The one of this name, which must exist.
 const Observable& observable(std::string_view name);
 
-/// Of everything that the plan measures, by name. Within a factor of two of what is held, wherever that is more than
-/// 2 MB; where it depends on what the rods do (`defects.list`), that of disordered rods, which have the most defects.
+/// The memory of everything that the plan measures, by name. Within a factor of two of what is held, wherever that is
+/// more than 2 MB; where it depends on what the rods do (`defects.list`), that of disordered rods, which have the most
+/// defects.
 std::map<std::string, MeasureMemory> measure_memory(const RunPlan& plan);
 
 /// Bytes that all measurements hold together when they hold most: their states with their spare room, and on top

@@ -21,7 +21,7 @@ const Paths kPostKeys{"posts.diameter", "posts.columns", "posts.rows", "posts.pl
 
 std::string place_text(const Vec2& place) { return fmt::format("[{:.10g}, {:.10g}] mm", place.x(), place.y()); }
 
-/// Of two posts that overlap, at given places, if there are such; an image of one of them may be meant.
+/// Two posts that overlap at their given places; an image of one of them may be meant.
 struct Overlapping {
   Vec2 one, other;
   double apart;  ///< [mm]

@@ -44,7 +44,7 @@ struct RodGroup {
 };
 std::vector<RodGroup> rod_groups(System& system);
 
-/// Of quantities given twice: the same to 1e-6.
+/// Whether a quantity that is given twice is the same, to 1e-6.
 bool agree(double a, double b);
 
 /// For messages: "4.5 mm".

@@ -147,7 +147,7 @@ class Products {
     }
   }
 
-  /// Of points that name the same run, the first, going on for as long as any of them.
+  /// Keeps the first of points that name the same run, which then goes on for as long as any of them.
   static void keep_one_of_each_run(std::vector<SweepPoint>& points) {
     std::unordered_map<std::string, RunPlan*> firsts;
     std::vector<SweepPoint> kept;

@@ -82,7 +82,7 @@ class Queue {
   std::vector<Job> jobs(std::optional<std::int64_t> sweep, std::optional<JobState> state = std::nullopt) const;
   /// Jobs of a sweep that have not ended, and were started; brings its counts, and `work`, to the same moment.
   std::vector<Job> begun(Sweep& sweep, SweepWork& work) const;
-  /// Of each sweep with queued jobs: the work of the queued jobs of others whose turn is before that of its last one.
+  /// By sweep with queued jobs, the work of the queued jobs of others whose turn is before that of its last one.
   /// It reads all queued jobs; where they are many, the answer is up to two seconds old.
   std::map<std::int64_t, double> work_ahead() const;
   std::vector<Job> active() const { return read(&QueueStore::active); }  ///< running and stopping ones, of all sweeps
@@ -108,7 +108,7 @@ class Queue {
   int hold(const Target& target) { return request(JobEvent::kHold, target); }
   int resume(const Target& target) { return request(JobEvent::kResume, target); }
   int retry(const Target& target) { return request(JobEvent::kRetry, target); }
-  /// Of jobs that have not ended; the larger number goes first. Returns how many changed.
+  /// Sets the priority of jobs that have not ended; the larger number goes first. Returns how many changed.
   int set_priority(const Target& target, int priority);
   /// The results of an ended job are about to be removed: it becomes cancelled. False if it is no longer in
   /// `state`, or that is not an end.

@@ -20,8 +20,8 @@ constexpr std::int64_t kHour = std::chrono::microseconds(std::chrono::hours(1)).
 const std::string kNotPausing = fmt::format("NOT (not_before_utime > ?1 AND not_before_utime < ?1 + {}) ", kHour);
 /// A refusal that counts at ?1; likewise.
 const std::string kCounts = fmt::format("f.until_utime > ?1 AND f.until_utime < ?1 + {} ", kHour);
-/// Of a job `j` that has not begun: the run from whose end it is to begin is in the queue, and not done. One that has
-/// begun goes on from its own state.
+/// True of a job `j` that has not begun if the run from whose end it is to begin is in the queue, and not done. One
+/// that has begun goes on from its own state.
 const std::string kWaitsForStart =
     "(j.starts_from <> '' AND j.attempt = 0 AND EXISTS "
     "(SELECT 1 FROM jobs p WHERE p.id = j.starts_from AND p.state <> 'done')) ";
@@ -38,7 +38,8 @@ const std::string kHasPlace =
     "sweep NOT IN (SELECT s.id FROM sweeps s WHERE s.at_most > 0 AND s.at_most <= "
     "(SELECT COUNT(*) FROM jobs r WHERE r." +
     kAtWork + "AND r.sweep = s.id)) ";
-/// Of an executor: its name is ?2, and ?3 is not 0 where it is the default; ?1 is the time here, too.
+/// True of the sweeps of an executor: its name is ?2, and ?3 is not 0 where it is the default; ?1 is the time here,
+/// too.
 const std::string kOfExecutor = "sweep IN (SELECT id FROM sweeps WHERE executor = ?2 OR (executor = '' AND ?3)) ";
 const std::string kNotRefused =
     "sweep NOT IN (SELECT s.id FROM refusals f JOIN sweeps s ON s.settings = f.settings WHERE f.executor = ?2 AND " +

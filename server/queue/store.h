@@ -48,7 +48,7 @@ struct SweepWork {
   double all = 0;
   double queued = 0;
   double done = 0;
-  /// Of queued jobs that start from each other, one after the other; not what is left of one that was begun.
+  /// The work of queued jobs that start from each other, one after the other; not what is left of one that was begun.
   double longest_chain = 0;
   /// Wall seconds of the done jobs, all attempts of each together, by their work; none where none has run.
   std::optional<double> seconds_per_work{};
@@ -74,7 +74,7 @@ class QueueStore {
   std::optional<Sweep> sweep(std::int64_t id) const;
   std::optional<Sweep> sweep_named(const std::string& name) const;
   std::vector<Job> jobs(std::optional<std::int64_t> sweep, std::optional<JobState> state) const;
-  /// Of a sweep: jobs that have not ended, and were started.
+  /// The jobs of a sweep that have not ended, and were started.
   std::vector<Job> begun(std::int64_t sweep) const;
   std::optional<Job> job(const std::string& id) const;
   /// Running and stopping ones.
@@ -87,12 +87,12 @@ class QueueStore {
   JobCounts counts() const;
   JobCounts counts_of(const Target& target) const;
   SweepWork work_of(std::int64_t sweep) const;
-  /// Of each sweep with queued jobs: the work of the queued jobs of others whose turn is before that of its last one.
+  /// By sweep with queued jobs, the work of the queued jobs of others whose turn is before that of its last one.
   std::map<std::int64_t, double> work_ahead() const;
   std::vector<Change> history(const std::string& id) const;
   std::vector<Change> changes_since(std::int64_t sequence, int limit) const;
   std::int64_t last_change() const;
-  /// Of which the journal has lines after `sequence`.
+  /// Sweeps of which the journal has lines after `sequence`.
   std::vector<std::int64_t> sweeps_changed_since(std::int64_t sequence) const;
 
   // --- what may start ---
@@ -140,7 +140,7 @@ class QueueStore {
   void set(const std::string& id, std::string_view column, const Value& value) {
     database_.run("UPDATE jobs SET " + std::string(column) + " = ?2 WHERE id = ?1", id, value);
   }
-  /// Of those that have not ended; returns how many had another one.
+  /// Sets the priority of those that have not ended; returns how many had another one.
   int set_priority(const Target& target, int priority);
   void add_wall(const std::string& id, std::chrono::milliseconds time);
 

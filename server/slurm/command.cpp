@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kTimeIsOver = 124;  // as timeout(1) has it
 constexpr int kSaidTooMuch = 1;
-/// Of what a program says; squeue has some 100 bytes for a job.
+/// The most that is read of what a program says [bytes]; squeue has some 100 bytes for a job.
 constexpr std::size_t kMostOutput = std::size_t{32} << 20;
 
 std::size_t size_of(const Descriptor& file) {

@@ -71,7 +71,8 @@ class SlurmExecutor final : public Executor {
   std::map<std::string, SentBatch> batches_;  ///< by their token, which is part of their name in Slurm
   std::map<int, Handle> handles_;
   int last_handle_ = 0;
-  /// Of one array. Slurm's own limit (MaxArraySize) is 1,001 where nobody has changed it; halved where it refuses.
+  /// The most tasks of one array. Slurm's own limit (MaxArraySize) is 1,001 where nobody has changed it; halved where
+  /// it refuses.
   std::size_t most_tasks_ = 500;
   int budget_ = 0;  ///< workers that this round still takes
   bool refilling_ = true;

@@ -86,7 +86,7 @@ inline constexpr float kCancelled = 1e-6F;
 inline constexpr double kHullsApart = 1e-5;
 /// The slack of a rod in the neighbour list, when it is measured [mm].
 inline constexpr float kSkinMeasured = 1e-4F;
-/// Of that, each time that it is counted down: more than a float is rounded by, so that many small steps count.
+/// What each counting down takes of it besides: more than a float is rounded by, so that many small steps count.
 inline constexpr float kSkinStep = 0x1p-22F;
 /// The time until it is used up (double precision).
 inline constexpr double kSkinTime = 1e-12;

@@ -39,8 +39,8 @@ struct GapBound {
   float residual = -1;     ///< [mm]; < 0: not known, so that the bound does not survive a hit
   bool isotropic = false;  ///< the gap is along no single direction
 
-  /// Of a gap that is `now` wide, at least `at_end` after `time`, and concave in between [mm, s]; for a bound that ends
-  /// after `end`, which is no later than `time`.
+  /// A bound of a gap that is `now` wide, at least `at_end` after `time`, and concave in between [mm, s]; for a bound
+  /// that ends after `end`, which is no later than `time`.
   static GapBound between(float now, float at_end, float time, float end, bool isotropic) {
     const float rate = (now - at_end) / (time + 1e-20F);
     return {rate, std::max(0.0F, now - rate * end - margins::rounding_of_gap(now)), isotropic};

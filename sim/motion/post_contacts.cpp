@@ -8,7 +8,7 @@ namespace {
 
 Vec2 in_plane(const Vec3& vector) { return vector.head<2>(); }
 
-/// Of the posts that a rod at `pose` may touch none has its axis farther from the rod's centre [mm].
+/// A rod touches no post whose axis is farther from the rod's centre [mm].
 double reach_of_rod(const PostGrid& posts, const Species& species) {
   return posts.radius() + species.half_length + species.max_radius;
 }

@@ -21,7 +21,7 @@ class PostGrid {
 
   int n_posts() const { return static_cast<int>(centres_.size()); }
   double radius() const { return radius_; }  ///< of each post [mm]
-  /// Of the cells' shorter side [mm].
+  /// The length of the cells' shorter side [mm].
   double spacing() const { return width_.minCoeff(); }
 
   /// Calls visit(post, centre) for each post, in each of its images, whose axis is at most `reach` away from a point of

@@ -28,7 +28,7 @@ struct Axis {
   }
 };
 
-/// Of a point seen from the middle of a stadium, the way to it from the nearest point of the line between the centres
+/// The way to a point, seen from the middle of a stadium, from the nearest point of the line between the centres
 /// of the round ends.
 Vec2 from_centre_line(const SideWalls& walls, const Vec2& point) {
   const double end = 0.5 * walls.length;
@@ -44,7 +44,7 @@ struct StraightWall {
   double distance(const Vec2& point) const { return offset + normal.dot(point); }
 };
 
-/// Of a wedge: its wide end, its narrow end, which may be a corner, and those that slant, above and below.
+/// The walls of a wedge: its wide end, its narrow end, which may be a corner, and those that slant, above and below.
 std::array<StraightWall, 4> walls_of_wedge(const SideWalls& walls) {
   const double slope = 0.5 * (walls.size - walls.narrow) / walls.length;
   const double along = 1.0 / std::sqrt(1.0 + slope * slope);

@@ -24,7 +24,7 @@ struct Component {
   std::uint8_t species = 0;  ///< 0 for the scene's rods, 1 and 2 for the others that it has
 };
 
-/// Of all rods of a system: species by species, each with the mean size in front.
+/// The sizes of all rods of a system: species by species, each with the mean size in front.
 std::vector<Component> components_of(const System& system);
 
 /// The number of rods among `count` that are of size `k` of `n_sizes`: those that are left over go to the mean size and

@@ -37,7 +37,7 @@ class Placement {
 
   /// From tip to tip of the longest, as if its longer half were on both sides [mm].
   double rod_extent() const;
-  /// Of the thickest bead of all [mm].
+  /// The radius of the thickest bead of all [mm].
   double max_radius() const;
   /// Least distance of two rows of rods of any species, with a rod every `pitch`, shifted against each other by `shift`
   /// [mm].

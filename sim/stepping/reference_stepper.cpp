@@ -7,7 +7,7 @@
 namespace shaken {
 namespace {
 
-/// Of the neighbour list [mm]. Wider: longer lists; narrower: more rebuilding. No choice changes the trajectory.
+/// Skin of the neighbour list [mm]. Wider: longer lists; narrower: more rebuilding. No choice changes the trajectory.
 constexpr double kReferenceSkin = 0.3;
 
 }  // namespace

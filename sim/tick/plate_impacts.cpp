@@ -33,7 +33,7 @@ using lanes::where_positive;
 
 /// What the plates do to several rods at a tick.
 struct PlateHits {
-  /// Of one plate.
+  /// What one plate does.
   struct OfPlate {
     TripleLanes impulse;
     alignas(64) double lost[kDoubleLanes];     ///< energy
@@ -81,7 +81,7 @@ struct RodsOf {
   SHAKEN_INLINE void note_unknown(const D& condition) { unknown = lanes::larger(condition, unknown); }
 };
 
-/// Of each rod the bead in a plate.
+/// The bead of each rod that is in a plate.
 template <class D>
 struct BeadsOf {
   D n{};        ///< how many there are; the others' sizes are of one of them
@@ -274,7 +274,7 @@ struct PlateHitKernel {
     rods.motion.angular_velocity = where_positive(flies, motion.angular_velocity, rods.motion.angular_velocity);
   }
 
-  /// Of the plate, so long before the tick.
+  /// The plate's velocity so long before the tick.
   template <int W>
   SHAKEN_INLINE Triple<Doubles<W>> velocities_before(const PlateMet& plate, const Doubles<W>& ago) const {
     TripleLanes velocities;

@@ -56,7 +56,7 @@ struct TickRules {
   explicit TickRules(const World& world);
 
   const SpeciesMechanics& species_of(int i) const { return species[shape_of_rod[static_cast<std::size_t>(i)]]; }
-  /// Of two rods.
+  /// The contact of two rods.
   const ContactParameters& rod_rod(int i, int j) const { return species_of(i).rods[species_of(j).number]; }
 
   System system;

@@ -175,7 +175,7 @@ ssize_t guarded_write(int fd, size_t size, Write write) {
   return -1;
 }
 
-/// Of a change that is made or not; `note` tells of it before it is made.
+/// The result of a change that is made or not; `note` tells of it before it is made.
 template <class Change, class Note>
 int guarded(bool counted, Change change, Note note) {
   if (!counted) return change();

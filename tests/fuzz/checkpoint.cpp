@@ -17,7 +17,7 @@ using namespace shaken;
 
 namespace {
 
-/// Of a scene where everything is measured: as here, or by default.
+/// A scene where everything is measured: as here, or by default.
 constexpr const char* kScene = R"({
   "rods": {"length": "2.5 mm", "count": 8}, "box": {"side": "8 mm"}, "time": {"steady": 0, "measure": 1},
   "measure": {"angles": {"bins": 4}, "tilt": {"bins": 4}, "defects": {"list": true}, "g2": {"bins": 4},

@@ -47,7 +47,7 @@ double order_of(const Json& of, const char* norm) {
   return (xy - x * y) / (xx - x * x);
 }
 
-/// Of the converged solution: "error/position/upper".
+/// A value of the converged solution: "error/position/upper".
 double converged(const Json& of, const std::string& path) { return member_of(of.at("converged"), path); }
 
 TEST(Convergence, OneImpactIsOfOrderOne) {

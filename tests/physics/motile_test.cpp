@@ -52,7 +52,7 @@ Drift drift_of(const RodShape& rod, double plate_friction, double seconds, int n
   return drift;
 }
 
-/// Of beads that lie between those of a rod that is the same fore and aft (0) and those of a polar one (1).
+/// A rod of beads that lie between those of a rod that is the same fore and aft (0) and those of a polar one (1).
 RodShape rod_of(double polarity) {
   RodShape rod{.length = 4.5, .mid_diameter = 0.8, .end_diameter = 0.4, .n_beads = 15};
   for (int bead = 0; bead < rod.n_beads; ++bead) {

@@ -185,7 +185,7 @@ struct Turned {
   double error = 0;
 };
 
-/// Of 60 rods in a dilute gas between plates of the usual friction, in 40 stretches of half a second.
+/// The turning of 60 rods in a dilute gas between plates of the usual friction, in 40 stretches of half a second.
 Turned turned(double noise) {
   System system = test::short_rods(60, 30);
   system.start = Start::kRandom;

@@ -46,7 +46,7 @@ Change added(int n_polar, int n_spheres) {
 Change walls(const SideWalls& walls) { return set(&System::walls, walls); }
 Change disc(double size) { return walls({Arena::kDisc, size}); }
 Change posts(const Posts& posts) { return set(&System::posts, posts); }
-/// Of both plates.
+/// The contacts of both plates.
 Change plates(const Contacts& contact) {
   return [=](System& s) { s.rod_base = s.rod_lid = contact; };
 }

@@ -20,7 +20,7 @@ inline constexpr bool kSanitized = false;
 /// Whether all that takes long is tried as well: `./dev test all`.
 inline bool at_night() { return std::getenv("SHAKEN_NIGHT") != nullptr; }
 
-/// Of `n` draws, as many as are made now. A tenth of them touches all the code; that a law holds in every one of them
+/// As many of `n` draws as are made now. A tenth of them touches all the code; that a law holds in every one of them
 /// is for the night to show.
 inline int draws(int n) { return at_night() ? n : n / 10; }
 

@@ -65,8 +65,9 @@ DefectMapSums maps_of(const Flow& flow, std::span<const Defect> defects, const R
   return maps.sums().all();
 }
 
-/// Of a field whose direction is found from the rods, turned by any angle: the map is the field in its own frame.
-/// With the head of +1/2 taken for its tail, or one of the other signs, cosines and velocities have the wrong sign.
+/// The map of a field whose direction is found from the rods, turned by any angle: the map is the field in its own
+/// frame. With the head of +1/2 taken for its tail, or one of the other signs, cosines and velocities have the wrong
+/// sign.
 void expect_own_frame(double charge, double allowed_angle, const std::function<Vec2(const Vec2&)>& velocity) {
   Draw draw(61);
   const Region region(kBox, SideWalls{Arena::kDisc, kBox - 1});

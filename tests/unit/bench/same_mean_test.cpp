@@ -11,7 +11,7 @@
 namespace shaken::bench {
 namespace {
 
-/// Of mean `mean`, with a spread that is a fraction of 1.
+/// Samples of mean `mean`, with a spread that is a fraction of 1.
 std::vector<double> replicas(int n, double mean, double spread, std::uint64_t seed) {
   Rng rng(seed, RngStream::kReferences, 0, static_cast<std::uint64_t>(n));
   std::vector<double> samples;

@@ -66,7 +66,7 @@ Snapshot random_snapshot(Tick tick) {
   return s;
 }
 
-/// Of a hundred rods, which meet a thousand times a second.
+/// The totals of a hundred rods, which meet a thousand times a second.
 RunTotals totals_at(Tick tick) {
   const double time = static_cast<double>(tick) * kDt;
   return {{{1000 * time, 300 * time, 200 * time, 0, 5000 * time, 4000 * time, 1000 * time}, 100},

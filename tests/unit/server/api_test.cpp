@@ -545,7 +545,7 @@ TEST_F(ApiTest, AJobIsFoundByAnyPrefixThatFitsOnlyOne) {
   EXPECT_THAT(get("/v1/jobs/abdc00000000000").error(), HasSubstr("did you mean abcd000000000000?"));
 }
 
-/// Of a run that is half done, with 10 s to go.
+/// The progress of a run that is half done, with 10 s to go.
 void write_progress(const std::filesystem::path& file) {
   std::filesystem::create_directories(file.parent_path());
   write_text(file,

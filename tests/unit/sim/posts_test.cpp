@@ -123,7 +123,7 @@ struct RodAmongPosts : test::FlyingRod {
     begin(draw, pose, box);
   }
 
-  /// Of the deepest bead, negative if all are free: every bead and every image is looked at [mm].
+  /// The overlap of the deepest bead, negative if all are free: every bead and every image is looked at [mm].
   double overlap(const Pose& pose) const {
     double most = -box.longer();
     for (int b = 0; b < species.n_beads(); ++b) {

@@ -45,7 +45,7 @@ struct RodByWall : test::FlyingRod {
     begin(draw, pose, box_side);
   }
 
-  /// Of the deepest bead, negative if all are free: every bead is looked at [mm].
+  /// The overlap of the deepest bead, negative if all are free: every bead is looked at [mm].
   double overlap(const Pose& pose) const {
     double most = -INFINITY;
     for (int b = 0; b < species.n_beads(); ++b) {
