@@ -39,19 +39,19 @@ LagPair<DisplacementKernel::kQuantities> DisplacementKernel::between(const LagFr
                                                                      const LagFrame<kColumns>& later) {
   const auto& [x0, y0] = origin.column;
   const auto& [x1, y1] = later.column;
-  const std::size_t n = x0.size();
-  double x = 0, y = 0, xx = 0, xy = 0, yy = 0;
-  for (std::size_t i = 0; i < n; ++i) {
+  double rods = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+  for (std::size_t i = 0; i < x0.size(); ++i) {
     const double dx = x1[i] - x0[i];
     const double dy = y1[i] - y0[i];
+    if (std::isnan(dx + dy)) continue;
+    rods += 1;
     x += dx;
     y += dy;
     xx += dx * dx;
     xy += dx * dy;
     yy += dy * dy;
   }
-  if (n == 0) return {};
-  const double rods = static_cast<double>(n);
+  if (rods == 0) return {};
   const double c = std::cos(origin.director);
   const double s = std::sin(origin.director);
   const double along = c * x + s * y;

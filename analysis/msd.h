@@ -14,7 +14,7 @@
 
 namespace shaken::analysis {
 
-/// In-plane displacements of each rod between two samples, squared.
+/// In-plane displacements of each rod between two samples, squared; of those that have places in both.
 struct DisplacementKernel {
   static constexpr std::string_view kName = "MeanSquareDisplacement";
   static constexpr std::size_t kColumns = 2;  // x, y unwrapped [mm]
@@ -50,7 +50,7 @@ struct Diffusion {
 
 /// Mean square displacement against lag, while the run goes on, at the lags of LagAverage and in its memory (128 bytes
 /// per level and rod). "Along" and "across" refer to the nematic director of all rods at the origin time, not to the
-/// single rod. A position that is not finite spoils the lags that meet it, and no rods give no lags.
+/// single rod. A rod whose position is NaN is missed in that sample, and no rods give no lags.
 class MeanSquareDisplacement : public Saved<MeanSquareDisplacement> {
  public:
   /// `interval`: time between successive accumulate calls [s].

@@ -1,6 +1,7 @@
 #include "analysis/rotation.h"
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "analysis/geometry/periodic.h"
@@ -35,20 +36,23 @@ LagPair<TurnKernel::kQuantities> TurnKernel::between(const LagFrame<kColumns>& o
 }
 
 void Rotation::accumulate(double time, std::span<const Vec3> directors) {
+  if (angles_.empty()) {
+    angles_ = average_.samples() > 0 ? average_.last().column[0]
+                                     : std::vector(directors.size(), std::numeric_limits<double>::quiet_NaN());
+  }
+  SHAKEN_CHECK(angles_.size() == directors.size(), "as many rods as before");
   LagFrame<TurnKernel::kColumns> frame;
-  std::vector<double>& angles = frame.column[0];
-  angles.resize(directors.size());
-  const std::vector<double>* before = average_.samples() > 0 ? &average_.last().column[0] : nullptr;
-  SHAKEN_CHECK(before == nullptr || before->size() == directors.size(), "as many rods as before");
   for (std::size_t i = 0; i < directors.size(); ++i) {
     const double x = directors[i].x(), y = directors[i].y();
-    const bool lies = (x != 0.0 || y != 0.0) && std::isfinite(x) && std::isfinite(y);
-    const double angle = lies ? std::atan2(y, x) : std::numeric_limits<double>::quiet_NaN();
-    angles[i] = angle;
-    if (before == nullptr || std::isnan((*before)[i])) continue;
-    const double turn = lies ? fold_half_turn(angle - (*before)[i]) : 0.0;
-    if (std::abs(turn) > kLargeTurn) ++large_turns_;
-    angles[i] = (*before)[i] + turn;
+    const bool is_seen = std::isfinite(x) && std::isfinite(y), lies = is_seen && (x != 0.0 || y != 0.0);
+    double& angle = angles_[i];
+    if (lies) {
+      const double now = std::atan2(y, x);
+      const double turn = std::isnan(angle) ? 0.0 : fold_half_turn(now - angle);
+      if (std::abs(turn) > kLargeTurn) ++large_turns_;
+      angle = std::isnan(angle) ? now : angle + turn;
+    }
+    frame.column[0].push_back(is_seen ? angle : std::numeric_limits<double>::quiet_NaN());
   }
   average_.accumulate(time, std::move(frame));
 }

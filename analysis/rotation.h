@@ -42,8 +42,8 @@ struct RotationSummary {
 /// Rotation of the rods in the plane while the run goes on, at the lags of LagAverage and in 64 bytes per level and
 /// rod. From sample to sample an angle is taken to change by less than a quarter turn: the step is folded into
 /// [-pi/2, pi/2), which asks for an interval much shorter than 1 / D_r; large_turns says when it is too long. A rod
-/// that tips over its end keeps its axis and has not turned. A rod exactly upright (or not finite) keeps the angle it
-/// had; one that never had any is left out until it has.
+/// that tips over its end keeps its axis and has not turned. A rod exactly upright keeps the angle it had; one that
+/// never had any is left out until it has. One that is NaN is missed in that sample, and goes on from the angle it had.
 class Rotation : public Saved<Rotation> {
  public:
   /// `interval`: time between successive accumulate calls [s].
@@ -60,6 +60,7 @@ class Rotation : public Saved<Rotation> {
  private:
   LagAverage<TurnKernel> average_;
   std::int64_t large_turns_ = 0;
+  std::vector<double> angles_;  // (n_rods) the last of each; not saved: no rod of a run is missed
 };
 
 }  // namespace shaken::analysis

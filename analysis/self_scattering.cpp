@@ -51,9 +51,10 @@ LagPair<ScatteringKernel::kQuantities> ScatteringKernel::between(const LagFrame<
   const auto& [x1, y1] = later.column;
   const double c = std::cos(origin.director), s = std::sin(origin.director);
   LagPair<kQuantities> pair;
-  pair.rods = static_cast<double>(x0.size());
   for (std::size_t i = 0; i < x0.size(); ++i) {
     const double dx = x1[i] - x0[i], dy = y1[i] - y0[i];
+    if (std::isnan(dx + dy)) continue;
+    pair.rods += 1;
     const double a = c * dx + s * dy, b = c * dy - s * dx;
     double cosine_a = std::cos(a), cosine_b = std::cos(b);
     for (std::size_t wave = 0; wave < kScatteringWaves; ++wave) {

@@ -71,7 +71,8 @@ void VanHove::accumulate(double time, std::span<const Vec3> unwrapped, double di
       std::vector<Vec2> displacements;
       displacements.reserve(unwrapped.size());
       for (std::size_t i = 0; i < unwrapped.size(); ++i) {
-        displacements.emplace_back(unwrapped[i].x() - lag.x[i], unwrapped[i].y() - lag.y[i]);
+        const Vec2 way(unwrapped[i].x() - lag.x[i], unwrapped[i].y() - lag.y[i]);
+        if (!way.hasNaN()) displacements.push_back(way);
       }
       lag.displacements.accumulate(lag.time, displacements, lag.director);
     }

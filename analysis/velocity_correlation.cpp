@@ -133,8 +133,9 @@ LagPair<VelocityKernel::kQuantities> VelocityKernel::between(const LagFrame<kCol
   const double c = std::cos(origin.director);
   const double s = std::sin(origin.director);
   LagPair<kQuantities> pair;
-  pair.rods = static_cast<double>(x0.size());
   for (std::size_t i = 0; i < x0.size(); ++i) {
+    if (std::isnan(x0[i] + y0[i] + x1[i] + y1[i])) continue;
+    pair.rods += 1;
     pair.sums[0] += (c * x0[i] + s * y0[i]) * (c * x1[i] + s * y1[i]);
     pair.sums[1] += (c * y0[i] - s * x0[i]) * (c * y1[i] - s * x1[i]);
     const double before = std::hypot(x0[i], y0[i]), after = std::hypot(x1[i], y1[i]);

@@ -375,7 +375,7 @@ void draw_displacements(const Canvas& canvas, const Layout& layout, const RodPic
     const Vec2 way = picture.frame.displacement[i], middle = picture.frame.position[i].head<2>() - way / 2;
     const double length = way.norm() * plane.scale();  // [pixels]
     // A way through many boxes would be drawn in many pieces, and shows nothing.
-    if (length < 1 || way.norm() > 3 * picture.cell.box.longer()) continue;
+    if (!(length >= 1) || way.norm() > 3 * picture.cell.box.longer()) continue;  // nor has one that is not known
     const double head = std::min(longest_head, length / 2);
     for_images(plane.view(), middle, way.norm() / 2 + longest_head / plane.scale(), [&](const Vec2& at) {
       const Vec2 tail = plane.pixel(at - way / 2), tip = plane.pixel(at + way / 2);

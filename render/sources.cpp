@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <shaken/frame_static_t.hpp>
@@ -166,8 +167,10 @@ Result<RodPicture> TrajectorySource::bare_picture(const Snapshot& frame, Asked a
   picture.frame.director = frame.director;
   picture.frame.velocity = frame.velocity;
   SHAKEN_TRY(check_sizes(file_.string() + " has", picture, asked));
-  const std::optional<double> gamma = plan_ ? scene::gamma_of(plan_->system) : std::nullopt;
+  const bool was_tracked = !reader_.header().lacking.empty();  // whose scene has other plates than the experiment
+  const std::optional<double> gamma = plan_ && !was_tracked ? scene::gamma_of(plan_->system) : std::nullopt;
   picture.captions.settings = settings_of(picture);
+  if (was_tracked) std::erase_if(picture.captions.settings, [](const auto& setting) { return setting.first == kGap; });
   if (gamma) {
     picture.captions.settings.emplace_back("\u0393", fmt::format("{:.4g}", *gamma));
     picture.captions.settings.emplace_back("f", fmt::format("{:.4g} Hz", plan_->system.frequency));
@@ -219,8 +222,11 @@ Result<std::vector<Vec2>> TrajectorySource::displacements(const Snapshot& now, s
     return frame.position[i].head<2>() +
            reader_.header().cell.box.sides().cwiseProduct(Vec2(frame.image[i][0], frame.image[i][1]));
   };
-  std::vector<Vec2> ways;
-  for (std::size_t i = 0; i < now.position.size(); ++i) ways.emplace_back(unwrapped(now, i) - unwrapped(before, i));
+  std::vector<Vec2> ways(now.n_rods(), Vec2::Constant(std::numeric_limits<double>::quiet_NaN()));
+  for (std::size_t i = 0; i < now.n_rods(); ++i) {
+    const std::optional<std::size_t> then = before.rod_of(now.track_of(i));
+    if (then) ways[i] = unwrapped(now, i) - unwrapped(before, *then);
+  }
   return ways;
 }
 
@@ -239,6 +245,7 @@ Result<RodPicture> TrajectorySource::picture_at(double time, const PictureStyle&
   }
   const std::size_t first = time > recorded ? nearest : nearest - 1;
   const Snapshot before = SHAKEN_TRY(reader_.frame(first)), after = SHAKEN_TRY(reader_.frame(first + 1));
+  if (before.track != after.track) return picture(nearest, style);
   return picture_of(between(before, after, time, reader_.header().cell), first, style);
 }
 

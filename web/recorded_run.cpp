@@ -60,14 +60,17 @@ Result<run::OrderCurve> RecordedRun::order(std::size_t most) const {
 
 Result<RecordedRun::Path> RecordedRun::path(std::size_t rod, std::size_t first, std::size_t last) const {
   const auto reader = SHAKEN_TRY(this->reader());
+  const Snapshot shown = SHAKEN_TRY(reader.frame(last));
+  if (rod >= shown.n_rods()) return Error{"there is no rod " + std::to_string(rod)};
   Path path;
   for (std::size_t k = first; k <= last; ++k) {
     const Snapshot recorded = SHAKEN_TRY(reader.frame(k));
-    if (rod >= recorded.position.size()) return Error{"there is no rod " + std::to_string(rod)};
+    const std::optional<std::size_t> there = recorded.rod_of(shown.track_of(rod));
+    if (!there) continue;  // it was missed
     path.times.push_back(recorded.time);
-    path.x.push_back(recorded.position[rod].x());
-    path.y.push_back(recorded.position[rod].y());
-    path.n_z.push_back(recorded.director[rod].z());
+    path.x.push_back(recorded.position[*there].x());
+    path.y.push_back(recorded.position[*there].y());
+    path.n_z.push_back(recorded.director[*there].z());
   }
   return path;
 }

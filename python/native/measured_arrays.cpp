@@ -32,9 +32,26 @@ Result<void> check(const Snapshot& frame, std::size_t number, const Box& box) {
     const Vec3& at = frame.position[i];
     const bool is_near = (at.head<2>().array().abs() <= run::kMostBoxes * box.shorter()).all();
     if (is_near && !std::isinf(at.z()) && frame.director[i].allFinite() && frame.velocity[i].allFinite()) continue;
-    return Error{fmt::format("frame {}, rod {}: a number is none, or lies too far from the box", number, i)};
+    return Error{
+        fmt::format("frame {}, rod {}: a number is none, or lies too far from the box", number, frame.track_of(i))};
   }
   return {};
+}
+
+/// Leaves out the rods that have no position. Others that are followed keep their numbers.
+void leave_out_missed(Snapshot& frame, bool is_followed) {
+  Snapshot seen;
+  seen.box = frame.box;
+  for (std::size_t i = 0; i < frame.n_rods(); ++i) {
+    if (frame.position[i].head<2>().hasNaN()) continue;
+    seen.track.push_back(static_cast<std::uint32_t>(is_followed ? i : seen.track.size()));
+    seen.position.push_back(frame.position[i]);
+    seen.director.push_back(frame.director[i]);
+    seen.velocity.push_back(frame.velocity[i]);
+    if (!frame.image.empty()) seen.image.push_back(frame.image[i]);
+  }
+  seen.n_tracks = frame.n_rods();
+  frame = std::move(seen);
 }
 
 }  // namespace
@@ -44,8 +61,15 @@ Result<Measured> measure_arrays(const Scene& scene, std::vector<Snapshot> frames
   const std::string started = utc_now();
   scene::RunPlan asked = SHAKEN_TRY(resolved(scene));
   asked.system.added = {};  // frames are of the first species alone
-  std::size_t n_all = 0;
-  for (const Snapshot& frame : frames) n_all += frame.n_rods();
+  const bool is_followed = !lacking.contains(run::Needs::kIdentities);
+  std::size_t n_all = 0, n_tracks = 0;
+  for (Snapshot& frame : frames) {
+    n_tracks = std::max(n_tracks, frame.n_rods());
+    leave_out_missed(frame, is_followed);
+    n_all += frame.n_rods();
+  }
+  const bool is_complete = is_followed && n_all == n_tracks * frames.size();
+  if (!is_complete) lacking.insert(run::Needs::kEveryRod);
   const std::size_t mean =
       frames.empty()
           ? 0
@@ -55,20 +79,18 @@ Result<Measured> measure_arrays(const Scene& scene, std::vector<Snapshot> frames
 
   const Tick spacing = run::ticks_between(interval, asked);
   const Vec2 period = period_of(own->system.box(), own->system.walls);
-  const bool is_followed = !lacking.contains(run::Needs::kIdentities);
+  std::vector<run::LastSeen> last(is_followed ? n_tracks : 0);
   std::size_t number = 0;
-  const Snapshot* before = nullptr;
   for (Snapshot& frame : frames) {
     SHAKEN_TRY(check(frame, number, own->system.box()));
     frame.tick = spacing * static_cast<Tick>(number++);
     frame.time = static_cast<double>(frame.tick) * own->system.dt;
     frame.box = own->system.box();
     for (Vec3& at : frame.position) at.z() = std::isnan(at.z()) ? own->system.gap / 2 : at.z();
-    if (frame.image.empty()) run::fold_into_box(frame, period, is_followed ? before : nullptr);
-    before = &frame;
+    if (frame.image.empty()) run::fold_into_box(frame, period, last);
   }
   std::vector<std::string> remarks;
-  const bool is_without = is_followed && frames.size() > 1 && lacking.erase(run::Needs::kVelocities) > 0;
+  const bool is_without = is_complete && frames.size() > 1 && lacking.erase(run::Needs::kVelocities) > 0;
   if (is_without) run::set_velocities(frames, interval);
   if (is_without || (is_tracked && !lacking.contains(run::Needs::kVelocities)))
     remarks.push_back(run::remark_on_velocities(frames.size(), interval));
@@ -77,7 +99,8 @@ Result<Measured> measure_arrays(const Scene& scene, std::vector<Snapshot> frames
   for (const Snapshot& frame : frames) recorded.push_back(run::record(frame));
   const std::string text = scene::to_json(*own).dump(2) + "\n";
   run::TrajectoryHeader header = run::trajectory_header(empty_world(own->system), text, {});
-  header.n_rods = static_cast<int>(mean);
+  header.n_rods = static_cast<int>(n_tracks);
+  header.lacking = run::words_of(lacking);
   const run::FramesInMemory memory(std::move(header), std::move(recorded));
   auto by = run::plan_for_frames({text, "scene"}, {text, "scene"}, {}, spacing, lacking);
   if (!by) return as_error(by.error());

@@ -31,13 +31,14 @@ def swept_height(of: Recorded) -> float:
     return float(of.box[2]) + (base + amplitude("lid_motion.", base))
 
 
-def angles_to_director(of: Recorded, directors: NDArray[Any]) -> NDArray[Any]:
+def angles_to_director(of: Recorded, frame: Any) -> NDArray[Any]:
     """(n,) angles in the plane between rods and the director of the first species, in [-pi/2, pi/2): by which pictures
     colour them. NaN of spheres and upright rods, and of all where the first species are spheres."""
+    directors, species = directors_of(frame["orientation"]), of.species[frame["rods"]]
     across = directors[:, 0] + 1j * directors[:, 1]
-    is_known = (across != 0) & ~np.isin(of.species, of.spheres) & (0 not in of.spheres)
+    is_known = (across != 0) & ~np.isin(species, of.spheres) & (0 not in of.spheres)
     theta = np.where(is_known, np.angle(across), np.nan)
-    axis = np.angle(np.exp(2j * theta[is_known & (of.species == 0)]).sum()) / 2
+    axis = np.angle(np.exp(2j * theta[is_known & (species == 0)]).sum()) / 2
     return np.asarray((theta - axis + np.pi / 2) % np.pi - np.pi / 2)
 
 
@@ -73,10 +74,11 @@ def extended_xyz(of: Recorded) -> Callable[[Any], bytes]:
     types, ids = (of.species + 1).astype("S"), np.arange(len(of.shapes)).astype("S")
 
     def text(frame: Any) -> bytes:
-        directors = directors_of(frame["orientation"])
-        return _lines([types, _texts(frame["position"]), ids, _texts(np.roll(frame["orientation"], -1, axis=1)), shapes,
-                       frame["image"].astype("S"), _texts(frame["velocity"]), _texts(directors),
-                       _texts(angles_to_director(of, directors))], comment(frame))
+        rods = frame["rods"]
+        return _lines([types[rods], _texts(frame["position"]), ids[rods],
+                       _texts(np.roll(frame["orientation"], -1, axis=1)), shapes[rods], frame["image"].astype("S"),
+                       _texts(frame["velocity"]), _texts(directors_of(frame["orientation"])),
+                       _texts(angles_to_director(of, frame))], comment(frame))
     return text
 
 
@@ -89,8 +91,10 @@ def beads_xyz(of: Recorded) -> Callable[[Any], bytes]:
     molecules, radii, comment = rods.astype("S"), _texts(radii), _comment(of, _BEADS)
 
     def text(frame: Any) -> bytes:
-        beads = frame["position"][rods] + offsets[:, None] * directors_of(frame["orientation"])[rods]
-        return _lines([names, _texts(beads), radii, molecules], comment(frame))
+        there = np.isin(rods, frame["rods"])
+        of_rod = np.repeat(np.arange(len(frame["rods"])), n_beads[frame["rods"]])
+        beads = frame["position"][of_rod] + offsets[there, None] * directors_of(frame["orientation"])[of_rod]
+        return _lines([names[there], _texts(beads), radii[there], molecules[there]], comment(frame))
     return text
 
 
@@ -111,10 +115,10 @@ def gsd_snapshots(of: Recorded) -> Callable[[Any], Any]:
         place[:, :2] = np.minimum(place[:, :2], np.nextafter(half, np.float32(0)))  # half a side is the other border
         found.configuration.step, found.configuration.box = frame["tick"], [*box, 0, 0, 0]
         rods = found.particles
-        rods.N, rods.typeid, rods.types, rods.type_shapes = len(place), of.shapes, types, unions
+        rods.N, rods.typeid, rods.types, rods.type_shapes = len(place), of.shapes[frame["rods"]], types, unions
         rods.position, rods.orientation = place, frame["orientation"]
         rods.velocity, rods.image = frame["velocity"], frame["image"]
-        angles = angles_to_director(of, directors_of(frame["orientation"]))
+        angles = angles_to_director(of, frame)
         found.log = {"particles/theta": angles.astype(np.float32), "time_s": np.array([frame["time"]])}
         return found
     return snapshot

@@ -20,7 +20,7 @@ class Frame:
     time:       [s]
     tick:       time over the time step
     positions:  (n, 3) centres of mass [mm]; x and y are wrapped into the box, z is the height above the lowest position
-                of the base
+                of the base. NaN, as directors and velocities are, of a tracked rod that was missed in this frame
     directors:  (n, 3) unit vectors along the rods, from tail to head; those of spheres mean nothing
     velocities: (n, 3) [mm/s]; NaN of tracked rods that nobody could follow
     images:     (n, 3) crossings of the border of the box: positions + box * images is a path without jumps
@@ -53,7 +53,13 @@ class Frame:
     @property
     def _mean_axis(self) -> complex:
         """<exp 2i theta> of the first species; NaN of spheres."""
-        return complex("nan") if 0 in self.spheres else np.exp(2j * self.theta[self.species == 0]).mean()
+        of_first = self.is_seen & (self.species == 0)
+        return complex("nan") if 0 in self.spheres else np.exp(2j * self.theta[of_first]).mean()
+
+    @property
+    def is_seen(self) -> NDArray[Any]:
+        """(n,) whether a rod is there: of a run, all are."""
+        return np.asarray(~np.isnan(self.positions[:, 0]))
 
     @property
     def order(self) -> float:
@@ -67,13 +73,13 @@ class Frame:
         return float(np.angle(self._mean_axis) / 2)
 
     def __repr__(self) -> str:
-        return f"<frame at {self.time:g} s: {len(self.positions)} rods, S = {self.order:.3g}>"
+        return f"<frame at {self.time:g} s: {self.is_seen.sum()} rods, S = {self.order:.3g}>"
 
     def _repr_png_(self) -> bytes | None:
         return self.draw() if self.draw else None
 
     def to_freud(self) -> tuple[Any, NDArray[Any], NDArray[Any]]:
-        """What freud takes: (box, points, orientations).
+        """What freud takes of the n rods that are seen: (box, points, orientations).
 
         box:          freud.box.Box of the plane, Lx x Ly, periodic where no side walls stand; a tuple (Lx, Ly) where
                       freud is not installed
@@ -81,10 +87,10 @@ class Frame:
         orientations: (n, 4) float32 unit quaternions (w, x, y, z) that turn the x axis into the rod's direction in the
                       plane, as freud's two-dimensional computations have them
         """
-        points = self.positions.astype(np.float32)
+        points = self.positions[self.is_seen].astype(np.float32)
         points[:, :2] -= (self.box[:2] / 2).astype(np.float32)
         points[:, 2] = 0
-        half = self.theta / 2
+        half = self.theta[self.is_seen] / 2
         orientations = np.zeros((len(half), 4), dtype=np.float32)
         orientations[:, 0], orientations[:, 3] = np.cos(half), np.sin(half)
         try:

@@ -59,18 +59,23 @@ class Recorded:
         return frame
 
     def checked(self, k: int) -> Any:
-        """As `read`. Raises Failed where a number is none that a rod in the box can have, too."""
+        """As `read`, of the rods that are there (tracked ones may be missed), with their numbers from 0 as rods (n,).
+        Raises Failed where a number is none that a rod in the box can have, too."""
         frame = self._read(k)
-        square = (frame["orientation"].astype(float) ** 2).sum(axis=1)
+        rods = np.flatnonzero(~np.isnan(frame["position"]).all(axis=1) | (not self.lacking))
+        there = {name: frame[name][rods] for name in _WIDTHS}
+        square = (there["orientation"].astype(float) ** 2).sum(axis=1)
         # a box to either side leaves room for rounding, and for files that count from its middle; false for NaN
         for what, values, middle, most in (("squared length of the orientation", square, 1, 1e-3),
-                                           ("position", frame["position"][:, :2], 0, 2 * self.box[:2]),
-                                           ("height", frame["position"][:, 2], 0, _LARGEST),
-                                           ("velocity", frame["velocity"], 0, _LARGEST)):
+                                           ("position", there["position"][:, :2], 0, 2 * self.box[:2]),
+                                           ("height", there["position"][:, 2], 0, _LARGEST),
+                                           ("velocity", there["velocity"], 0, _LARGEST)):
             for at in np.argwhere(~(np.abs(values - middle) <= most))[:1]:
-                raise Failed(f"{self.path}: frame {k}: the {what} of rod {at[0]} is {values[tuple(at)]:g}: the file "
-                              "is damaged")
-        return self.read(k)
+                raise Failed(f"{self.path}: frame {k}: the {what} of rod {rods[at[0]]} is {values[tuple(at)]:g}: the "
+                             "file is damaged")
+        if not self._has_velocities:
+            there["velocity"] = np.full_like(there["velocity"], np.nan)
+        return {"tick": frame["tick"], "time": frame["time"], "rods": rods, **there}
 
 
 def recorded(path: Path) -> Recorded:

@@ -60,16 +60,41 @@ def test_tracks_with_noise_and_holes_give_the_run_s_numbers_within_the_bias(fold
     run = shaken.open(folder / "sim")
     holes = json.loads(measure(folder, *words))
     seen = shaken.open(holes["directory"])
-    assert any("msd is left out" in remark for remark in holes["remarks"]) and "/msd/total_mm2" not in seen.arrays
+    assert any("lags are of the rods that are in both frames" in remark for remark in holes["remarks"])
+    lag = run.arrays["/msd/lag_s"] > 0.05
+    np.testing.assert_allclose(seen.arrays["/msd/total_mm2"][lag], run.arrays["/msd/total_mm2"][lag] + 4 * shift**2,
+                               rtol=0.1)
     assert seen.numbers["S"].value == pytest.approx(run.numbers["S"].value * math.exp(-2 * turn**2), abs=0.003)
     np.testing.assert_allclose(seen.arrays["/g2/g2"], run.arrays["/g2/g2"], atol=0.05)
 
     whole = json.loads(measure(folder, *words, "--fill", 4, "--complete"))
     assert any("tracks are in every frame: the others are left out" in remark for remark in whole["remarks"])
     followed = shaken.open(whole["directory"])
-    lag = run.arrays["/msd/lag_s"] > 0.05
     np.testing.assert_allclose(followed.arrays["/msd/total_mm2"][lag], run.arrays["/msd/total_mm2"][lag] + 4 * shift**2,
                                rtol=0.15)
+
+
+def test_rods_that_are_missed_are_drawn_exported_and_measured_in_the_frames_that_have_them(folder):
+    said(sys.executable, ROOT / "docs/tracks_of_a_run.py", folder / "sim", folder / "few.csv", 0.1, 0, 0)
+    holes = json.loads(measure(folder, folder / "few.csv", "--scene", folder / "lab.json", "--scale", 0.05,
+                               "--interval", "10ms", "--flip-y"))
+    seen = shaken.open(holes["directory"])
+    frames = list(seen.frames())
+    there = np.array([frame.is_seen for frame in frames])
+    assert there.shape == (41, len(next(iter(shaken.open(folder / "sim").frames())).positions))
+    assert 0.85 < there.mean() < 0.95 and there.any(axis=0).all()
+    np.testing.assert_allclose([frame.order for frame in frames], seen.arrays["/order/order"], atol=1e-6)
+    of_arrays = shaken.measure(frames, scene=seen.scene)
+    for name in ("/msd/total_mm2", "/g2/g2", "/order/order"):
+        np.testing.assert_allclose(of_arrays.arrays[name], seen.arrays[name], rtol=1e-5, atol=1e-7, err_msg=name)
+
+    for form in ("extxyz", "xyz"):
+        said(PROGRAMS / "shaken", "export", holes["directory"], "-o", folder / f"few.{form}", "--last")
+        lines = (folder / f"few.{form}").read_text().splitlines()
+        n_each = 1 if form == "extxyz" else 11
+        assert int(lines[0]) == there[-1].sum() * n_each == len(lines) - 2 and not any("nan" in of for of in lines[2:])
+    assert frames[-1]._repr_png_().startswith(b"\x89PNG")
+    said(PROGRAMS / "shaken", "movie", holes["directory"], "-o", folder / "few.mp4", "--size", "320x240")
 
 
 def test_tracks_of_a_mixture_give_the_numbers_of_each_species(folder):

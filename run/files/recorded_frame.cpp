@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace shaken::run {
@@ -34,25 +37,31 @@ float wrapped_float(double x, double side) {
 }  // namespace
 
 RecordedFrame record(const Snapshot& snapshot) {
-  RecordedFrame frame;
-  frame.tick = snapshot.tick;
-  frame.time = snapshot.time;
+  const std::size_t n_rods = std::max(snapshot.n_tracks, snapshot.n_rods());
+  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+  RecordedFrame frame{snapshot.tick,
+                      snapshot.time,
+                      std::vector(3 * n_rods, kNone),
+                      std::vector(3 * n_rods, kNone),
+                      std::vector(4 * n_rods, kNone),
+                      std::vector<std::int32_t>(3 * n_rods)};
   for (std::size_t i = 0; i < snapshot.n_rods(); ++i) {
-    const Vec3& x = snapshot.position[i];
-    const Vec3& v = snapshot.velocity[i];
-    frame.position.insert(frame.position.end(), {wrapped_float(x.x(), snapshot.box.x()),
-                                                 wrapped_float(x.y(), snapshot.box.y()), static_cast<float>(x.z())});
-    frame.velocity.insert(frame.velocity.end(),
-                          {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())});
-    for (const double q : quaternion_of_director(snapshot.director[i])) {
-      frame.orientation.push_back(static_cast<float>(q));
+    const std::size_t row = snapshot.track_of(i);
+    const Vec3 &x = snapshot.position[i], &v = snapshot.velocity[i];
+    const std::array<double, 4> turn = quaternion_of_director(snapshot.director[i]);
+    const std::array<float, 3> at{wrapped_float(x.x(), snapshot.box.x()), wrapped_float(x.y(), snapshot.box.y()),
+                                  static_cast<float>(x.z())};
+    for (std::size_t k = 0; k < 3; ++k) {
+      frame.position[3 * row + k] = at[k];
+      frame.velocity[3 * row + k] = static_cast<float>(v[static_cast<Eigen::Index>(k)]);
     }
-    frame.image.insert(frame.image.end(), {snapshot.image[i][0], snapshot.image[i][1], 0});
+    for (std::size_t k = 0; k < 4; ++k) frame.orientation[4 * row + k] = static_cast<float>(turn[k]);
+    for (std::size_t k = 0; k < 2; ++k) frame.image[3 * row + k] = snapshot.image[i][k];
   }
   return frame;
 }
 
-Result<Snapshot> decode(const RecordedFrame& recorded, const Box& box) {
+Result<Snapshot> decode(const RecordedFrame& recorded, const Box& box, bool were_tracked) {
   constexpr double kMost = 1e9;  // heights without a base, and speeds [mm], [mm/s]
   const auto wrong = [](const char* what, std::size_t rod, double value) {
     return Error{fmt::format("the {} of rod {} is {:g}: the file is damaged", what, rod, value)};
@@ -64,6 +73,9 @@ Result<Snapshot> decode(const RecordedFrame& recorded, const Box& box) {
   frame.time = recorded.time;
   const auto &x = recorded.position, &v = recorded.velocity, &q = recorded.orientation;
   for (std::size_t i = 0; 3 * i < x.size(); ++i) {
+    const auto is_none = [](float number) { return std::isnan(number); };
+    if (were_tracked && std::all_of(&x[3 * i], &x[3 * i] + 3, is_none)) continue;
+    if (were_tracked) frame.track.push_back(static_cast<std::uint32_t>(i));
     const std::array<double, 4> turn{q[4 * i], q[4 * i + 1], q[4 * i + 2], q[4 * i + 3]};
     const double norm2 = turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2] + turn[3] * turn[3];
     if (!(std::abs(norm2 - 1) < 1e-3)) {
@@ -82,6 +94,7 @@ Result<Snapshot> decode(const RecordedFrame& recorded, const Box& box) {
     frame.director.push_back(director_of_quaternion(turn));
     frame.image.push_back({recorded.image[3 * i], recorded.image[3 * i + 1]});
   }
+  if (were_tracked) frame.n_tracks = x.size() / 3;
   return frame;
 }
 

@@ -19,9 +19,11 @@ struct RecordedFrame {
   std::vector<std::int32_t> image;  ///< (n_rods, 3): how often the box was left; the third is always 0
 };
 
+/// Where rods are missed (Snapshot::track), one row for each of all, NaN where it is not there.
 RecordedFrame record(const Snapshot& snapshot);
 /// The frame without angular velocities, which files lack. Fails, naming the rod, if a number is none that a rod in
-/// a box of sides `box` [mm] can have: orientations are of unit length, positions in the box, everything finite.
-Result<Snapshot> decode(const RecordedFrame& frame, const Box& box);
+/// a box of sides `box` [mm] can have: orientations are of unit length, positions in the box, everything finite. Rods
+/// that `were_tracked` may be missed, all of whose numbers are none then.
+Result<Snapshot> decode(const RecordedFrame& frame, const Box& box, bool were_tracked = false);
 
 }  // namespace shaken::run

@@ -145,7 +145,7 @@ Result<Snapshot> TrajectoryReader::frame(std::size_t index) const {
   if (index >= n_frames()) {
     return Error{path_.string() + " has no frame " + std::to_string(index) + "; it has " + std::to_string(n_frames())};
   }
-  Result<Snapshot> frame = decode(SHAKEN_TRY(frames_->frame(index)), header().cell.box);
+  Result<Snapshot> frame = decode(SHAKEN_TRY(frames_->frame(index)), header().cell.box, !header().lacking.empty());
   if (!frame) return Error{path_.string() + ": frame " + std::to_string(index) + ": " + frame.error().message};
   return frame;
 }

@@ -104,7 +104,7 @@ MeasurementKind defect_maps_kind() {
       .arrays = outputs_of(kMapAxes, kMapPlus, kMapMinus),
       .axes = {{"plus/", "across_mm along_mm"}, {"minus/", "across_mm along_mm"}},
       .numbers = outputs_of(kMapNumbers),
-      .needs = {Needs::kIdentities},
+      .needs = {Needs::kIdentities, Needs::kEveryRod},
   };
 }
 

@@ -40,7 +40,7 @@ MeasurementKind drift_kind() {
       .make = measure_drift,
       .arrays = outputs_of(kDriftSeries),
       .numbers = outputs_of(kDriftNumbers),
-      .needs = {Needs::kIdentities},
+      .needs = {Needs::kIdentities, Needs::kEveryRod},
   };
 }
 

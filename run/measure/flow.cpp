@@ -53,7 +53,7 @@ MeasurementKind flow_kind() {
       .arrays = outputs_of(kFlowCurves),
       .numbers = outputs_of(kFlowNumbers),
 
-      .needs = {Needs::kIdentities},
+      .needs = {Needs::kIdentities, Needs::kEveryRod},
   };
 }
 

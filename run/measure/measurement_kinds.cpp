@@ -22,11 +22,12 @@ std::span<const MeasurementKind> measurement_kinds() {
 }
 
 namespace {
-constexpr std::array<std::string_view, 6> kNeeds{"impacts",
+constexpr std::array<std::string_view, 7> kNeeds{"impacts",
                                                  "angular velocities",
                                                  "velocities",
                                                  "tilts out of the plane",
                                                  "rods that are followed from frame to frame",
+                                                 "every rod in every frame",
                                                  "heads (all rods point to one half of the plane)"};  // as in Needs
 constexpr std::string_view kBetweenNeeds = ", ";
 }  // namespace

@@ -59,6 +59,7 @@ enum class Needs {
   kVelocities,  ///< of centres at an instant
   kTilts,       ///< directions out of the plane
   kIdentities,  ///< which rod of one frame is which of another
+  kEveryRod,    ///< in every frame: none is missed
   kHeads,       ///< which end of a rod is its head
 };
 using Lacking = std::set<Needs>;

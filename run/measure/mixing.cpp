@@ -80,7 +80,7 @@ MeasurementKind mixing_kind() {
               {"segregation_13", "the same of `rods` and `rods_3`", false, "no neighbours"},
               {"segregation_23", "the same of `rods_2` and `rods_3`", false, "no neighbours"},
           },
-      .needs = {Needs::kIdentities},
+      .needs = {Needs::kIdentities, Needs::kEveryRod},
   };
 }
 

@@ -43,7 +43,7 @@ MeasurementKind rods_kind() {
               {"trace/K/n_z", "vertical component of its axis"},
           },
       .axes = {{"trace/K/", "trace/time_s"}},
-      .needs = {Needs::kIdentities},
+      .needs = {Needs::kIdentities, Needs::kEveryRod},
   };
 }
 

@@ -44,7 +44,9 @@ constexpr std::array kRotationNumbers{
 };
 
 std::unique_ptr<Measurement> measure_rotation(const MeasureContext& context) {
-  const auto sample = [](const Sample& now, auto& rotation) { rotation.accumulate(now->time, now->director); };
+  const auto sample = [](const Sample& now, auto& rotation) {
+    rotation.accumulate(now->time, now->by_track(now->director));
+  };
   const auto reduce = [](Reduction& result, const auto& rotation) {
     put(result, "/rotation/", kRotationCurves, rotation.reduce(result.t_steady));
     put(result, "", kRotationNumbers, rotation.summarize(result.t_steady));

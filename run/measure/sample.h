@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "analysis/collision_rates.h"
@@ -32,10 +33,11 @@ class Sample {
     if (!order_) order_ = analysis::nematic_order(rods_.director);
     return *order_;
   }
-  /// Centres without the jumps at the borders of the box (n_rods) [mm].
+  /// Centres without the jumps at the borders of the box [mm], of rods that are followed (Snapshot::by_track).
   const std::vector<Vec3>& unwrapped() const {
     if (unwrapped_.empty()) {
       for (std::size_t i = 0; i < rods_.n_rods(); ++i) unwrapped_.push_back(rods_.unwrapped(i));
+      unwrapped_ = rods_.by_track(std::move(unwrapped_));
     }
     return unwrapped_;
   }

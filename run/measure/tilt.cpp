@@ -84,7 +84,7 @@ MeasurementKind tilt_kind() {
       .make = measure_tilt,
       .arrays = outputs_of(kTiltCurves, kTiltFolded),
       .numbers = outputs_of(kTiltSwitching, kTiltNumbers),
-      .needs = {Needs::kTilts, Needs::kVelocities, Needs::kIdentities},
+      .needs = {Needs::kTilts, Needs::kVelocities, Needs::kIdentities, Needs::kEveryRod},
   };
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "base/clock.h"
@@ -63,7 +64,6 @@ std::string id_of(const scene::RunPlan& plan, const fs::path& file) {
 struct Task {
   FramesPlan by;
   const RecordedFrames* frames;
-  bool may_be_drawn = true;  ///< as a trajectory.h5, in which the number of rods does not change
 };
 
 keys::Loaded<Task> task_of(const MeasureOptions& asked, const TrajectoryReader& frames) {
@@ -102,7 +102,7 @@ keys::Loaded<Task> task_of(const MeasureOptions& asked, std::optional<TrackedRod
   const std::string& own = tracks->frames->header().scene_json;
   auto made = SHAKEN_TRY(plan_for_frames({own, asked.scene}, {own, asked.scene}, {}, *spacing, tracks->lacking));
   made.remarks.insert(made.remarks.begin(), tracks->remarks.begin(), tracks->remarks.end());
-  return Task{std::move(made), tracks->frames.get(), tracks->has_constant_number};
+  return Task{std::move(made), tracks->frames.get()};
 }
 
 /// Measures, and fills the directory; the summary comes last.
@@ -134,16 +134,11 @@ MeasuredFrames write_run(const Task& task, const RunDirectory& directory, const 
   TrajectoryHeader header = frames.header();
   header.scene_json = scene::to_json(plan).dump(2) + "\n";
   header.provenance = {id, plan.system.seed};
-  std::vector<fs::path> written{directory.observables()};
-  if (!task.may_be_drawn) {
-    fs::remove(directory.trajectory());  // of a measurement before
-  } else {
-    written.push_back(directory.trajectory());
-    done_or_fail(write_trajectory(directory.trajectory(), header, frames));
-  }
+  done_or_fail(write_trajectory(directory.trajectory(), header, frames));
   done_or_fail(write_observables(directory.observables(), found.reduction.arrays, header.provenance));
   done_or_fail(write_file_atomically(directory.scene(), header.scene_json));
-  for (const fs::path& each : written) summary.files[each.filename().string()] = value_or_fail(content_hash(each));
+  for (const fs::path& each : {directory.trajectory(), directory.observables()})
+    summary.files[each.filename().string()] = value_or_fail(content_hash(each));
   summary.finished = utc_now();
   done_or_fail(write_summary(directory.summary(), summary));
   return found;
@@ -185,6 +180,20 @@ ExitCode measure(const MeasureOptions& asked) {
   return ExitCode::kOk;
 }
 
+/// By their names, the values of an option that has "NAME=VALUE" each.
+std::map<std::string, std::string> pairs_of(const CLI::Option* option, const std::vector<std::string>& values) {
+  std::map<std::string, std::string> pairs;
+  for (const std::string& each : values) {
+    const std::size_t equals = each.find('=');
+    if (equals == std::string::npos) {
+      throw Failure(ExitCode::kBadInput,
+                    fmt::format("{} takes {}, not '{}'", option->get_name(), option->get_type_name(), printable(each)));
+    }
+    pairs[each.substr(0, equals)] = each.substr(equals + 1);
+  }
+  return pairs;
+}
+
 }  // namespace
 
 void declare(CLI::App& app, MeasureOptions& asked) {
@@ -202,6 +211,10 @@ void declare(CLI::App& app, MeasureOptions& asked) {
       ->type_name("TIME");
   app.add_option("--columns", asked.columns, "Table: what columns are called, as in x=POSITION_X,angle=phi")
       ->type_name("NAME=COLUMN")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  app.add_option("--species", asked.species, "Table: which species its names are, as in long=rods,short=rods_2")
+      ->type_name("NAME=SPECIES")
       ->delimiter(',')
       ->allow_extra_args(false);
   app.add_flag("--flip-y", table.flips_y, "Table: y is counted downwards, from the upper edge");
@@ -232,12 +245,8 @@ int measure_command(int argc, char** argv) {
       }
       asked.conventions.interval = *time;
     }
-    for (const std::string& column : asked.columns) {
-      const std::size_t equals = column.find('=');
-      if (equals == std::string::npos)
-        throw Failure(ExitCode::kBadInput, fmt::format("--columns takes NAME=COLUMN, not '{}'", printable(column)));
-      asked.conventions.columns[column.substr(0, equals)] = column.substr(equals + 1);
-    }
+    asked.conventions.columns = pairs_of(app.get_option("--columns"), asked.columns);
+    asked.conventions.species = pairs_of(app.get_option("--species"), asked.species);
     return measure(asked);
   });
 }

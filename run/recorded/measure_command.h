@@ -17,8 +17,8 @@ struct MeasureOptions {
   std::vector<std::string> settings;
   std::string out;
   TrackConventions conventions;
-  std::string interval;              ///< of the conventions, as given
-  std::vector<std::string> columns;  ///< the same
+  std::string interval;                       ///< of the conventions, as given
+  std::vector<std::string> columns, species;  ///< the same
   bool radians = false, degrees = false;
   bool json = false;
 };

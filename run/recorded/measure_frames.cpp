@@ -20,6 +20,7 @@ using OrderedJson = nlohmann::ordered_json;
 /// What a scene says that a measurement of its frames has no part in.
 constexpr std::string_view kFree[] = {"measure", "trajectory", "stream", "movie", "until"};
 constexpr std::string_view kFreeOfTime[] = {"steady", "measure"};
+constexpr double kFewSamples = 20;  ///< of a film of more frames
 
 OrderedJson without(OrderedJson json, std::span<const std::string_view> names) {
   for (const std::string_view name : names) json.erase(std::string(name));
@@ -99,6 +100,11 @@ keys::Loaded<FramesPlan> plan_for_frames(const SceneText& of, const SceneText& a
                                     static_cast<double>(whole) * dt, static_cast<double>(period) * dt,
                                     static_cast<double>(spacing) * dt));
     }
+    if (whole > spacing && static_cast<double>(whole) * dt > wanted.total_time() / kFewSamples) {
+      remarks.push_back(
+          fmt::format("measure.{0} is of one frame in {1}, so of few: -s measure.{0}.every={2:.6g} is of each",
+                      kind.name, whole / spacing, static_cast<double>(spacing) * dt));
+    }
     if (block->contains("phases")) (*block)["phases"] = "locked";
   }
   if (!is_any_left) {
@@ -117,7 +123,7 @@ Result<MeasuredFrames> measure_frames(const scene::RunPlan& plan, const Recorded
   for (std::size_t i = 0; i < frames.n_frames(); ++i) {
     if (goes_on && !goes_on(i)) return Error{"interrupted", EINTR};
     const RecordedFrame recorded = SHAKEN_TRY(frames.frame(i));
-    Snapshot frame = SHAKEN_TRY(decode(recorded, header.cell.box));
+    Snapshot frame = SHAKEN_TRY(decode(recorded, header.cell.box, !header.lacking.empty()));
     if (i > 0 && frame.tick != expected) {
       return Error{fmt::format("frame {} is at tick {}, where others are {} ticks apart", i, frame.tick, spacing)};
     }

@@ -76,6 +76,10 @@ class TrackRows {
                         },
                     .report = [&](const auto&... problem) { report(problem...); },
                     .example = "frame,id,x,y,angle"});
+    for (const auto& [kind, repeated] : repeated_) {
+      const std::string more = repeated.n > 1 ? fmt::format(" (and {} more)", counted(repeated.n - 1, "row")) : "";
+      report(repeated.first + more, repeated.line, repeated.column);
+    }
     if (found_.frames.empty() && problems_.size() == n_before) report("the table has no rods");
     if (problems_.size() > n_before) return std::nullopt;
     for (std::size_t k = 0; k < heads_.size(); ++k) {
@@ -91,6 +95,11 @@ class TrackRows {
   }
 
  private:
+  struct Repeated {
+    std::string first;  ///< what is wrong with the first row
+    int line, column;
+    std::size_t n = 0;
+  };
   struct Row {
     const std::vector<CsvField>& fields;
     int line;
@@ -100,6 +109,10 @@ class TrackRows {
   void report(const std::string& message, int line = 0, int column = 0) {
     if (problems_.size() < kMostProblems)
       problems_.push_back({file_, line, line > 0 ? std::max(column, 1) : 0, "", message});
+  }
+  /// What may be wrong with every row alike is said of the first, with the number of the others.
+  void report_once(const std::string& kind, const std::string& message, int line, int column = 0) {
+    ++repeated_.try_emplace(kind, Repeated{message, line, column}).first->second.n;
   }
   bool has(const std::string& name) const { return place_.contains(name); }
 
@@ -147,7 +160,8 @@ class TrackRows {
                          missing.size() > 1 ? "them" : "it", fmt::join(missing, "=NAME,")),
              line);
     }
-    if (const auto lack = lack_of_species(species_); lack && !has("species")) report(*lack, line);
+    if (const auto lack = lack_of_species(species_); lack && !has("species"))
+      report(*lack + "; --columns species=NAME says what it is called", line);
     if (has("frame") && !has("t") && !conventions_.interval)
       report("the table has numbers of frames and no times: --interval says the time from one to the next", line);
     if (has("angle")) {
@@ -203,8 +217,14 @@ class TrackRows {
   std::uint8_t species_of(const Row& row, double id) {
     if (species_.size() < 2) return 0;
     const CsvField& field = row.fields[place_.at("species")];
-    const Result<std::uint8_t> named = species_in(field.text, species_);
-    if (!named) report(named.error().message, row.line, field.column);
+    const auto given = conventions_.species.find(field.text);
+    const Result<std::uint8_t> named =
+        species_in(given != conventions_.species.end() ? given->second : field.text, species_);
+    if (!named) {
+      report_once(field.text,
+                  fmt::format("{}; --species {}=NAME says which it is", named.error().message, printable(field.text)),
+                  row.line, field.column);
+    }
     const std::uint8_t species = named ? *named : std::uint8_t{0};
     if (has("id") && species_by_id_.emplace(id, species).first->second != species)
       report(fmt::format("rod {:g} is of another species than before", id), row.line, field.column);
@@ -237,9 +257,11 @@ class TrackRows {
         position[k] += (box[k] - view_[k]) / 2;
         continue;
       }
-      report(
-          fmt::format("{} = {:.6g} mm is outside of the {}, which is {:.6g} mm long: see --scale{}", k == 0 ? "x" : "y",
-                      position[k], period_[k] > 0 ? "box" : "arena", view_[k], period_[k] > 0 ? " and --wrap" : ""),
+      const std::string axis = k == 0 ? "x" : "y";
+      report_once(
+          axis,
+          fmt::format("{} = {:.6g} mm is outside of the {}, which is {:.6g} mm long: see --scale{}", axis, position[k],
+                      period_[k] > 0 ? "box" : "arena", view_[k], period_[k] > 0 ? " and --wrap" : ""),
           line);
       return false;
     }
@@ -259,6 +281,7 @@ class TrackRows {
   int last_title_ = 0;                                       ///< up to this line there may be more than the names
   bool is_in_radians_ = false, is_counted_upwards_ = false;  ///< the angle
   std::map<double, std::uint8_t> species_by_id_;
+  std::map<std::string, Repeated> repeated_;  ///< by kind
   std::size_t n_missed_ = 0;
   double largest_angle_ = 0;
   Sightings found_;

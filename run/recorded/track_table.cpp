@@ -23,6 +23,8 @@ using keys::Problem;
 
 constexpr double kEqual = 1e-3;        ///< by which intervals between frames may differ, of themselves
 constexpr double kMostInterval = 1e5;  ///< between frames [s]
+/// Tracks times frames, where some are missed: each has a place in all frames, of 52 bytes, seen or not.
+constexpr std::size_t kMostPlaces = 20'000'000;
 
 /// Frames of a run, made of what was seen of rods.
 class SeenFrames {
@@ -44,6 +46,7 @@ class SeenFrames {
     if (problems_.size() > n_before) return std::nullopt;
     const auto n_rods = n_rods_of_species();
     if (!n_rods) return std::nullopt;
+    number_tracks();
     auto plan = plan_of_tracks(plan_, file_, {*n_rods, table_.frames.size(), interval});
     if (!plan) {
       problems_.insert(problems_.end(), plan.error().begin(), plan.error().end());
@@ -55,6 +58,7 @@ class SeenFrames {
     for (const Snapshot& frame : snapshots(interval)) recorded.push_back(record(frame));
     made_.lacking.insert({Needs::kImpacts, Needs::kSpins});
     if (!is_followed_) made_.lacking.insert(Needs::kIdentities);
+    if (!is_followed_ || !is_complete_) made_.lacking.insert(Needs::kEveryRod);
     if (!table_.has("tilt") && !table_.has("nz")) made_.lacking.insert(Needs::kTilts);
     if (!table_.heads_are_told) made_.lacking.insert(Needs::kHeads);
     made_.frames = std::make_unique<FramesInMemory>(header(*n_rods), std::move(recorded));
@@ -104,12 +108,13 @@ class SeenFrames {
     return {before.id, before.position + part * step, turned.normalized(), before.species};
   }
 
-  /// Whether rods can be followed: all that have ids are in every frame, or only those that are count.
+  /// Whether rods can be followed, as those can that have ids, and whether each is in every frame.
   void note_identities() {
     const std::size_t n_frames = table_.frames.size(), n_tracks = table_.seen.size();
     const auto n_complete = static_cast<std::size_t>(
         std::ranges::count_if(table_.seen, [&](const auto& track) { return track.second.size() == n_frames; }));
-    is_followed_ = table_.has("id") && (n_complete == n_tracks || conventions_.only_complete);
+    is_complete_ = n_complete == n_tracks || conventions_.only_complete;
+    is_followed_ = table_.has("id") && (is_complete_ || n_tracks * n_frames <= kMostPlaces);
     if (n_complete == n_tracks) return;
     std::string remark = fmt::format("{} of {} tracks are in every frame: ", n_complete, n_tracks);
     if (conventions_.only_complete) {
@@ -118,7 +123,9 @@ class SeenFrames {
       remark += "the others are left out";
       if (n_complete == 0) report("no rod is in every frame: measure without --complete");
     } else {
-      remark += "--complete measures these alone, and then follows them; --fill N closes gaps of up to N frames before";
+      remark += is_followed_ ? "lags are of the rods that are in both frames"
+                             : "too many tracks are short for all to be followed";
+      remark += "; --complete measures these alone, and --fill N closes gaps of up to N frames before";
     }
     made_.remarks.push_back(std::move(remark));
   }
@@ -155,14 +162,14 @@ class SeenFrames {
       least = std::min(least, rods.size());
       most = std::max(most, rods.size());
     }
-    mean_ =
+    const auto mean =
         static_cast<std::size_t>(std::llround(static_cast<double>(n_all) / static_cast<double>(table_.frames.size())));
-    made_.has_constant_number = least == most;
+    most_in_frame_ = most;
     if (least < most) {
-      made_.remarks.push_back(fmt::format("{} to {} rods in a frame, {} on average", least, most, mean_));
+      made_.remarks.push_back(fmt::format("{} to {} rods in a frame, {} on average", least, most, mean));
     }
     const std::vector<std::string> species = species_names(plan_.system);
-    if (species.size() < 2) return std::vector{std::max<std::size_t>(mean_, 1)};
+    if (species.size() < 2) return std::vector{std::max<std::size_t>(mean, 1)};
     std::vector<std::size_t> first;
     for (const auto& [number, rods] : table_.frames) {
       std::vector<std::size_t> n(species.size());
@@ -182,26 +189,37 @@ class SeenFrames {
     return first;
   }
 
+  /// Each rod that is followed has a number of its own, as far as some are missed; others have that in their frame.
+  void number_tracks() {
+    n_tracks_ = most_in_frame_;
+    if (!is_followed_ || is_complete_) return;
+    for (const auto& [id, frames] : table_.seen) track_of_.emplace(id, static_cast<std::uint32_t>(track_of_.size()));
+    n_tracks_ = track_of_.size();
+  }
+
   /// Rods in the box; with --wrap their paths go on beyond it, otherwise they end at its border and begin at the other.
-  /// They have velocities where they can be followed.
+  /// They have velocities where they can be followed, and none is missed.
   std::vector<Snapshot> snapshots(double interval) {
     const Tick spacing = ticks_between(interval, plan_);
     std::vector<Snapshot> frames;
+    std::vector<LastSeen> last(is_followed_ && !conventions_.wraps ? n_tracks_ : 0);
     for (const auto& [number, rods] : table_.frames) {
       Snapshot frame;
       frame.tick = spacing * static_cast<Tick>(frames.size());
       frame.time = static_cast<double>(frame.tick) * made_.plan.system.dt;
       frame.box = made_.plan.system.box();
+      frame.n_tracks = n_tracks_;
       for (const Sighting& rod : rods) {
+        const auto in_frame = static_cast<std::uint32_t>(frame.track.size());
+        frame.track.push_back(track_of_.empty() ? in_frame : track_of_.at(rod.id));
         frame.position.push_back(rod.position);
         frame.director.push_back(rod.director);
       }
-      const bool follows_on = is_followed_ && !frames.empty() && !conventions_.wraps;
-      fold_into_box(frame, period_, follows_on ? &frames.back() : nullptr);
+      fold_into_box(frame, period_, last);
       frame.velocity.assign(rods.size(), Vec3::Zero());
       frames.push_back(std::move(frame));
     }
-    if (is_followed_ && frames.size() > 1) {
+    if (is_followed_ && is_complete_ && frames.size() > 1) {
       set_velocities(frames, interval);
       made_.remarks.push_back(remark_on_velocities(frames.size(), interval));
     } else {
@@ -213,10 +231,14 @@ class SeenFrames {
   TrajectoryHeader header(const std::vector<std::size_t>& n_rods) const {
     const scene::RunPlan& plan = made_.plan;
     TrajectoryHeader header = trajectory_header(empty_world(plan.system), scene::to_json(plan).dump(2) + "\n", {});
-    header.n_rods = static_cast<int>(mean_);
+    header.n_rods = static_cast<int>(n_tracks_);
     header.lacking = words_of(made_.lacking);
     Cell& cell = header.cell;  // a tracker does not tell sizes: each rod is the mean one of its species
     cell.shape_of_rod.clear();
+    if (n_rods.size() == 1) {
+      cell.shapes.resize(1);
+      cell.species_of_shape.clear();
+    }
     for (std::size_t k = 0; cell.shapes.size() > 1 && k < n_rods.size(); ++k)
       cell.shape_of_rod.insert(cell.shape_of_rod.end(), n_rods[k], static_cast<std::uint8_t>(cell.first_shape_of(k)));
     return header;
@@ -228,8 +250,9 @@ class SeenFrames {
   const TrackConventions& conventions_;
   std::vector<Problem>& problems_;
   const Vec2 period_ = period_of(plan_.system.box(), plan_.system.walls);
-  bool is_followed_ = false;
-  std::size_t mean_ = 0;  ///< rods in a frame
+  bool is_followed_ = false, is_complete_ = false;
+  std::size_t most_in_frame_ = 0, n_tracks_ = 0;
+  std::map<double, std::uint32_t> track_of_;  ///< by id, where some are missed that are followed
   TrackedRods made_{};
 };
 

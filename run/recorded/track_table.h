@@ -24,15 +24,15 @@ struct TrackConventions {
   bool only_complete = false;                  ///< rods that are not in every frame are left out
   std::optional<bool> radians;                 ///< of angles; none: by the name of their column, degrees otherwise
   std::map<std::string, std::string> columns;  ///< "x": "POSITION_X"; names that trackers use need not be named
+  std::map<std::string, std::string> species;  ///< "long": "rods_2", where a table has other names for them
 };
 
 /// Rods as an experiment has tracked them.
 struct TrackedRods {
-  std::unique_ptr<RecordedFrames> frames;  ///< species by species; of a single one the number may vary
+  std::unique_ptr<RecordedFrames> frames;  ///< species by species; of a single one some may be missed
   scene::RunPlan plan;                     ///< the scene with the number of rods, the frames' times and their length
   Lacking lacking;
   std::vector<std::string> remarks;
-  bool has_constant_number = false;
 };
 
 /// Reads a table in CSV with a row for each rod and frame: a number of the frame or a time, x and y, angle (or nx, ny),

@@ -30,9 +30,10 @@ keys::Loaded<scene::RunPlan> plan_of_tracks(const scene::RunPlan& plan, const st
   return scene::load_scene(scene.dump(), file + ", as a scene");
 }
 
-void fold_into_box(Snapshot& frame, const Vec2& period, const Snapshot* before) {
+void fold_into_box(Snapshot& frame, const Vec2& period, std::span<LastSeen> last) {
   frame.image.assign(frame.n_rods(), {});
   for (std::size_t i = 0; i < frame.n_rods(); ++i) {
+    LastSeen* const before = last.empty() ? nullptr : &last[frame.track_of(i)];
     for (std::size_t k = 0; k < 2; ++k) {
       const auto axis = static_cast<Eigen::Index>(k);
       const double side = period[axis];
@@ -41,11 +42,12 @@ void fold_into_box(Snapshot& frame, const Vec2& period, const Snapshot* before) 
       std::int32_t& image = frame.image[i][k];
       image = static_cast<std::int32_t>(std::floor(at / side));
       at -= image * side;
-      if (before != nullptr) {
-        const double moved = at - before->position[i][axis];
-        image = before->image[i][k] - static_cast<std::int32_t>(std::lround(moved / side));
+      if (before != nullptr && before->is_known) {
+        const double moved = at - before->position[axis];
+        image = before->image[k] - static_cast<std::int32_t>(std::lround(moved / side));
       }
     }
+    if (before != nullptr) *before = {frame.position[i], frame.image[i], true};
   }
 }
 

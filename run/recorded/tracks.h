@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -29,10 +31,17 @@ keys::Loaded<scene::RunPlan> plan_of_tracks(const scene::RunPlan& plan, const st
 /// Boxes that a path goes on through, at most.
 inline constexpr double kMostBoxes = 1e6;
 
+/// Where a rod that is followed was last, and how often it had left the box.
+struct LastSeen {
+  Vec3 position = Vec3::Zero();
+  std::array<std::int32_t, 2> image{};
+  bool is_known = false;
+};
+
 /// Puts the rods of a frame into a box that repeats itself after `period` [mm], 0 for never, and counts how often each
-/// has left it: so often as it was moved, or, with `before`, the same rods one frame earlier, so that it has moved by
-/// less than half a box since. They are within kMostBoxes.
-void fold_into_box(Snapshot& frame, const Vec2& period, const Snapshot* before);
+/// has left it: so often as it was moved, or, where `last` has a place for each rod, so that one that was seen before
+/// has moved by less than half a box since. They are within kMostBoxes. `last` is brought up to date.
+void fold_into_box(Snapshot& frame, const Vec2& period, std::span<LastSeen> last);
 
 /// Sets the velocities of rods that are the same in all frames, two or more that are `interval` [s] apart: from the
 /// frame before to the one after, and at both ends from or to the next.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "tests/unit/analysis/analysis_samples.h"
@@ -18,6 +19,16 @@ inline Frames walks(Draw& draw, std::size_t n_rods, std::size_t n_frames, double
     std::vector<Vec3> next = frames.back();
     for (Vec3& r : next) r += along * draw.normal() * n + across * draw.normal() * m;
     frames.push_back(next);
+  }
+  return frames;
+}
+
+/// The same, where one rod in ten is missed by chance.
+inline Frames with_holes(Draw& draw, Frames frames) {
+  for (std::vector<Vec3>& frame : frames) {
+    for (Vec3& place : frame) {
+      if (draw.uniform(0, 1) < 0.1) place.setConstant(std::numeric_limits<double>::quiet_NaN());
+    }
   }
   return frames;
 }

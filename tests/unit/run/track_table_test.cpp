@@ -52,7 +52,7 @@ std::string refusal_of(const std::string& text, const TrackConventions& conventi
 }
 
 Snapshot frame_of(const TrackedRods& tracks, std::size_t index) {
-  return *decode(*tracks.frames->frame(index), tracks.frames->header().cell.box);
+  return *decode(*tracks.frames->frame(index), tracks.frames->header().cell.box, true);
 }
 
 void expect_rod(const Snapshot& frame, std::size_t rod, const Vec2& position, double degrees) {
@@ -71,7 +71,6 @@ TEST(TrackTable, OfTrackpyIsReadInAnyOrderOfItsRows) {
       "3,1,9,2.5,1.5,-45\n");
   ASSERT_EQ(tracks.frames->n_frames(), 2U);
   EXPECT_EQ(tracks.plan.system.n_rods, 2);
-  EXPECT_TRUE(tracks.has_constant_number);
   expect_rod(frame_of(tracks, 0), 0, {3, 4}, 60);
   expect_rod(frame_of(tracks, 0), 1, {1, 2}, 90);
   expect_rod(frame_of(tracks, 1), 0, {5, 6}, 30);
@@ -125,7 +124,7 @@ TEST(TrackTable, SpotsThatAreInNoTrackAreRodsOfTheirFrame) {
       "TRACK_ID,FRAME,POSITION_X,POSITION_Y,ELLIPSE_THETA\n0,0,1,2,0.5\n,0,5,6,0.5\n,0,7,6,0.5\n0,1,1,2,0.5\n");
   EXPECT_EQ(frame_of(tracks, 0).n_rods(), 3U);
   EXPECT_EQ(frame_of(tracks, 1).n_rods(), 1U);
-  EXPECT_TRUE(tracks.lacking.contains(Needs::kIdentities));
+  EXPECT_TRUE(tracks.lacking.contains(Needs::kEveryRod));
 }
 
 TEST(TrackTable, TimesAreTakenAsTheyAreWhereFramesHaveNoNumbers) {
@@ -175,17 +174,40 @@ Reduction measured(const TrackedRods& tracks) {
   return test::good(measure_frames(made->plan, *tracks.frames))->reduction;
 }
 
-TEST(TrackTable, WithHolesMeasuresWhatNeedsNoTracks) {
+TEST(TrackTable, WithHolesIsFollowedAcrossThem) {
   const TrackedRods tracks = tracks_in(kHoles);
-  EXPECT_FALSE(tracks.has_constant_number);
-  EXPECT_THAT(tracks.lacking, IsSupersetOf({Needs::kIdentities}));
+  EXPECT_FALSE(tracks.lacking.contains(Needs::kIdentities));
+  EXPECT_TRUE(tracks.lacking.contains(Needs::kEveryRod));
   EXPECT_THAT(tracks.remarks,
-              ElementsAre("2 of 3 tracks are in every frame: --complete measures these alone, and then follows them; "
-                          "--fill N closes gaps of up to N frames before",
+              ElementsAre("2 of 3 tracks are in every frame: lags are of the rods that are in both frames; --complete "
+                          "measures these alone, and --fill N closes gaps of up to N frames before",
                           "1 row without a position, an angle or a time", "2 to 3 rods in a frame, 3 on average"));
-  EXPECT_THAT(measured(tracks).arrays.at("/order/order"),
-              ElementsAre(testing::DoubleNear(1.0 / 3, 1e-6), testing::DoubleNear(1, 1e-6),
-                          testing::DoubleNear(1.0 / 3, 1e-6), testing::DoubleNear(1.0 / 3, 1e-6)));
+  EXPECT_EQ(tracks.frames->header().n_rods, 3);
+  EXPECT_THAT(frame_of(tracks, 1).track, ElementsAre(0, 2));
+  const auto arrays = measured(tracks).arrays;
+  using testing::DoubleNear;
+  EXPECT_THAT(arrays.at("/order/order"), ElementsAre(DoubleNear(1.0 / 3, 1e-6), DoubleNear(1, 1e-6),
+                                                     DoubleNear(1.0 / 3, 1e-6), DoubleNear(1.0 / 3, 1e-6)));
+  // rod 1 moves by 1 mm a frame, and the others stand; rod 2 is missed in frame 1
+  EXPECT_THAT(arrays.at("/msd/total_mm2"),
+              ElementsAre(DoubleNear(3.0 / 7, 1e-5), DoubleNear(8.0 / 5, 1e-5), DoubleNear(9.0 / 3, 1e-5)));
+}
+
+TEST(TrackTable, RodsThatLeaveAndEnterAreRodsOfTheirOwn) {
+  const TrackedRods tracks = tracks_in(
+      "frame,id,x,y,angle\n0,7,1,1,0\n0,8,19,5,0\n1,7,2,1,0\n1,8,19.5,5,0\n2,7,3,1,0\n3,7,4,1,0\n2,9,9,9,0\n3,9,9,9,"
+      "0\n");
+  EXPECT_EQ(tracks.frames->header().n_rods, 3);
+  EXPECT_EQ(tracks.plan.system.n_rods, 2) << "in a frame";
+  // one-frame lags: rod 7 three times 1 mm, rod 8 once 0.5 mm, rod 9 once nothing
+  EXPECT_THAT(measured(tracks).arrays.at("/msd/total_mm2").at(0), testing::DoubleNear(3.25 / 5, 1e-5));
+}
+
+TEST(TrackTable, PathsGoOnPastTheBorderAcrossAHole) {
+  const TrackedRods tracks =
+      tracks_in("frame,id,x,y,angle\n0,1,19,1,0\n2,1,0.5,1,0\n0,2,5,5,0\n1,2,5,5,0\n2,2,5,5,0\n");
+  EXPECT_EQ(frame_of(tracks, 2).image[0], (std::array<std::int32_t, 2>{1, 0}));
+  EXPECT_THAT(measured(tracks).arrays.at("/msd/total_mm2").at(1), testing::DoubleNear(1.5 * 1.5 / 2, 1e-4));
 }
 
 TEST(TrackTable, RowsWithoutATimeSayNothingOfTheirFrame) {
@@ -221,7 +243,7 @@ TEST(TrackTable, GapsAreFilledStraightOnByTheShorterWay) {
   expect_rod(frame_of(tracks, 2), 0, {0.5, 6}, 30);
   EXPECT_EQ(frame_of(tracks, 2).image[0], (std::array<std::int32_t, 2>{1, 0}));
   conventions.filled = 1;
-  EXPECT_TRUE(tracks_in(text, conventions).lacking.contains(Needs::kIdentities)) << "the gap is longer";
+  EXPECT_TRUE(tracks_in(text, conventions).lacking.contains(Needs::kEveryRod)) << "the gap is longer";
 }
 
 TEST(TrackTable, RodsThatCrossThePeriodicBorderGoOn) {
@@ -239,6 +261,9 @@ TEST(TrackTable, RodsThatCrossThePeriodicBorderGoOn) {
   EXPECT_THAT(
       refusal_of("frame,id,x,y,angle\n0,1,45,-1,0\n"),
       HasSubstr("tracks.csv:2:1: x = 45 mm is outside of the box, which is 20 mm long: see --scale and --wrap\n"));
+  EXPECT_EQ(refusal_of("frame,id,x,y,angle\n0,1,45,1,0\n1,1,46,1,0\n2,1,47,1,0\n"),
+            "tracks.csv:2:1: x = 45 mm is outside of the box, which is 20 mm long: see --scale and --wrap (and 2 rows "
+            "more)\n");
   scene::RunPlan walled = dish();
   walled.system.walls.emplace().arena = Arena::kSquare;
   walled.system.walls->size = 20;
@@ -330,9 +355,14 @@ TEST(TrackTable, OfTwoSpeciesIsMeasuredSpeciesBySpecies) {
 
   const auto refused = [&](const std::string& table) { return refusal_of(table, at_intervals(), mixed); };
   EXPECT_THAT(refused("frame,x,y,angle\n0,1,2,3\n"),
-              HasSubstr("column species is missing: the scene has rods and rods_2"));
+              HasSubstr("column species is missing: the scene has rods and rods_2; --columns species=NAME says"));
   EXPECT_THAT(refused("frame,x,y,angle,species\n0,1,2,3,balls\n"),
-              HasSubstr("tracks.csv:2:9: species: the scene has no 'balls'; it has rods, rods_2, counted from 0"));
+              HasSubstr("tracks.csv:2:9: species: the scene has no 'balls'; it has rods, rods_2, counted from 0; "
+                        "--species balls=NAME says which it is"));
+  TrackConventions named = at_intervals();
+  named.species = {{"long", "rods_2"}, {"short", "rods"}};
+  const std::string by_names = "frame,id,x,y,angle,species\n0,1,1,2,3,long\n0,2,4,5,6,short\n";
+  expect_rod(frame_of(tracks_in(by_names, named, mixed), 0), 1, {1, 2}, 3);
   EXPECT_THAT(refused("frame,x,y,angle,species\n0,1,2,3,0\n0,1,2,3,1\n1,1,2,3,0\n"),
               HasSubstr("frame 1 has others than the first: see --complete"));
   EXPECT_THAT(refused("frame,id,x,y,angle,species\n0,7,1,2,3,0\n1,7,1,2,3,1\n"),
