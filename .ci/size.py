@@ -2,8 +2,8 @@
 """Lines of code and of tests in every folder, held to a budget that can only fall by itself.
 
     .ci/size.py            the table
-    .ci/size.py --check    fails where there are more lines than .ci/size_budget.json allows, and where there are
-                           fewer: then it has lowered the numbers, to be committed
+    .ci/size.py --check    fails where there are more lines than .ci/size_budget.json allows, and where there are fewer
+    .ci/size.py --lower    lowers the numbers to what there is, to be committed
 
 Counts every line that is not blank of C++ (.h, .cpp), Python (.py) and JavaScript (.js) that git knows. Tests are
 counted apart: those below tests/unit/NAME with folder NAME, the others with the folder `tests`. A number that is raised
@@ -54,34 +54,41 @@ def table(now, budget):
 
 
 def check(now, budget):
-    over, lowered = [], False
-    for language, kinds in now.items():
-        for kind, counts in kinds.items():
-            allowed = budget.setdefault(language, {}).setdefault(kind, {})
-            for folder, lines in counts.items():
-                if lines > allowed.get(folder, 0):
-                    over.append(f"{folder}: {lines} lines of {kind} in {language}, where {allowed.get(folder, 0)} are "
-                                "allowed")
-                elif lines < allowed[folder]:
-                    allowed[folder], lowered = lines, True
-    if lowered:
-        BUDGET.write_text(json.dumps(budget, indent=1, sort_keys=True) + "\n")
-        print("size: .ci/size_budget.json has lower numbers now; commit it")
+    over, lower = [], 0
+    for folder, kind, language, lines, allowed in rows(now, budget):
+        lower += lines < allowed
+        if lines > allowed:
+            over.append(f"{folder}: {lines} lines of {kind} in {language}, where {allowed} are allowed")
     if over:
         print("\n".join(over) + "\nTake out what the change replaces, or raise the number in .ci/size_budget.json and "
               "say why in the commit", file=sys.stderr)
-    return 1 if over or lowered else 0
+    if lower:
+        print(f"size: {lower} numbers of .ci/size_budget.json are too high: `./dev size --lower`, and commit it",
+              file=sys.stderr)
+    return 1 if over or lower else 0
+
+
+def lower(now, budget):
+    for folder, kind, language, lines, allowed in rows(now, budget):
+        budget.setdefault(language, {}).setdefault(kind, {})[folder] = min(lines, allowed)
+    BUDGET.write_text(json.dumps(budget, indent=1, sort_keys=True) + "\n")
+    return 0
+
+
+def rows(now, budget):
+    """(folder, kind, language, lines, lines that are allowed) of each number."""
+    return [(folder, kind, language, lines, budget.get(language, {}).get(kind, {}).get(folder, 0))
+            for language, kinds in now.items() for kind, counts in kinds.items() for folder, lines in counts.items()]
 
 
 def main():
-    if sys.argv[1:] not in ([], ["--check"]):
+    commands = {"": table, "--check": check, "--lower": lower}
+    asked = " ".join(sys.argv[1:])
+    if asked not in commands:
         print(__doc__)
-        return 0 if sys.argv[1:] in (["-h"], ["--help"]) else 2
-    now, budget = sizes(), json.loads(BUDGET.read_text()) if BUDGET.exists() else {}
-    if sys.argv[1:]:
-        return check(now, budget)
-    table(now, budget)
-    return 0
+        return 0 if asked in ("-h", "--help") else 2
+    budget = json.loads(BUDGET.read_text()) if BUDGET.exists() else {}
+    return commands[asked](sizes(), budget) or 0
 
 
 if __name__ == "__main__":
