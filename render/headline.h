@@ -12,7 +12,7 @@ namespace shaken::render {
 std::string headline(const std::string& label);
 
 /// What the gap between the plates is called among the settings.
-inline constexpr const char* kGap = "w";
+inline constexpr const char* kGapSymbol = "w";
 
 /// What identifies a run by its rods and its box: length, packing, number, gap, size of the box or of the arena.
 Notes settings_of(const RodPicture& picture);

@@ -170,7 +170,8 @@ Result<RodPicture> TrajectorySource::bare_picture(const Snapshot& frame, Asked a
   const bool was_tracked = !reader_.header().lacking.empty();  // whose scene has other plates than the experiment
   const std::optional<double> gamma = plan_ && !was_tracked ? scene::gamma_of(plan_->system) : std::nullopt;
   picture.captions.settings = settings_of(picture);
-  if (was_tracked) std::erase_if(picture.captions.settings, [](const auto& setting) { return setting.first == kGap; });
+  if (was_tracked)
+    std::erase_if(picture.captions.settings, [](const auto& setting) { return setting.first == kGapSymbol; });
   if (gamma) {
     picture.captions.settings.emplace_back("\u0393", fmt::format("{:.4g}", *gamma));
     picture.captions.settings.emplace_back("f", fmt::format("{:.4g} Hz", plan_->system.frequency));
