@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -84,6 +86,19 @@ keys::Loaded<Task> task_of(const MeasureOptions& asked, const TrajectoryReader& 
   return Task{std::move(made), &frames.recorded()};
 }
 
+/// A word on each observable of which a short film leaves few samples: its period is longer than frames are apart.
+std::vector<std::string> remarks_on_few_samples(const scene::RunPlan& plan, Tick spacing) {
+  constexpr double kFew = 20;
+  std::vector<std::string> remarks;
+  for (const MeasurementKind& kind : measurement_kinds()) {
+    const double each = static_cast<double>(spacing) * plan.system.dt, every = kind.every(plan).value_or(each);
+    if (every < 1.5 * each || every * kFew < plan.total_time()) continue;
+    remarks.push_back(fmt::format("measure.{0} is of one frame in {1:.0f}: -s measure.{0}.every={2:.6g} is of each",
+                                  kind.name, every / each, each));
+  }
+  return remarks;
+}
+
 /// The task of measuring a table; `tracks` takes what it is of.
 keys::Loaded<Task> task_of(const MeasureOptions& asked, std::optional<TrackedRods>& tracks) {
   if (asked.scene.empty()) {
@@ -102,6 +117,7 @@ keys::Loaded<Task> task_of(const MeasureOptions& asked, std::optional<TrackedRod
   const std::string& own = tracks->frames->header().scene_json;
   auto made = SHAKEN_TRY(plan_for_frames({own, asked.scene}, {own, asked.scene}, {}, *spacing, tracks->lacking));
   made.remarks.insert(made.remarks.begin(), tracks->remarks.begin(), tracks->remarks.end());
+  std::ranges::move(remarks_on_few_samples(made.plan, *spacing), std::back_inserter(made.remarks));
   return Task{std::move(made), tracks->frames.get()};
 }
 

@@ -20,7 +20,6 @@ using OrderedJson = nlohmann::ordered_json;
 /// What a scene says that a measurement of its frames has no part in.
 constexpr std::string_view kFree[] = {"measure", "trajectory", "stream", "movie", "until"};
 constexpr std::string_view kFreeOfTime[] = {"steady", "measure"};
-constexpr double kFewSamples = 20;  ///< of a film of more frames
 
 OrderedJson without(OrderedJson json, std::span<const std::string_view> names) {
   for (const std::string_view name : names) json.erase(std::string(name));
@@ -99,11 +98,6 @@ keys::Loaded<FramesPlan> plan_for_frames(const SceneText& of, const SceneText& a
       remarks.push_back(fmt::format("measure.{}.every is {:.6g} s, not {:.6g} s: frames are {:.6g} s apart", kind.name,
                                     static_cast<double>(whole) * dt, static_cast<double>(period) * dt,
                                     static_cast<double>(spacing) * dt));
-    }
-    if (whole > spacing && static_cast<double>(whole) * dt > wanted.total_time() / kFewSamples) {
-      remarks.push_back(
-          fmt::format("measure.{0} is of one frame in {1}, so of few: -s measure.{0}.every={2:.6g} is of each",
-                      kind.name, whole / spacing, static_cast<double>(spacing) * dt));
     }
     if (block->contains("phases")) (*block)["phases"] = "locked";
   }
