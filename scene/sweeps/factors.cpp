@@ -1,6 +1,7 @@
 #include "scene/sweeps/factors.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -47,7 +48,8 @@ class VariationReader {
         std::vector<std::string> names{"replicas", "stages"};
         for (const NamedKind& one : kKinds) names.emplace_back(one.name);
         const std::string meant = suggestion(problems_, [&] { return did_you_mean(nearest(member.key, names)); });
-        report(member.place, within(member.key), "unknown key" + meant);
+        report(member.place, within(member.key),
+               "unknown key" + (meant.empty() ? fmt::format("; a sweep has {}", fmt::join(names, ", ")) : meant));
       }
     }
     for (const Stage& stage : variation_.stages) {

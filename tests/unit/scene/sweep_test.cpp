@@ -331,6 +331,8 @@ TEST(Sweep, ProblemsOfAllPointsAreListedOnce) {
             "s.json:3:66: /sweep/replica: unknown key; did you mean replicas?\n"
             "s.json:3:82: /names: unknown key; did you mean name?\n"
             "s.json:3:94: /box: in a sweep file this belongs into \"scene\"\n");
+  EXPECT_EQ(sweep_problems(R"({"sweep": {"product": {}}})"),
+            "s.json:1:12: /sweep/product: unknown key; a sweep has replicas, stages, grid, zip, list\n");
 }
 
 TEST(Sweep, CombinationsThatCannotBeAreFound) {
