@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -61,6 +62,8 @@ struct Frame {
   std::vector<Vec3> position;   ///< (n_rods) centres [mm]
   std::vector<Vec3> director;   ///< (n_rods) unit vectors, to the head
   std::vector<Vec3> velocity;   ///< (n_rods) [mm/s]; empty where it is not known
+  /// (n_rods) the number of each rod, rising, where some that were tracked are missed; else empty, and they are 0, 1, ...
+  std::vector<std::uint32_t> number{};
 
   /// (n_rods) how far each rod's centre has come within some time, across borders too [mm]; empty unless asked for.
   std::vector<Vec2> displacement;

@@ -166,6 +166,7 @@ Result<RodPicture> TrajectorySource::bare_picture(const Snapshot& frame, Asked a
   picture.frame.position = frame.position;
   picture.frame.director = frame.director;
   picture.frame.velocity = frame.velocity;
+  picture.frame.number = frame.track;
   SHAKEN_TRY(check_sizes(file_.string() + " has", picture, asked));
   const bool was_tracked = !reader_.header().lacking.empty();  // whose scene has other plates than the experiment
   const std::optional<double> gamma = plan_ && !was_tracked ? scene::gamma_of(plan_->system) : std::nullopt;

@@ -41,8 +41,14 @@ View view_of(const RodPicture& picture, const PictureStyle& style) {
 }
 
 std::optional<std::size_t> followed_rod(const Frame& frame, const PictureStyle& style) {
-  if (!style.followed || static_cast<std::size_t>(*style.followed) >= frame.position.size()) return std::nullopt;
-  return static_cast<std::size_t>(*style.followed);
+  if (!style.followed) return std::nullopt;
+  auto rod = static_cast<std::size_t>(*style.followed);
+  if (!frame.number.empty()) {
+    const auto place = std::ranges::lower_bound(frame.number, rod);
+    if (place == frame.number.end() || *place != rod) return std::nullopt;  // it is missed
+    rod = static_cast<std::size_t>(place - frame.number.begin());
+  }
+  return rod < frame.position.size() ? std::optional(rod) : std::nullopt;
 }
 
 bool is_in_view(const RodPicture& picture, const PictureStyle& style, const Vec2& point) {

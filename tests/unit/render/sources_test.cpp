@@ -12,8 +12,11 @@
 #include "proto/frame_codec.h"
 #include "render/headline.h"
 #include "render/interpolation.h"
+#include "render/view.h"
 #include "run/files/directory.h"
 #include "run/files/frame_log.h"
+#include "run/files/frames_in_memory.h"
+#include "run/files/trajectory.h"
 #include "tests/support/good.h"
 #include "tests/unit/render/render_support.h"
 
@@ -233,6 +236,51 @@ TEST(TrajectorySource, DisplacementsGoOnAcrossBorders) {
   style.displacements = 0.01;
   EXPECT_THAT(test::refusal(source->picture(2, style)), testing::HasSubstr("recorded every 0.1 s"));
   EXPECT_TRUE(source->picture(0, style)) << "a film begins without";
+}
+
+// Of two tracked rods the first is missed in the first frame.
+TEST(TrajectorySource, RodsThatAreMissedKeepTheirNumbers) {
+  const ScratchFolder folder;
+  const Cell cell{.box = 10, .gap = 1.2, .shapes = {{{-2, 0, 2}, {0.2, 0.4, 0.2}}}};
+  std::vector<run::RecordedFrame> frames;
+  for (int k = 0; k < 2; ++k) {
+    Snapshot now;
+    now.tick = k;
+    now.time = 0.1 * k;
+    now.box = 10;
+    now.n_tracks = 2;
+    for (std::uint32_t track = k == 0 ? 1 : 0; track < 2; ++track) {
+      now.track.push_back(track);
+      now.position.emplace_back(4.0 + k, 2.0 + 4 * track, 0.6);
+      now.image.push_back({0, 0});
+      now.director.emplace_back(1, 0, 0);
+      now.velocity.emplace_back(0, 0, 0);
+    }
+    frames.push_back(run::record(now));
+  }
+  run::TrajectoryHeader header{2, cell, 0.1, "{}", {}};
+  header.lacking = "velocities";
+  ASSERT_TRUE(run::write_trajectory(folder / "trajectory.h5", run::FramesInMemory(header, frames)));
+  Result<TrajectorySource> source = test::good(TrajectorySource::open(folder.path()));
+  PictureStyle style = plain();
+  style.displacements = 0.1;
+  style.followed = 1;
+  const Result<RodPicture> first = test::good(source->picture(0, style)),
+                           second = test::good(source->picture(1, style));
+  ASSERT_EQ(first->n_rods(), 1U);
+  ASSERT_EQ(second->n_rods(), 2U);
+  EXPECT_EQ(followed_rod(first->frame, style), 0U);
+  EXPECT_EQ(followed_rod(second->frame, style), 1U);
+  EXPECT_TRUE(second->frame.displacement[0].hasNaN()) << "nobody knows where it was";
+  EXPECT_NEAR(second->frame.displacement[1].x(), 1, 1e-6);
+  style.followed = 0;
+  EXPECT_EQ(followed_rod(first->frame, style), std::nullopt);
+  EXPECT_EQ(test::good(source->picture_at(0.04, style))->n_rods(), 1U) << "nothing lies between different rods";
+  header.lacking.clear();
+  ASSERT_TRUE(run::write_trajectory(folder / "trajectory.h5", run::FramesInMemory(header, frames)));
+  EXPECT_THAT(test::refusal(test::good(TrajectorySource::open(folder.path()))->picture(0, style)),
+              testing::HasSubstr("the file is damaged"))
+      << "a simulation misses none";
 }
 
 TEST(TrajectorySource, SaysWhatIsMissing) {
