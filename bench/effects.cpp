@@ -1,7 +1,6 @@
 // What each effect of the physics costs: the CPU time without it against that with everything on.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <functional>
 
 #include "bench/bench.h"

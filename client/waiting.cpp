@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cctype>
 
-#include "base/clock.h"
 #include "base/interrupt.h"
 #include "base/progress_line.h"
 #include "base/text.h"

@@ -1,7 +1,6 @@
 #include "render/defect_links.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace shaken::render {
 

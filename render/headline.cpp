@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <sstream>
-#include <string_view>
 
 #include "base/keys/units.h"
 #include "scene/keys/fields.h"

@@ -1,7 +1,6 @@
 // shaken-render: pictures and movies of recorded and of running jobs, without a display.
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <string>
 
 #include "base/program.h"

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "base/core/result.h"
-#include "render/painter.h"
 #include "render/picture.h"
 
 namespace shaken::render {

@@ -1,9 +1,6 @@
 #include "render/painter.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <string>
 
 #include "base/files.h"

@@ -3,7 +3,6 @@
 #include <array>
 #include <vector>
 
-#include "render/colours.h"
 #include "render/gl.h"
 #include "render/picture.h"
 

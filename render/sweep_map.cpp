@@ -1,6 +1,5 @@
 #include "render/sweep_map.h"
 
-#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 

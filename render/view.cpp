@@ -1,7 +1,6 @@
 #include "render/view.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace shaken::render {
 

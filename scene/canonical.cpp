@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
-#include <cstdint>
 #include <utility>
 
 #include "sim/physics_version.h"

@@ -2,7 +2,6 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "scene/keys/keys.h"
 #include "scene/keys/run_plan.h"

@@ -3,7 +3,6 @@
 #include <spdlog/spdlog.h>
 
 #include <csignal>
-#include <cstring>
 #include <sstream>
 
 #include "base/failure.h"

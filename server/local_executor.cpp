@@ -5,11 +5,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <csignal>
-#include <cstring>
 
-#include "base/core/check.h"
 #include "base/descriptor.h"
 #include "base/process.h"
 #include "run/files/directory.h"

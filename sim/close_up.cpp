@@ -1,7 +1,6 @@
 #include "sim/close_up.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "sim/contact/bead_contacts.h"

@@ -12,7 +12,6 @@
 #include <stop_token>
 #include <string>
 #include <thread>
-#include <vector>
 
 #include "client/live/live.h"
 #include "client/live/live_rods.h"

@@ -1,7 +1,6 @@
 #include "web/recorded_run.h"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <system_error>
 

@@ -1,7 +1,6 @@
 #include "web/run_reader.h"
 
 #include <cstddef>
-#include <optional>
 #include <utility>
 
 #include "base/process.h"

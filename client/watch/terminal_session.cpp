@@ -7,7 +7,6 @@
 #include <array>
 #include <cerrno>
 #include <iterator>
-#include <utility>
 
 namespace shaken::client {
 namespace {

@@ -1,7 +1,6 @@
 #include "run/files/done.h"
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 

@@ -1,5 +1,4 @@
 #include <string>
-#include <utility>
 
 #include "base/files.h"
 #include "run/files/content_hash.h"

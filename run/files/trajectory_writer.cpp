@@ -1,5 +1,4 @@
 #include <array>
-#include <system_error>
 #include <utility>
 
 #include "base/files.h"

@@ -1,7 +1,5 @@
 #include "scene/resolve/resolve.h"
 
-#include <variant>
-
 #include "scene/resolve/steps.h"
 
 namespace shaken::scene {

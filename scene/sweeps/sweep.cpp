@@ -8,7 +8,6 @@
 #include <unordered_map>
 
 #include "base/keys/draft.h"
-#include "base/keys/nearest.h"
 #include "base/text.h"
 #include "scene/canonical.h"
 #include "scene/keys/keys.h"

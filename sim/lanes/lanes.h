@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <utility>
 
 /// Floats that are computed with several at a time, in the compiler's own vectors, and the choice of how many: one
 /// program runs on any x86-64 and uses what the machine has. For bounds and filters, whose results decide where to look

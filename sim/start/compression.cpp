@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/core/check.h"
 #include "sim/balance.h"
 #include "sim/contact/bead_contacts.h"
 #include "sim/motion/post_contacts.h"

@@ -1,8 +1,6 @@
 // The wire types: what a message is on the wire must not change unnoticed, and no payload may hurt a receiver.
 #include <gtest/gtest.h>
 
-#include <cstring>
-
 #include "proto/codec.h"
 #include "tests/contract/samples.h"
 

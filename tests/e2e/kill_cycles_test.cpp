@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cstdlib>
 #include <fstream>
 #include <functional>
@@ -16,7 +15,6 @@
 #include <set>
 #include <thread>
 
-#include "base/files.h"
 #include "run/files/directory.h"
 #include "run/files/done.h"
 #include "tests/e2e/run_command.h"

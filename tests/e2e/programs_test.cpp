@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <thread>
 
 #include "tests/e2e/run_command.h"
 #include "tests/support/lazy_server.h"

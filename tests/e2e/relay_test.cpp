@@ -1,7 +1,6 @@
 // Live state by way of the daemon's relay, with real runs and real LCM programs; recordings of it, by us and by LCM.
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <unistd.h>
 
 #include <fstream>
 #include <map>

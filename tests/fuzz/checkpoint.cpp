@@ -10,7 +10,6 @@
 #include "scene/keys/observables.h"
 #include "scene/load.h"
 #include "sim/simulation.h"
-#include "sim/start/initial.h"
 #include "tests/fuzz/fuzz_target.h"
 
 using namespace shaken;

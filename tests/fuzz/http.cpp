@@ -1,7 +1,6 @@
 // The bytes of one connection to the daemon's socket, sent at once: it must answer in HTTP, or close.
 #include <sys/socket.h>
 #include <sys/un.h>
-#include <unistd.h>
 
 #include <cstring>
 

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <vector>
 
 #include "analysis/temperatures.h"
 #include "sim/simulation.h"

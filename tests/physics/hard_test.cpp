@@ -9,8 +9,6 @@
 #include <iterator>
 #include <string>
 
-#include "sim/simulation.h"
-
 namespace shaken::bench {
 namespace {
 

@@ -1,7 +1,6 @@
 // Which end of an apolar rod is its head is a label (n -> -n): no trajectory and no mean may depend on it.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <vector>

@@ -16,7 +16,6 @@
 #include "base/scratch_folder.h"
 #include "proto/bus.h"
 #include "proto/frame_codec.h"
-#include "run/files/checkpoint_file.h"
 #include "run/files/content_hash.h"
 #include "run/files/done.h"
 #include "run/files/observables_file.h"

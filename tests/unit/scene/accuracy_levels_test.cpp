@@ -1,6 +1,5 @@
 #include "scene/keys/accuracy_levels.h"
 
-#include <array>
 #include <cmath>
 #include <fstream>
 #include <map>

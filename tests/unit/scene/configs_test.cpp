@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "scene/keys/observables.h"
-#include "scene/load.h"
 #include "scene/sweeps/sweep.h"
 #include "sim/rod/species.h"
 #include "sim/simulation.h"

@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "scene/canonical.h"
 #include "scene/keys/derived.h"
 #include "scene/rods_of_species.h"

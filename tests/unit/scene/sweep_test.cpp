@@ -2,12 +2,9 @@
 
 #include <gmock/gmock.h>
 
-#include <algorithm>
-#include <cmath>
 #include <set>
 
 #include "scene/canonical.h"
-#include "scene/keys/fields.h"
 #include "tests/support/effort.h"
 #include "tests/unit/scene/scene_support.h"
 

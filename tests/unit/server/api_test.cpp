@@ -13,7 +13,6 @@
 #include <unistd.h>
 
 #include <atomic>
-#include <cstring>
 #include <sstream>
 #include <thread>
 

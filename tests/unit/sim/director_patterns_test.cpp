@@ -7,8 +7,6 @@
 #include <set>
 #include <vector>
 
-#include "sim/start/compression.h"
-
 namespace shaken {
 namespace {
 

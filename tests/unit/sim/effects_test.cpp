@@ -6,8 +6,6 @@
 #include "sim/checkpoint.h"
 #include "sim/effects/registry.h"
 #include "sim/simulation.h"
-#include "sim/start/initial.h"
-#include "sim/stepping/reference_stepper.h"
 #include "tests/support/everything_on.h"
 
 namespace shaken {

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "sim/simulation.h"
-#include "sim/start/initial.h"
 #include "tests/support/short_rods.h"
 
 namespace shaken {

@@ -7,7 +7,6 @@
 #include <cstring>
 #include <set>
 
-#include "sim/start/initial.h"
 #include "sim/tick/plate_impacts.h"
 #include "tests/support/any_width.h"
 #include "tests/support/effort.h"

@@ -4,7 +4,6 @@
 #include <sys/stat.h>
 
 #include <fstream>
-#include <optional>
 
 #include "base/scratch_folder.h"
 

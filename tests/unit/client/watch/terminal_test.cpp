@@ -8,7 +8,6 @@
 #include <utmp.h>
 
 #include <array>
-#include <cmath>
 #include <functional>
 #include <utility>
 
