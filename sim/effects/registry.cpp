@@ -121,22 +121,23 @@ struct RodRod {
 };
 struct RodBase {
   static constexpr auto kImpulses = &Counters::impulses_rod_base;
-  static constexpr auto kIsThere = &System::base;
   static constexpr bool kIsOfTwoRods = false;
   static bool is_there(const System& system) { return system.base; }
+  static void remove(System& system) { system.base = false; }
   static auto& of(auto& system) { return system.rod_base; }
 };
 struct RodLid {
   static constexpr auto kImpulses = &Counters::impulses_rod_lid;
-  static constexpr auto kIsThere = &System::lid;
   static constexpr bool kIsOfTwoRods = false;
   static bool is_there(const System& system) { return system.lid; }
+  static void remove(System& system) { system.lid = false; }
   static auto& of(auto& system) { return system.rod_lid; }
 };
 struct RodWall {
   static constexpr auto kImpulses = &Counters::impulses_rod_wall;
   static constexpr bool kIsOfTwoRods = false;
   static bool is_there(const System& system) { return system.walls.has_value(); }
+  static void remove(System& system) { system.walls.reset(); }
   static auto& of(auto& system) { return system.walls->contact; }
 };
 
@@ -144,6 +145,7 @@ struct RodPost {
   static constexpr auto kImpulses = &Counters::impulses_rod_post;
   static constexpr bool kIsOfTwoRods = false;
   static bool is_there(const System& system) { return system.posts.has_value(); }
+  static void remove(System& system) { system.posts.reset(); }
   static auto& of(auto& system) { return system.posts->contact; }
 };
 
@@ -197,23 +199,12 @@ struct RodCollisions {
   static constexpr void (*switch_off)(System&) = nullptr;
 };
 
+/// Of rods with what a scene may have or not.
 template <class Contact>
-struct PlateCollisions {
-  static bool is_on(const System& system) { return system.*Contact::kIsThere; }
+struct Collisions {
+  static bool is_on(const System& system) { return Contact::is_there(system); }
   static std::int64_t work(const World& world) { return world.counters.*Contact::kImpulses; }
-  static void switch_off(System& system) { system.*Contact::kIsThere = false; }
-};
-
-struct WallCollisions {
-  static bool is_on(const System& system) { return system.walls.has_value(); }
-  static std::int64_t work(const World& world) { return world.counters.impulses_rod_wall; }
-  static void switch_off(System& system) { system.walls.reset(); }
-};
-
-struct PostCollisions {
-  static bool is_on(const System& system) { return system.posts.has_value(); }
-  static std::int64_t work(const World& world) { return world.counters.impulses_rod_post; }
-  static void switch_off(System& system) { system.posts.reset(); }
+  static void switch_off(System& system) { Contact::remove(system); }
 };
 
 /// A value of contacts that is on where any pair of materials has it above 0.
@@ -342,20 +333,20 @@ constexpr std::array kEffects{
                            "Coulomb's friction between two rods."),
     line<Restitution<RodRod>>("rod_rod_restitution", "impulses", "contacts.rod_rod*.restitution",
                               "Rods bounce off each other."),
-    line<PlateCollisions<RodBase>>("rod_base_collisions", "impulses", "plates.base", "Rods collide with the base."),
+    line<Collisions<RodBase>>("rod_base_collisions", "impulses", "plates.base", "Rods collide with the base."),
     line<Friction<RodBase>>("rod_base_friction", "impulses", "contacts.rod_base*.friction",
                             "Coulomb's friction between rod and base."),
     line<Restitution<RodBase>>("rod_base_restitution", "impulses", "contacts.rod_base*.restitution",
                                "Rods bounce off the base."),
-    line<PlateCollisions<RodLid>>("rod_lid_collisions", "impulses", "plates.lid", "Rods collide with the lid."),
+    line<Collisions<RodLid>>("rod_lid_collisions", "impulses", "plates.lid", "Rods collide with the lid."),
     line<Friction<RodLid>>("rod_lid_friction", "impulses", "contacts.rod_lid*.friction",
                            "Coulomb's friction between rod and lid."),
     line<Restitution<RodLid>>("rod_lid_restitution", "impulses", "contacts.rod_lid*.restitution",
                               "Rods bounce off the lid."),
-    line<WallCollisions>("side_walls", "impulses", "walls.size", "Walls round an arena."),
+    line<Collisions<RodWall>>("side_walls", "impulses", "walls.size", "Walls round an arena."),
     line<Friction<RodWall>>("side_wall_friction", "impulses", "walls*.friction",
                             "Coulomb's friction between rod and side wall."),
-    line<PostCollisions>("posts", "impulses", "posts.diameter", "Round posts that stand among the rods."),
+    line<Collisions<RodPost>>("posts", "impulses", "posts.diameter", "Round posts that stand among the rods."),
     line<Friction<RodPost>>("post_friction", "impulses", "posts*.friction", "Coulomb's friction between rod and post."),
     line<RestitutionSpeed>("restitution_speed", "impulses", "*.restitution_speed",
                            "Restitution falls with the speed of an impact."),

@@ -145,8 +145,8 @@ NumericalTrouble too_deep(Tick now, int index, int bead, double overlap, const c
   return {now, {index}, "bead " + std::to_string(bead) + " is " + std::to_string(overlap) + " mm deep in the " + where};
 }
 
-/// A rod's visit to the plates.
-struct PlateVisit {
+/// A rod at its surfaces, at tick `now`.
+struct Visit {
   int index;
   RodAtTick& rod;
   const Flight& flight;
@@ -155,6 +155,10 @@ struct PlateVisit {
   const TickRules& rules;
   Counters& counters;
   const SpeciesMechanics& species = rules.species_of(index);
+};
+
+/// A rod's visit to the plates.
+struct PlateVisit : Visit {
   int n_hits = 0;
 
   /// What a plate does to a bead that is in it. `side`: +1: base, pushes up; -1: lid, pushes down.
@@ -216,16 +220,7 @@ std::optional<NumericalTrouble> meet_plates(PlateVisit visit) {
 }
 
 /// A rod's visit to what stands upright: side walls, posts.
-struct UprightVisit {
-  int index;
-  RodAtTick& rod;
-  const Flight& flight;
-  const PlateState& plates;
-  Tick now;
-  const TickRules& rules;
-  Counters& counters;
-  const SpeciesMechanics& species = rules.species_of(index);
-
+struct UprightVisit : Visit {
   /// The surfaces of one kind, which have the numbers 0 .. `n` - 1: `see(bead's centre, its radius, note)` calls
   /// note(number, as seen) of those that the bead may touch. No overlap may be more than a part of `thinnest` [mm].
   template <class See>
@@ -289,7 +284,7 @@ std::optional<NumericalTrouble> meet_posts(UprightVisit& visit) {
 
 std::optional<NumericalTrouble> meet_uprights(int index, RodAtTick& rod, const Flight& flight, const PlateState& plates,
                                               Tick now, const TickRules& rules, Counters& counters) {
-  UprightVisit visit{index, rod, flight, plates, now, rules, counters};
+  UprightVisit visit{{index, rod, flight, plates, now, rules, counters}};
   if (rules.system.walls) {
     if (auto trouble = meet_side_walls(visit)) return trouble;
   }
@@ -300,7 +295,7 @@ std::optional<NumericalTrouble> meet_uprights(int index, RodAtTick& rod, const F
 std::optional<NumericalTrouble> meet_surfaces(int index, RodAtTick& rod, const Flight& flight, const PlateState& plates,
                                               Tick now, const TickRules& rules, Counters& counters) {
   if (rules.system.base || rules.system.lid) {
-    if (auto trouble = meet_plates({index, rod, flight, plates, now, rules, counters})) return trouble;
+    if (auto trouble = meet_plates({{index, rod, flight, plates, now, rules, counters}})) return trouble;
   }
   if (rules.has_uprights()) return meet_uprights(index, rod, flight, plates, now, rules, counters);
   return {};
