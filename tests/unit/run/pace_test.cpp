@@ -8,8 +8,7 @@
 
 #include "base/scratch_folder.h"
 #include "run/files/observables_file.h"
-#include "run/loop/ending.h"
-#include "run/worker/progress_text.h"
+#include "run/loop/words_of_run.h"
 
 namespace shaken::run {
 namespace {

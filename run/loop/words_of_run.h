@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "run/files/progress.h"
@@ -11,5 +13,9 @@ std::string describe_progress(const Progress& progress);
 
 /// Whether a run in this state still goes on.
 bool is_under_way(const Progress& progress);
+
+/// What a run that is done has to say at its end, from its summary.json: S with its error and whether it came to rest,
+/// what it cost, where the files are, and what to type next. Several lines.
+std::string describe_ending(const nlohmann::json& summary, const std::filesystem::path& directory);
 
 }  // namespace shaken::run

@@ -1,4 +1,4 @@
-#include "run/loop/ending.h"
+#include "run/loop/words_of_run.h"
 
 #include <fmt/format.h>
 
@@ -16,6 +16,8 @@ namespace shaken::run {
 namespace {
 
 using Json = nlohmann::json;
+
+constexpr int kBarWidth = 24;
 
 /// The number at object[key]; NaN if there is none.
 double number(const Json& object, const char* key) {
@@ -55,6 +57,22 @@ std::string curves_of(const std::filesystem::path& file) {
 }
 
 }  // namespace
+
+std::string describe_progress(const Progress& progress) {
+  const double fraction = std::clamp(progress.fraction(), 0.0, 1.0);
+  std::string text = fmt::format("{} {:5.1f} %  {:.4g} of {:.4g} s", bar_text(fraction, kBarWidth), 100 * fraction,
+                                 progress.sim_time, progress.sim_time_total);
+  if (progress.state == "running") {
+    text += fmt::format("  {:.3g} s/s  ETA {}", progress.sim_rate, duration_text(progress.eta));
+  } else if (progress.state == "rendering") {
+    text += fmt::format("  drawing {:.0f} %  ETA {}", 100 * progress.drawn, duration_text(progress.eta));
+  } else {
+    text += "  " + progress.state;
+  }
+  return std::isnan(progress.order) ? text : text + fmt::format("  S {:.3f}", progress.order);
+}
+
+bool is_under_way(const Progress& progress) { return progress.state == "running" || progress.state == "rendering"; }
 
 std::string describe_ending(const Json& summary, const std::filesystem::path& directory) {
   const RunDirectory files{directory};
