@@ -1,6 +1,7 @@
 // LCM's log files: ours read by liblcm and the other way round, cut and damaged ones, and a disk that is full.
 #include "proto/log_file.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <lcm/eventlog.h>
 #include <unistd.h>
@@ -11,6 +12,7 @@
 #include "proto/channels.h"
 #include "proto/message_job.h"
 #include "tests/contract/samples.h"
+#include "tests/support/good.h"
 
 namespace shaken::proto {
 namespace {
@@ -63,8 +65,7 @@ TEST_F(LogFile, IsReadFromAnyTime) {
     EXPECT_EQ(log.first_utime(), 5'000'000);
     ASSERT_TRUE(log.skip_to(from));
     for (int n = first; n < 10; ++n) {
-      const auto message = log.next().value();
-      ASSERT_TRUE(message);
+      const auto message = test::good(log.next().value());
       EXPECT_EQ(message->payload, std::vector<std::uint8_t>(static_cast<std::size_t>(n), static_cast<std::uint8_t>(n)));
       EXPECT_EQ(message->channel, "C");
     }
@@ -100,9 +101,7 @@ TEST_F(LogFile, DamageIsSaidWithItsPlace) {
     put(bytes);
     LogReader log = LogReader::open(file_).value();
     (void)log.next();  // liblcm looks at the beginning of the next one, too
-    auto next = log.next();
-    ASSERT_FALSE(next) << at;
-    EXPECT_NE(next.error().message.find("at byte "), std::string::npos);
+    EXPECT_THAT(test::refusal(log.next()), testing::HasSubstr("at byte ")) << at;
   }
   put("This is no log, but it is long enough to hold the beginning of one.");
   const auto log = LogReader::open(file_);
@@ -115,9 +114,8 @@ TEST_F(LogFile, DamageIsSaidWithItsPlace) {
 
 TEST(FullDisk, IsSaid) {
   LogWriter log = LogWriter::create("/dev/full").value();
-  const auto written = log.write(1, "C", std::vector<std::uint8_t>(10));
-  ASSERT_FALSE(written);
-  EXPECT_NE(written.error().message.find("No space left on device"), std::string::npos) << written.error().message;
+  EXPECT_THAT(test::refusal(log.write(1, "C", std::vector<std::uint8_t>(10))),
+              testing::HasSubstr("No space left on device"));
   EXPECT_FALSE(LogWriter::create("/nonexistent/log"));
 }
 

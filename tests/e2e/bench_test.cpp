@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "tests/e2e/run_command.h"
+#include "tests/support/good.h"
 
 namespace shaken::test {
 namespace {
@@ -44,9 +45,8 @@ std::vector<std::string> tiny(std::vector<std::string> words) {
 }
 
 TEST_F(Bench, SpeedWritesWhatItMeasured) {
-  const Finished finished = bench(tiny({"speed", "--area-fraction", "0.45,0.6", "--out", out()}));
-  ASSERT_EQ(finished.code, 0) << finished.output;
-  EXPECT_THAT(finished.output, AllOf(HasSubstr("NOT the steady state"), HasSubstr("rod-seconds per CPU-second")));
+  EXPECT_THAT(said_with(0, bench(tiny({"speed", "--area-fraction", "0.45,0.6", "--out", out()}))),
+              AllOf(HasSubstr("NOT the steady state"), HasSubstr("rod-seconds per CPU-second")));
   const Json report = json_of("speed.json");
   ASSERT_EQ(report.at("rows").size(), 2u);
   for (const Json& row : report.at("rows")) {
@@ -138,9 +138,7 @@ TEST_F(Bench, AccuracyShowsItsRowsWhereNothingCanTellWhatTheyComeTo) {
 TEST_F(Bench, AccuracyRefusesWhatItDoesNotKnow) {
   const auto refused = [&](std::vector<std::string> words) {
     words.insert(words.begin(), "accuracy");
-    const Finished finished = bench(std::move(words));
-    EXPECT_EQ(finished.code, 2);
-    return finished.output;
+    return said_with(2, bench(std::move(words)));
   };
   EXPECT_THAT(refused({"--cases", "head-on,sideways"}), HasSubstr("--cases: sideways not in {rattling,"));
   EXPECT_THAT(refused({"--steps", "64,3"}), HasSubstr("--steps: 3 is not 64 us halved"));
@@ -159,10 +157,9 @@ TEST_F(Bench, ExportGivesAState) {
 }
 
 TEST_F(Bench, EffectsAreSwitchedOffOneByOne) {
-  const Finished finished = bench({"effects", "--side", "12", "--area-fraction", "0.5", "--warm-up", "0.02", "--cpu",
-                                   "0.01", "--repeat", "2", "--out", out()});
-  ASSERT_EQ(finished.code, 0) << finished.output;
-  EXPECT_THAT(finished.output, AllOf(HasSubstr("rod_rod_friction"), HasSubstr("contacts.rod_rod.friction = 0")));
+  EXPECT_THAT(said_with(0, bench({"effects", "--side", "12", "--area-fraction", "0.5", "--warm-up", "0.02", "--cpu",
+                                  "0.01", "--repeat", "2", "--out", out()})),
+              AllOf(HasSubstr("rod_rod_friction"), HasSubstr("contacts.rod_rod.friction = 0")));
   const Json report = json_of("effects.json");
   EXPECT_GE(report.at("rows").size(), 10u);
   for (const Json& row : report.at("rows")) {
@@ -184,27 +181,24 @@ TEST_F(Bench, HardScenesHaveAHistory) {
     words.insert(words.begin(), {program("shaken"), "bench", "hard", "--history", "0.02"});
     return run_command(words);
   };
-  const Finished finished = history({"three-beads", "sticky-below", "--out", out()});
-  ASSERT_EQ(finished.code, 0) << finished.output;
-  EXPECT_THAT(finished.output, HasSubstr("sticky-below, after 0.02 s: overlap"));
+  EXPECT_THAT(said_with(0, history({"three-beads", "sticky-below", "--out", out()})),
+              HasSubstr("sticky-below, after 0.02 s: overlap"));
   const Json rows = json_of("hard_history.json").at("rows");
   ASSERT_EQ(rows.size(), 400u);
   EXPECT_EQ(rows.at(399).at("case"), "sticky-below");
   EXPECT_LT(rows.at(399).at("energy_unaccounted").get<double>(), 1e-10);
   EXPECT_EQ(text_of("hard_history.png").substr(1, 3), "PNG");
   EXPECT_EQ(history({}).code, 2);
-  const Finished refused = history({"rest", "row", "upright"});
-  EXPECT_EQ(refused.code, 2) << "no scenes, but rods placed by hand";
-  EXPECT_THAT(refused.output, AllOf(HasSubstr("'row'"), HasSubstr("'upright'"), Not(HasSubstr("'rest'"))));
+  EXPECT_THAT(said_with(2, history({"rest", "row", "upright"})),
+              AllOf(HasSubstr("'row'"), HasSubstr("'upright'"), Not(HasSubstr("'rest'"))))
+      << "no scenes, but rods placed by hand";
   EXPECT_EQ(history({"rest", "--seconds", "1"}).code, 2);
 }
 
 TEST_F(Bench, BadArgumentsAreRefused) {
   const auto refused = [&](std::vector<std::string> words) {
     words.insert(words.begin(), "speed");
-    const Finished finished = bench(std::move(words));
-    EXPECT_EQ(finished.code, 2);
-    return finished.output;
+    return said_with(2, bench(std::move(words)));
   };
   EXPECT_THAT(refused({"--length", "x"}), HasSubstr("--length: 'x' is not a number"));
   EXPECT_THAT(refused({"--area-fraction", "0.99"}), HasSubstr("--area-fraction: 0.99 is outside"));

@@ -15,6 +15,7 @@
 #include "run/files/trajectory.h"
 #include "tests/e2e/run_command.h"
 #include "tests/support/effort.h"
+#include "tests/support/good.h"
 
 namespace shaken::test {
 namespace {
@@ -69,8 +70,7 @@ class CrashPoints : public testing::Test {
  protected:
   void SetUp() override {
     std::ofstream(scene_) << kScene;
-    const Finished straight = work(scene_, undisturbed_);
-    ASSERT_EQ(straight.code, 0) << straight.output;
+    expect_end(0, work(scene_, undisturbed_));
     ASSERT_EQ(run::TrajectoryReader::open(run::RunDirectory{undisturbed_}.trajectory())->n_frames(), 33U);
   }
 
@@ -131,8 +131,7 @@ TEST_F(CrashPoints, AnExtensionKilledAnywhereGoesOnToTheEndOfTheLongRun) {
   scene.replace(scene.find("120 ms"), 6, "60 ms");
   const fs::path short_scene = folder_.path() / "short.json", begin = folder_.path() / "short";
   std::ofstream(short_scene) << scene;
-  const Finished done = work(short_scene, begin);
-  ASSERT_EQ(done.code, 0) << done.output;
+  expect_end(0, work(short_scene, begin));
   ASSERT_NE(difference(undisturbed_, begin), "");
   everywhere("kill", begin);
 }
@@ -158,8 +157,7 @@ TEST_F(CrashPoints, KilledAtRandomItGoesOnToTheSameEnd) {
     fs::remove_all(directory_);
   }
   EXPECT_EQ(killed, n_kills);
-  const Finished last = work(scene_, directory_);
-  ASSERT_EQ(last.code, 0) << last.output;
+  expect_end(0, work(scene_, directory_));
   EXPECT_EQ(difference(undisturbed_, directory_), "");
   std::printf("%d kills, %d runs came to their end\n", killed, ended + 1);
 }

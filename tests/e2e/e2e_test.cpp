@@ -1,4 +1,5 @@
 // From a scene file to live frames, tables and pixels, with the programs as they are installed.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <png.h>
 #include <signal.h>
@@ -13,12 +14,14 @@
 
 #include "run/files/trajectory.h"
 #include "tests/e2e/run_command.h"
+#include "tests/support/good.h"
 
 namespace shaken::test {
 namespace e2e_test {
 
 using Json = nlohmann::json;
 using std::chrono::seconds;
+using testing::HasSubstr;
 
 /// LCM's multicast may only be used where it cannot leave the machine.
 bool own_network() { return std::getenv("SHAKEN_OWN_NETWORK") != nullptr; }
@@ -50,9 +53,7 @@ class Daemon {
   }
   Json json(std::vector<std::string> arguments) const {
     arguments.emplace_back("--json");
-    const Finished finished = shaken(std::move(arguments));
-    EXPECT_EQ(finished.code, 0) << finished.output;
-    return Json::parse(finished.output);
+    return Json::parse(said_with(0, shaken(std::move(arguments))));
   }
 
   const std::filesystem::path& root() const { return directory_.path(); }
@@ -116,9 +117,7 @@ TEST(EndToEnd, EveryProgramNamesItselfWhereItsArgumentsAreWrong) {
       {{program("shaken"), "replay", nowhere}, nowhere + ": there is no such directory"},
       {{program("shaken"), "run", "scene.json", "--threads", "0"}, "--threads takes a number from 1 to 64, not 0"}};
   for (const auto& [command, words] : cases) {
-    const Finished finished = run_command(command);
-    EXPECT_EQ(finished.code, 2) << words;
-    EXPECT_NE(finished.output.find(words), std::string::npos) << finished.output;
+    EXPECT_THAT(said_with(2, run_command(command)), HasSubstr(words)) << words;
   }
 }
 
@@ -165,8 +164,7 @@ TEST(EndToEnd, SweepIsRunStreamedTabledPlottedAndDrawn) {
   const Json first = daemon.json({"submit", file.string()});
   ASSERT_EQ(first.at("jobs").size(), 2u);
   EXPECT_EQ(first.at("counts").at("new"), 2);
-  const Finished waited = daemon.shaken({"wait", "--timeout", "100"});
-  ASSERT_EQ(waited.code, 0) << waited.output;
+  expect_end(0, daemon.shaken({"wait", "--timeout", "100"}));
   EXPECT_EQ(daemon.json({"submit", file.string()}).at("counts").at("done"), 2);
 
   // table
@@ -199,8 +197,7 @@ TEST(EndToEnd, SweepIsRunStreamedTabledPlottedAndDrawn) {
                                         "csv=p=0", directory / "movie.mp4"});
     EXPECT_EQ(probe.output, "h264,640,360,yuv420p,16\n");  // 0, 20, ... 300 ms
   }
-  const Finished plotted = daemon.shaken({"plot", "-o", out.path() / "plots"});
-  EXPECT_EQ(plotted.code, 0) << plotted.output;
+  expect_end(0, daemon.shaken({"plot", "-o", out.path() / "plots"}));
   int n_plots = 0;
   for (const auto& entry : std::filesystem::directory_iterator(out.path() / "plots")) {
     if (entry.path().extension() != ".png") continue;
@@ -212,8 +209,7 @@ TEST(EndToEnd, SweepIsRunStreamedTabledPlottedAndDrawn) {
   // a picture of the last frame: rods cover about their area fraction of the box, in orange, blue and what lies between
   const std::string job = rows.at(1).at("job");
   const auto png = out.path() / "last.png";
-  const Finished drawn = daemon.shaken({"movie", job, "--frame", "last", "-o", png.string()});
-  ASSERT_EQ(drawn.code, 0) << drawn.output;
+  expect_end(0, daemon.shaken({"movie", job, "--frame", "last", "-o", png.string()}));
   const Pixels pixels = read_png(png);
   ASSERT_GE(pixels.width, 640u);
   std::map<std::uint32_t, int> histogram;
@@ -303,8 +299,7 @@ TEST(EndToEnd, StoppedDaemonGoesOnWhereItWas) {
   daemon.process().signal(SIGTERM);
   ASSERT_EQ(daemon.process().wait(seconds(20)), 0) << daemon.process().output();
   daemon.start();
-  const Finished waited = daemon.shaken({"wait", job, "--timeout", "100"});
-  ASSERT_EQ(waited.code, 0) << waited.output;
+  expect_end(0, daemon.shaken({"wait", job, "--timeout", "100"}));
 
   // the same run without a stop, by the worker alone
   const Finished alone = run_command({program("shaken"), "run", file, "--out", out.path() / "alone"}, seconds(100));
@@ -323,8 +318,7 @@ TEST(EndToEnd, AProtocolIsAChainOfRunsForEachReplica) {
     "sweep": { "replicas": 2, "stages": [
       {}, { "rods.area_fraction": [0.5, 0.6] }, { "plates.gamma": 5, "time.measure": "50 ms" } ] } })");
   ASSERT_EQ(daemon.shaken({"submit", file.string()}).code, 0);
-  const Finished waited = daemon.shaken({"wait", "ramp"});
-  ASSERT_EQ(waited.code, 0) << waited.output;
+  expect_end(0, daemon.shaken({"wait", "ramp"}));
   const Json rows = daemon.json({"results", "ramp"}).at("rows");
   ASSERT_EQ(rows.size(), 8u);
   std::map<int, std::vector<double>> sides;  // by stage
@@ -356,12 +350,10 @@ TEST(EndToEnd, WhatCannotBePlacedIsRefusedByEveryVerbInTheSameWords) {
   for (const std::vector<std::string>& verb : verbs) {
     std::vector<std::string> command{program("shaken")};
     command.insert(command.end(), verb.begin(), verb.end());
-    const Finished finished = run_command(command);
-    EXPECT_EQ(finished.code, 2) << verb.front();
-    EXPECT_NE(finished.output.find("dense.json: /rods: 229 rods (area fraction 0.913) do not fit into the box: in rows "
-                                   "at most 228 rods"),
-              std::string::npos)
-        << verb.front() << ": " << finished.output;
+    EXPECT_THAT(said_with(2, run_command(command)),
+                HasSubstr("dense.json: /rods: 229 rods (area fraction 0.913) do not fit into the box: in rows "
+                          "at most 228 rods"))
+        << verb.front();
   }
   EXPECT_FALSE(std::filesystem::exists(directory));
 }

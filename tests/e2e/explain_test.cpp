@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/e2e/run_command.h"
+#include "tests/support/good.h"
 
 namespace shaken::test {
 namespace {
@@ -24,9 +25,7 @@ class Explain : public ::testing::Test {
   }
   Json json(std::vector<std::string> words) const {
     words.insert(words.end(), {"--cpu", "0.1", "--json"});
-    const Finished finished = shaken(std::move(words));
-    EXPECT_EQ(finished.code, 0) << finished.output;
-    return Json::parse(finished.output);
+    return Json::parse(said_with(0, shaken(std::move(words))));
   }
   std::string write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_.path() / name) << text;
@@ -90,10 +89,9 @@ TEST_F(Explain, WhatNoMachineHasMemoryForIsRefusedByEveryVerb) {
                                                    "measure": {"defects": {"grid": "0.01 mm"}}, "stream": null})");
   for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
            {"validate", scene}, {"explain", scene}, {"run", scene, "--out", path("never")}}) {
-    const Finished refused = shaken(words);
-    EXPECT_EQ(refused.code, 2) << words.front();
-    EXPECT_THAT(refused.output, AllOf(HasSubstr("fine.json: /measure/defects: the measurements of this run would take"),
-                                      HasSubstr("smaller with a coarser `grid`")))
+    EXPECT_THAT(said_with(2, shaken(words)),
+                AllOf(HasSubstr("fine.json: /measure/defects: the measurements of this run would take"),
+                      HasSubstr("smaller with a coarser `grid`")))
         << words.front();
   }
   EXPECT_FALSE(std::filesystem::exists(path("never")));
@@ -102,8 +100,7 @@ TEST_F(Explain, WhatNoMachineHasMemoryForIsRefusedByEveryVerb) {
 TEST_F(Explain, PromisesWhatTheRunThenTakes) {
   const std::string scene = write("scene.json", kScene);
   const Json report = json({"explain", scene});
-  const Finished ran = shaken({"run", scene, "--out", path("run")});
-  ASSERT_EQ(ran.code, 0) << ran.output;
+  expect_end(0, shaken({"run", scene, "--out", path("run")}));
   const Json summary = Json::parse(std::ifstream(path("run/summary.json")));
 
   EXPECT_EQ(report.at("shown").at("id"), summary.at("run_id"));
@@ -140,9 +137,8 @@ TEST_F(Explain, PromisesWhatTheRunThenTakes) {
 
   // from the state of that run, and not from that of another
   EXPECT_GT(json({"explain", scene, "--from", path("run")}).at("cpu_seconds").get<double>(), 0);
-  const Finished other = shaken({"explain", scene, "--from", path("run"), "-s", "box.gap=1.3"});
-  EXPECT_EQ(other.code, 2);
-  EXPECT_THAT(other.output, HasSubstr("another scene"));
+  EXPECT_THAT(said_with(2, shaken({"explain", scene, "--from", path("run"), "-s", "box.gap=1.3"})),
+              HasSubstr("another scene"));
 }
 
 TEST_F(Explain, AddsUpASweep) {
@@ -187,19 +183,17 @@ TEST_F(Explain, LevelsSetWhenImpactsTakePlace) {
 }
 
 TEST_F(Explain, WithoutProbeTellsWhatIsOn) {
-  const Finished finished = shaken({"explain", write("scene.json", kScene), "--no-probe", "-s", "gravity=0", "-s",
-                                    "plates.amplitude=0", "-s", "accuracy=draft"});
-  ASSERT_EQ(finished.code, 0) << finished.output;
-  EXPECT_THAT(finished.output, AllOf(HasSubstr("gravity = 0 m/s^2"), HasSubstr("measure.msd is absent"),
-                                     HasSubstr("32 us (\"draft\")"), Not(HasSubstr("CPU"))));
+  EXPECT_THAT(said_with(0, shaken({"explain", write("scene.json", kScene), "--no-probe", "-s", "gravity=0", "-s",
+                                   "plates.amplitude=0", "-s", "accuracy=draft"})),
+              AllOf(HasSubstr("gravity = 0 m/s^2"), HasSubstr("measure.msd is absent"), HasSubstr("32 us (\"draft\")"),
+                    Not(HasSubstr("CPU"))));
 }
 
 TEST_F(Explain, DryRunTellsTheSameAndQueuesNothing) {
   const std::string scene = write("scene.json", kScene);
   // no daemon is there: nothing can be submitted
-  const Finished finished = shaken({"submit", scene, "--dry-run", "--json", "--root", path("nowhere")});
-  ASSERT_EQ(finished.code, 0) << finished.output;
-  const Json report = Json::parse(finished.output);
+  const Json report =
+      Json::parse(said_with(0, shaken({"submit", scene, "--dry-run", "--json", "--root", path("nowhere")})));
   EXPECT_EQ(report.at("points").size(), 1u);
   const Json& estimate = report.at("estimate");
   const Json explained = json({"explain", scene});
@@ -215,15 +209,11 @@ TEST_F(Explain, RefusesWhatCannotBe) {
   EXPECT_EQ(shaken({"explain", path("missing.json")}).code, 2);
   EXPECT_EQ(shaken({"explain"}).code, 2);
   const std::string scene = write("scene.json", kScene);
-  const Finished options = shaken({"explain", scene, "--no-probe", "--cpu", "-1", "--from", "x"});
-  EXPECT_EQ(options.code, 2);
-  EXPECT_THAT(options.output, AllOf(HasSubstr("--cpu must be"), HasSubstr("--from has no meaning")));
-  const Finished full = shaken({"explain", scene, "-s", "rods.area_fraction=0.92"});
-  EXPECT_EQ(full.code, 2);
-  EXPECT_THAT(full.output, HasSubstr("do not fit"));
-  const Finished both = shaken({"explain", scene, "-s", "accuracy=fine", "-s", "time.step=\"1 us\""});
-  EXPECT_EQ(both.code, 2);
-  EXPECT_THAT(both.output, HasSubstr("remove one"));
+  EXPECT_THAT(said_with(2, shaken({"explain", scene, "--no-probe", "--cpu", "-1", "--from", "x"})),
+              AllOf(HasSubstr("--cpu must be"), HasSubstr("--from has no meaning")));
+  EXPECT_THAT(said_with(2, shaken({"explain", scene, "-s", "rods.area_fraction=0.92"})), HasSubstr("do not fit"));
+  EXPECT_THAT(said_with(2, shaken({"explain", scene, "-s", "accuracy=fine", "-s", "time.step=\"1 us\""})),
+              HasSubstr("remove one"));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "tests/e2e/run_command.h"
+#include "tests/support/good.h"
 
 namespace shaken::test {
 namespace {
@@ -38,8 +39,7 @@ class ExportedFiles : public testing::Test {
   /// Simulates a scene into the folder "run".
   void simulate(const char* scene) {
     std::ofstream(path("scene.json")) << scene;
-    const Finished run = run_command({program("shaken-worker"), path("scene.json"), "--out", path("run"), "--no-lcm"});
-    ASSERT_EQ(run.code, 0) << run.output;
+    expect_end(0, run_command({program("shaken-worker"), path("scene.json"), "--out", path("run"), "--no-lcm"}));
   }
   std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
   Finished exported(std::vector<std::string> arguments) const {
@@ -63,8 +63,7 @@ TEST_F(ExportedFiles, AreReadByOthersAsTheRun) {
     EXPECT_THAT(done.output, HasSubstr(path(file) + ": 21 frames of 60 rods, "));
   }
   for (const char* group : {"order", "msd"}) {
-    const Finished done = exported({"--observable", group, "-o", path("of-") + group + ".csv"});
-    EXPECT_EQ(done.code, 0) << done.output;
+    expect_end(0, exported({"--observable", group, "-o", path("of-") + group + ".csv"}));
   }
   const Finished seen =
       read_back({path("all.gsd"), path("all.extxyz"), path("all.xyz"), path("of-order.csv"), path("of-msd.csv")});
@@ -72,8 +71,7 @@ TEST_F(ExportedFiles, AreReadByOthersAsTheRun) {
   EXPECT_EQ(std::count(seen.output.begin(), seen.output.end(), '\n'), 5) << seen.output;
 
   EXPECT_EQ(exported({"-o", path("some.gsd"), "--from", "50 ms", "--every", "3"}).code, 0);
-  const Finished some = read_back({path("some.gsd"), "--frames", "5:3"});
-  EXPECT_EQ(some.code, 0) << some.output;
+  expect_end(0, read_back({path("some.gsd"), "--frames", "5:3"}));
   // and it is seen where a file is of other frames
   const Finished others = read_back({path("all.gsd"), "--frames", "1:1"});
   EXPECT_EQ(others.code, 1) << others.output;
@@ -82,11 +80,9 @@ TEST_F(ExportedFiles, AreReadByOthersAsTheRun) {
 TEST_F(ExportedFiles, HaveWallsAndPolarRods) {
   simulate(kPolarInADisc);
   for (const char* file : {"all.gsd", "all.extxyz", "all.xyz"}) {
-    const Finished done = exported({"-o", path(file)});
-    EXPECT_EQ(done.code, 0) << done.output;
+    expect_end(0, exported({"-o", path(file)}));
   }
-  const Finished seen = read_back({path("all.gsd"), path("all.extxyz"), path("all.xyz")});
-  EXPECT_EQ(seen.code, 0) << seen.output;
+  expect_end(0, read_back({path("all.gsd"), path("all.extxyz"), path("all.xyz")}));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "base/files.h"
 #include "run/files/trajectory.h"
 #include "tests/e2e/run_command.h"
+#include "tests/support/good.h"
 
 namespace shaken::test {
 namespace import_test {
@@ -49,9 +50,7 @@ class Imported : public ::testing::Test {
   }
   Json report(const std::string& file, std::vector<std::string> more = {}) const {
     more.emplace_back("--json");
-    const Finished done = import(file, more);
-    EXPECT_EQ(done.code, 0) << done.output;
-    return Json::parse(done.output);
+    return Json::parse(said_with(0, import(file, more)));
   }
   /// A run beside the imported ones, where it finds them without a root.
   Finished start(const std::string& id, const std::string& name, const std::string& time = "0") const {
@@ -83,8 +82,7 @@ TEST_F(Imported, RodsAreWhereARunBegins) {
   const std::string id = report("rods.csv")["run_id"];
   EXPECT_THAT(done.output, HasSubstr("\"start\": {\"run\": \"" + id + "\", \"time\": 0}"));
   EXPECT_THAT(done.output, HasSubstr("12 without a height: they rest on the base"));
-  const Finished ran = start(id, "go");
-  ASSERT_EQ(ran.code, 0) << ran.output;
+  expect_end(0, start(id, "go"));
 
   const run::RecordedFrame first = frame_of("root/runs/go/trajectory.h5");
   const run::RecordedFrame imported = frame_of("root/runs/" + id + "/trajectory.h5");
@@ -104,9 +102,8 @@ TEST_F(Imported, RodsAreWhereARunBegins) {
   const Json summary = Json::parse(*read_file(path("root/runs/go/summary.json")));
   EXPECT_EQ(summary["start"], (Json{{"run", id}, {"time_s", 0.0}}));
 
-  const Finished elsewhen = start(id, "elsewhen", "1s");
-  EXPECT_EQ(elsewhen.code, 1);
-  EXPECT_THAT(elsewhen.output, HasSubstr("there is no state of it at 1 s: its last saved state is that at 0 s"));
+  EXPECT_THAT(said_with(1, start(id, "elsewhen", "1s")),
+              HasSubstr("there is no state of it at 1 s: its last saved state is that at 0 s"));
 }
 
 TEST_F(Imported, AFrameOfARunComesBackAsItWas) {
@@ -185,18 +182,15 @@ TEST_F(Imported, RodsAreNoRunThatGoesOn) {
   const std::string id = report("rods.csv")["run_id"];
   const auto before = files();
   const std::string directory = path("root/runs/" + id);
-  const Finished onto = run_command({program("shaken"), "run", path("scene.json"), "--out", directory});
-  EXPECT_EQ(onto.code, 2);
-  EXPECT_THAT(onto.output, HasSubstr("holds imported rods, from which runs start: give another --out"));
+  EXPECT_THAT(said_with(2, run_command({program("shaken"), "run", path("scene.json"), "--out", directory})),
+              HasSubstr("holds imported rods, from which runs start: give another --out"));
   EXPECT_EQ(files(), before);
   EXPECT_FALSE(fs::exists(directory + "/summary.json")) << "there are no averages of it";
 
   // the id is that of the rods: others do not pass for them
   const std::string other = report("rods.csv", {"-s", "measure.msd={}"})["run_id"];
   fs::copy(path("root/runs/" + other + "/scene.json"), directory + "/scene.json", fs::copy_options::overwrite_existing);
-  const Finished cheated = start(id, "go");
-  EXPECT_EQ(cheated.code, 1);
-  EXPECT_THAT(cheated.output, HasSubstr("holds another run"));
+  EXPECT_THAT(said_with(1, start(id, "go")), HasSubstr("holds another run"));
 }
 
 TEST_F(Imported, FlatRodsAtRestAreTold) {

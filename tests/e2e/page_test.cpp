@@ -9,6 +9,7 @@
 
 #include "tests/e2e/run_command.h"
 #include "tests/support/effort.h"
+#include "tests/support/good.h"
 
 namespace shaken::test {
 namespace {
@@ -48,9 +49,8 @@ TEST(Page, IsUsedInABrowser) {
 
   // `shaken web` finds the one that runs: same token, same daemon.
   const std::string port = address.substr(address.rfind(':') + 1, address.find("/#") - address.rfind(':') - 1);
-  const Finished again = run_command({program("shaken"), "--root", root, "web", "--port", port});
-  EXPECT_EQ(again.code, 0) << again.output;
-  EXPECT_THAT(again.output, HasSubstr("open " + address));
+  EXPECT_THAT(said_with(0, run_command({program("shaken"), "--root", root, "web", "--port", port})),
+              HasSubstr("open " + address));
 
   daemon.signal(SIGTERM);
   EXPECT_EQ(daemon.wait(20s), 0) << daemon.output();
@@ -99,9 +99,8 @@ TEST(Page, ThatCannotHaveItsPortBackSaysSoAndTriesAgain) {
 
 TEST(Page, NeedsADaemon) {
   const ScratchFolder folder;
-  const Finished alone = run_command({program("shaken"), "--root", folder.path().string(), "web"});
-  EXPECT_EQ(alone.code, 3) << alone.output;
-  EXPECT_THAT(alone.output, HasSubstr("start shakend"));
+  EXPECT_THAT(said_with(3, run_command({program("shaken"), "--root", folder.path().string(), "web"})),
+              HasSubstr("start shakend"));
 }
 
 }  // namespace

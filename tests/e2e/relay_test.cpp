@@ -1,4 +1,5 @@
 // Live state by way of the daemon's relay, with real runs and real LCM programs; recordings of it, by us and by LCM.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -11,6 +12,7 @@
 #include "base/descriptor.h"
 #include "tests/e2e/free_port.h"
 #include "tests/e2e/run_command.h"
+#include "tests/support/good.h"
 
 namespace shaken::test {
 namespace relay_test {
@@ -18,6 +20,7 @@ namespace relay_test {
 using Json = nlohmann::json;
 using std::chrono::seconds;
 using std::chrono::steady_clock;
+using testing::HasSubstr;
 
 constexpr const char* kScene = R"({
   "rods": { "length": "4.5 mm", "area_fraction": 0.5 }, "box": { "side": "20 mm" }, "time": { "measure": "4 s" },
@@ -89,8 +92,7 @@ TEST_F(RelayedRun, BadClientsCostNeitherTheRunNorTheGoodOnesAnything) {
   const std::string noise = "GET / HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n";
   EXPECT_EQ(send(rubbish.value(), noise.data(), noise.size(), MSG_NOSIGNAL), std::ssize(noise));
   stopped->signal(SIGSTOP);
-  const Finished submitted = shaken({"submit", file("scene.json")});
-  ASSERT_EQ(submitted.code, 0) << submitted.output;
+  expect_end(0, shaken({"submit", file("scene.json")}));
   ASSERT_TRUE(good->wait_for("SHAKEN_FRAME\"", seconds(60)));
   killed->signal(SIGKILL);
   ASSERT_EQ(shaken({"wait"}).code, 0);
@@ -118,28 +120,22 @@ TEST_F(RelayedRun, BadClientsCostNeitherTheRunNorTheGoodOnesAnything) {
 TEST_F(RelayedRun, IsRecordedAndReplayedByUsAndByLcm) {
   Process logger({"/usr/bin/lcm-logger", "--quiet", "--lcm-url=" + url_, file("theirs.lcmlog")}, file("logger.out"));
   Process ours({program("shaken"), "record", "--root", root(), "--force", "-o", file("all.lcmlog")}, file("all.out"));
-  const Finished early = shaken({"submit", file("scene.json")});
-  ASSERT_EQ(early.code, 0) << early.output;
+  expect_end(0, shaken({"submit", file("scene.json")}));
   const std::string id =
       Json::parse(shaken({"results", "--json"}).output).at("rows").at(0).at("job").get<std::string>();
-  const Finished recorded = shaken({"record", id, "-o", file("job.lcmlog")});
-  EXPECT_EQ(recorded.code, 0) << recorded.output;
-  EXPECT_NE(recorded.output.find("the jobs have ended: "), std::string::npos) << recorded.output;
+  EXPECT_THAT(said_with(0, shaken({"record", id, "-o", file("job.lcmlog")})), HasSubstr("the jobs have ended: "));
   ours.signal(SIGINT);
   EXPECT_EQ(ours.wait(seconds(20)), 130) << ours.output();
   EXPECT_NE(ours.output().find("interrupted: "), std::string::npos) << ours.output();
   logger.signal(SIGINT);
   logger.wait(seconds(20));
 
-  const Finished again = shaken({"record", "-o", file("job.lcmlog")});
-  EXPECT_EQ(again.code, 2);
-  EXPECT_NE(again.output.find("--force"), std::string::npos) << again.output;
+  EXPECT_THAT(said_with(2, shaken({"record", "-o", file("job.lcmlog")})), HasSubstr("--force"));
 
   const auto listener = recorder("heard");
   const auto heard_of = [&](const std::vector<std::string>& player) {
     const std::size_t before = heard(*listener)["SHAKEN_FRAME"].size();
-    const Finished played = run_command(player, seconds(60));
-    EXPECT_EQ(played.code, 0) << played.output;
+    expect_end(0, run_command(player, seconds(60)));
     std::size_t n = 0;
     for (std::size_t last = 1; n != last;) {
       last = n;
@@ -163,16 +159,13 @@ TEST_F(RelayedRun, IsRecordedAndReplayedByUsAndByLcm) {
 }
 
 TEST_F(RelayedRun, ARecordingHasItsLimits) {
-  const Finished sized = shaken({"record", "--size", "300", "-o", file("small.lcmlog")});
-  EXPECT_EQ(sized.code, 0) << sized.output;
-  EXPECT_NE(sized.output.find("the log has its size: "), std::string::npos) << sized.output;
+  EXPECT_THAT(said_with(0, shaken({"record", "--size", "300", "-o", file("small.lcmlog")})),
+              HasSubstr("the log has its size: "));
   EXPECT_LE(std::filesystem::file_size(file("small.lcmlog")), 300U);
-  const Finished timed = shaken({"record", "--for", "1s", "-o", file("short.lcmlog")});
-  EXPECT_EQ(timed.code, 0) << timed.output;
-  EXPECT_NE(timed.output.find("the time is over: "), std::string::npos) << timed.output;
-  const Finished full = shaken({"record", "--force", "-o", "/dev/full"});
-  EXPECT_EQ(full.code, 1) << full.output;
-  EXPECT_NE(full.output.find("No space left on device; what came before is kept"), std::string::npos) << full.output;
+  EXPECT_THAT(said_with(0, shaken({"record", "--for", "1s", "-o", file("short.lcmlog")})),
+              HasSubstr("the time is over: "));
+  EXPECT_THAT(said_with(1, shaken({"record", "--force", "-o", "/dev/full"})),
+              HasSubstr("No space left on device; what came before is kept"));
   EXPECT_EQ(shaken({"replay-log", file("scene.json"), "--lcm-url", url_}).code, 1) << "no log";
 }
 

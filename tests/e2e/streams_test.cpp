@@ -6,6 +6,7 @@
 
 #include "base/files.h"
 #include "tests/e2e/run_command.h"
+#include "tests/support/good.h"
 
 namespace shaken::test {
 namespace streams_test {
@@ -26,9 +27,7 @@ TEST(Streams, WhatCannotBeWrittenToStandardOutputIsAnError) {
     const Finished full = shell(program(name) + " --version > /dev/full");
     EXPECT_EQ(full.code, 1) << name;
     EXPECT_THAT(full.output, StartsWith(name + ": cannot write to standard output"));
-    const Finished good = shell(program(name) + " --version > /dev/null");
-    EXPECT_EQ(good.code, 0) << name;
-    EXPECT_EQ(good.output, "");
+    EXPECT_EQ(said_with(0, shell(program(name) + " --version > /dev/null")), "") << name;
     EXPECT_EQ(shell(program(name) + " --no-such-option > /dev/full").code, 2) << name;
   }
 }
@@ -67,10 +66,9 @@ TEST(Streams, AFileBeyondTheLimitOfItsUserIsAnErrorWithWords) {
   const ScratchFolder folder;
   const auto scene = folder / "scene.json";
   ASSERT_TRUE(write_file(scene, kScene));
-  const Finished limited = shell("ulimit -f 2; exec " + program("shaken-worker") + " " + scene.string() + " --out " +
-                                 (folder / "run").string() + " --no-lcm");
-  EXPECT_EQ(limited.code, 1);
-  EXPECT_THAT(limited.output, HasSubstr("File too large"));
+  EXPECT_THAT(said_with(1, shell("ulimit -f 2; exec " + program("shaken-worker") + " " + scene.string() + " --out " +
+                                 (folder / "run").string() + " --no-lcm")),
+              HasSubstr("File too large"));
 }
 
 // A device or a pipe has no end.
@@ -79,9 +77,9 @@ TEST(Streams, ASceneThatDoesNotEndIsRefused) {
   for (const std::string& command :
        {program("shaken") + " validate /dev/zero", program("shaken") + " validate - < /dev/zero",
         program("shaken-worker") + " /dev/zero --out " + (folder / "run").string()}) {
-    const Finished refused = shell("timeout -k 5 60 " + command);
-    EXPECT_EQ(refused.code, 2) << command;
-    EXPECT_THAT(refused.output, HasSubstr("is longer than 16 MiB, the most that is read of it")) << command;
+    EXPECT_THAT(said_with(2, shell("timeout -k 5 60 " + command)),
+                HasSubstr("is longer than 16 MiB, the most that is read of it"))
+        << command;
   }
   // A pipe that says nothing does not keep the worker from being stopped.
   const Finished stopped = shell("mkfifo " + (folder / "pipe").string() + "; exec 3<>" + (folder / "pipe").string() +

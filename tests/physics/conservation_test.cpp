@@ -3,6 +3,7 @@
 
 #include "sim/balance.h"
 #include "sim/simulation.h"
+#include "tests/support/good.h"
 #include "tests/support/short_rods.h"
 
 namespace shaken {
@@ -24,8 +25,7 @@ TEST(Conservation, MomentumInThePlaneWithoutPlateFriction) {
   System system = test::short_rods(74);
   system.rod_base.friction = 0;
   system.rod_lid.friction = 0;
-  auto simulation = Simulation::start(system);
-  ASSERT_TRUE(static_cast<bool>(simulation));
+  auto simulation = test::good(Simulation::start(system));
   const Vec3 start = momentum(simulation->world());
   const double scale = simulation->world().species[0].mass * 20 * system.n_rods;
   for (Tick k = 500; k <= 10000; k += 500) {
@@ -40,8 +40,7 @@ TEST(Conservation, MomentumInThePlaneWithoutPlateFriction) {
 TEST(Conservation, PlateFrictionDoesTakeMomentum) {
   // the twin that shows that the test above can fail
   System system = test::short_rods(74);
-  auto simulation = Simulation::start(system);
-  ASSERT_TRUE(static_cast<bool>(simulation));
+  auto simulation = test::good(Simulation::start(system));
   const Vec3 start = momentum(simulation->world());
   ASSERT_FALSE(simulation->advance_to(10000).has_value());
   const Vec3 change = momentum(simulation->world()) - start;
@@ -52,8 +51,7 @@ TEST(Conservation, EnergyNeverGrowsBetweenPlatesAtRest) {
   System system = test::short_rods(74);
   system.amplitude = 0;
   system.gravity = 0;
-  auto simulation = Simulation::start(system);
-  ASSERT_TRUE(static_cast<bool>(simulation));
+  auto simulation = test::good(Simulation::start(system));
   double energy = kinetic_energy(simulation->world()).total();
   const double start = energy;
   for (Tick k = 1; k <= 8000; ++k) {
@@ -68,8 +66,7 @@ TEST(Conservation, EnergyNeverGrowsBetweenPlatesAtRest) {
 TEST(Conservation, UnderGravityRodsAtRestAreHeldUpByNoMoreThanAFallOfOneTick) {
   System system = test::short_rods(74);
   system.amplitude = 0;
-  auto simulation = Simulation::start(system);
-  ASSERT_TRUE(static_cast<bool>(simulation));
+  auto simulation = test::good(Simulation::start(system));
   const double tick_fall = system.gravity * system.dt;
   const double held = system.n_rods * simulation->world().species.front().mass * tick_fall * tick_fall;
   double energy = kinetic_energy(simulation->world()).total() + potential_energy(simulation->world());
@@ -87,8 +84,7 @@ TEST(Conservation, ElasticFrictionlessRodsBetweenPlatesAtRestKeepTheirEnergy) {
   System system = test::short_rods(74);
   system.amplitude = 0;
   system.rod_rod = system.rod_base = system.rod_lid = {0.0, 1.0};
-  auto simulation = Simulation::start(system);
-  ASSERT_TRUE(static_cast<bool>(simulation));
+  auto simulation = test::good(Simulation::start(system));
   const double start = kinetic_energy(simulation->world()).total() + potential_energy(simulation->world());
   ASSERT_FALSE(simulation->advance_to(10000).has_value());
   const double end = kinetic_energy(simulation->world()).total() + potential_energy(simulation->world());
@@ -99,8 +95,7 @@ TEST(Conservation, ElasticFrictionlessRodsBetweenPlatesAtRestKeepTheirEnergy) {
 TEST(Conservation, FrictionlessContactsNeverTurnARodAboutItsAxis) {
   System system = test::short_rods(74);
   system.rod_rod.friction = system.rod_base.friction = system.rod_lid.friction = 0;
-  auto simulation = Simulation::start(system);
-  ASSERT_TRUE(static_cast<bool>(simulation));
+  auto simulation = test::good(Simulation::start(system));
   ASSERT_FALSE(simulation->advance_to(10000).has_value());
   for (const Flight& flight : simulation->world().rods) EXPECT_NEAR(flight.spin, 0, 1e-11);
 }
@@ -110,8 +105,7 @@ TEST(Overlap, ShrinksWithTheTick) {
   for (const double dt : {16e-6, 4e-6, 1e-6}) {
     System system = test::short_rods(74);
     system.dt = dt;
-    auto simulation = Simulation::start(system);
-    ASSERT_TRUE(static_cast<bool>(simulation));
+    auto simulation = test::good(Simulation::start(system));
     ASSERT_FALSE(simulation->advance_to(static_cast<Tick>(0.03 / dt)).has_value());
     const double overlap = simulation->world().counters.max_overlap();
     EXPECT_GT(overlap, 0);
@@ -124,8 +118,7 @@ TEST(Trouble, DeepOverlapStopsWithTickAndRods) {
   // a tick in which a rod crosses half the gap: nobody should believe what follows, and nobody is asked to
   System system = test::short_rods(74);
   system.dt = 4e-3;
-  auto simulation = Simulation::start(system);
-  ASSERT_TRUE(static_cast<bool>(simulation));
+  auto simulation = test::good(Simulation::start(system));
   const auto trouble = simulation->advance_to(1000);
   ASSERT_TRUE(trouble.has_value());
   EXPECT_EQ(trouble->tick, simulation->tick());
@@ -139,8 +132,7 @@ TEST(Trouble, TheBalanceOfWhatWentBeforeCloses) {
     System system = test::short_rods(74);
     system.dt = 1e-3;
     system.stepper = stepper;
-    auto simulation = Simulation::start(system);
-    ASSERT_TRUE(static_cast<bool>(simulation));
+    auto simulation = test::good(Simulation::start(system));
     ASSERT_TRUE(simulation->advance_to(100000).has_value());
     const Balance found = balance(simulation->world());
     EXPECT_GT(found.energy_given_by_surfaces, 0) << "some ticks went well";

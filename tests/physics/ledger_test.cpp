@@ -4,6 +4,7 @@
 #include "sim/balance.h"
 #include "sim/motion/side_walls.h"
 #include "sim/simulation.h"
+#include "tests/support/good.h"
 #include "tests/support/short_rods.h"
 
 namespace shaken {
@@ -21,8 +22,7 @@ class LedgerOf : public testing::TestWithParam<Case> {};
 TEST_P(LedgerOf, Closes) {
   System system = test::short_rods(60);
   GetParam().set(system);
-  auto simulation = Simulation::start(system);
-  ASSERT_TRUE(static_cast<bool>(simulation)) << simulation.error().message;
+  auto simulation = test::good(Simulation::start(system));
   const double momentum_scale = simulation->world().species[0].mass * 50 * system.n_all_rods();
   for (const Tick k : {1, 5000, 25000}) {
     ASSERT_FALSE(simulation->advance_to(k).has_value());
@@ -135,8 +135,7 @@ System rods_in_a_disc() {
 
 // With plates that have no friction, the wall alone gives momentum in the plane.
 TEST(Ledger, MomentumOfTheDiscComesFromItsWall) {
-  auto simulation = Simulation::start(rods_in_a_disc());
-  ASSERT_TRUE(static_cast<bool>(simulation)) << simulation.error().message;
+  auto simulation = test::good(Simulation::start(rods_in_a_disc()));
   const World& world = simulation->world();
   const double scale = world.species[0].mass * 20 * world.system.n_rods;
   Vec2 before = in_the_plane(world).momentum;
@@ -168,8 +167,7 @@ TEST(Ledger, ARoundWallWithoutFrictionGivesNoAngularMomentum) {
     system.base = system.lid = false;
     system.gravity = 0;
     system.walls->contact.friction = friction;
-    auto simulation = Simulation::start(system);
-    ASSERT_TRUE(static_cast<bool>(simulation)) << simulation.error().message;
+    auto simulation = test::good(Simulation::start(system));
     const World& world = simulation->world();
     const double scale = world.species[0].mass * 20 * 5 * system.n_rods;
     const double start = in_the_plane(world).angular;

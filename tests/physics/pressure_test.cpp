@@ -8,6 +8,7 @@
 #include "analysis/stress.h"
 #include "sim/simulation.h"
 #include "sim/world.h"
+#include "tests/support/good.h"
 
 namespace shaken {
 namespace {
@@ -47,8 +48,7 @@ class HardDiscs : public testing::TestWithParam<double> {};
 
 // Z = (1 + f^2 / 8) / (1 - f)^2: Henderson, Mol. Phys. 30, 971 (1975).
 TEST_P(HardDiscs, HaveTheirEquationOfState) {
-  auto simulation = Simulation::start(elastic_discs(300, GetParam()));
-  ASSERT_TRUE(static_cast<bool>(simulation)) << simulation.error().message;
+  auto simulation = test::good(Simulation::start(elastic_discs(300, GetParam())));
   const double found = compressibility(*simulation, 1, 9);
   const double expected = (1 + GetParam() * GetParam() / 8) / ((1 - GetParam()) * (1 - GetParam()));
   std::printf("area fraction %.2f: Z = %.4f, %.4f expected\n", GetParam(), found, expected);
@@ -59,8 +59,7 @@ INSTANTIATE_TEST_SUITE_P(Packings, HardDiscs, testing::Values(0.1, 0.3, 0.5));
 
 // Of impacts without friction between spheres the impulse lies along the way from centre to centre: xy = yx.
 TEST(Virial, OfSpheresWithoutFrictionIsSymmetric) {
-  auto simulation = Simulation::start(elastic_discs(60, 0.4));
-  ASSERT_TRUE(static_cast<bool>(simulation)) << simulation.error().message;
+  auto simulation = test::good(Simulation::start(elastic_discs(60, 0.4)));
   ASSERT_FALSE(simulation->advance_to(100000).has_value());
   const auto& virial = simulation->world().counters.ledger.virial;
   EXPECT_GT(virial[0].value(), 0);

@@ -1,5 +1,6 @@
 #include "base/files.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -11,6 +12,7 @@
 
 #include "base/paths.h"
 #include "base/scratch_folder.h"
+#include "tests/support/good.h"
 #include "tests/support/in_child.h"
 
 namespace shaken {
@@ -131,8 +133,7 @@ TEST(ReplacementFile, TakesThePlaceOfTheOldContentOnlyAtItsEnd) {
   const ScratchFolder folder;
   const auto file = folder / "frames.xyz";
   ASSERT_TRUE(write_file_atomically(file, "old"));
-  auto next = ReplacementFile::create(file);
-  ASSERT_TRUE(next) << next.error().message;
+  auto next = test::good(ReplacementFile::create(file));
   EXPECT_TRUE(next->append("first, "));
   EXPECT_TRUE(next->append("second"));
   EXPECT_EQ(*read_file(file), "old");
@@ -146,8 +147,7 @@ TEST(ReplacementFile, GoesWithoutATraceWhenItIsNotFinished) {
   const auto file = folder / "frames.xyz";
   ASSERT_TRUE(write_file_atomically(file, "old"));
   {
-    auto next = ReplacementFile::create(file);
-    ASSERT_TRUE(next) << next.error().message;
+    auto next = test::good(ReplacementFile::create(file));
     EXPECT_TRUE(next->append("half"));
     EXPECT_NE(listing(folder.path()), "frames.xyz");
   }
@@ -157,9 +157,8 @@ TEST(ReplacementFile, GoesWithoutATraceWhenItIsNotFinished) {
 
 TEST(ReplacementFile, SaysWhichFileCannotBeWritten) {
   const ScratchFolder folder;
-  const auto nowhere = ReplacementFile::create(folder / "missing" / "frames.xyz");
-  ASSERT_FALSE(nowhere);
-  EXPECT_NE(nowhere.error().message.find("missing/frames.xyz"), std::string::npos) << nowhere.error().message;
+  EXPECT_THAT(test::refusal(ReplacementFile::create(folder / "missing" / "frames.xyz")),
+              testing::HasSubstr("missing/frames.xyz"));
   const int failures = in_child([&] {
     limit_file_size(1000);
     auto next = ReplacementFile::create(folder / "frames.xyz");
@@ -206,28 +205,20 @@ TEST(ScratchFolder, IsWhereTmpdirSaysWhichIsNamedWhereItIsOfNoUse) {
   setenv("TMPDIR", "", 1);
   EXPECT_EQ(ScratchFolder().path().parent_path(), "/tmp") << "empty is as if it were not set";
   setenv("TMPDIR", "/nonexistent", 1);
-  try {
-    const ScratchFolder folder;
-    FAIL() << folder.path();
-  } catch (const std::system_error& problem) {
-    EXPECT_STREQ(problem.what(),
-                 "no folder can be made in /nonexistent, which TMPDIR names: No such file or directory");
-  }
+  EXPECT_THAT([] { ScratchFolder(); },
+              testing::ThrowsMessage<std::system_error>(
+                  "no folder can be made in /nonexistent, which TMPDIR names: No such file or directory"));
   unsetenv("TMPDIR");
 }
 
 TEST(AtomicFile, MissingFileCannotBeRead) {
   const ScratchFolder folder;
-  const auto content = read_file(folder / "nothing");
-  ASSERT_FALSE(content);
-  EXPECT_NE(content.error().message.find("nothing"), std::string::npos);
+  EXPECT_THAT(test::refusal(read_file(folder / "nothing")), testing::HasSubstr("nothing"));
 }
 
 TEST(DataRoot, WhatIsGivenDecidesElseTheFirstVariableThatIsSet) {
   for (const char* name : {"SHAKEN_ROOT", "XDG_DATA_HOME", "HOME"}) unsetenv(name);
-  const auto none = data_root();
-  ASSERT_FALSE(none);
-  EXPECT_EQ(none.error().message, "no root directory: set --root, SHAKEN_ROOT, or HOME to an absolute path");
+  EXPECT_EQ(test::refusal(data_root()), "no root directory: set --root, SHAKEN_ROOT, or HOME to an absolute path");
   setenv("HOME", "/h", 1);
   EXPECT_EQ(*data_root(), "/h/.local/share/shaken");
   setenv("XDG_DATA_HOME", "/x", 1);
@@ -251,10 +242,7 @@ TEST(DataRoot, ARelativePathInTheEnvironmentIsIgnored) {
 // Verbs that open a run's folder got its name through JSON, with U+FFFD in the place of such a byte.
 TEST(DataRoot, ANameThatJsonCannotHaveIsRefused) {
   for (const char* name : {"/tmp/r\xff", "/tmp/a\nb"}) {
-    const auto root = data_root(name);
-    ASSERT_FALSE(root);
-    EXPECT_NE(root.error().message.find("UTF-8 without control characters, not /tmp/"), std::string::npos)
-        << root.error().message;
+    EXPECT_THAT(test::refusal(data_root(name)), testing::HasSubstr("UTF-8 without control characters, not /tmp/"));
   }
   EXPECT_EQ(*data_root("/tmp/\u03bc \u00e4"), "/tmp/\u03bc \u00e4");
 }

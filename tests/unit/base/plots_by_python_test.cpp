@@ -9,6 +9,7 @@
 #include "base/failure.h"
 #include "base/paths.h"
 #include "base/scratch_folder.h"
+#include "tests/support/good.h"
 
 namespace shaken {
 namespace {
@@ -36,12 +37,7 @@ class InPlaceOfPython {
 /// What is told where nothing was drawn.
 Failure failure_of(const std::string& script) {
   const InPlaceOfPython python(script);
-  try {
-    plots_by_python({"runs"});
-  } catch (const Failure& failure) {
-    return failure;
-  }
-  return {ExitCode::kOk, ""};
+  return test::thrown_by<Failure>([] { plots_by_python({"runs"}); });
 }
 
 TEST(PlotsByPython, HandsOverItsWordsAndItsInput) {
@@ -51,21 +47,14 @@ TEST(PlotsByPython, HandsOverItsWordsAndItsInput) {
 
 TEST(PythonCommand, SaysHowThePackageIsHad) {
   EXPECT_EQ(python_command("plots").back(), shipped_python() / "shaken/plots/__main__.py");
-  try {
-    (void)python_command("nothing");
-    ADD_FAILURE();
-  } catch (const Failure& failure) {
-    EXPECT_THAT(failure.what(), testing::HasSubstr("is not there: `apt install python3-shaken`"));
-  }
+  EXPECT_THAT([] { (void)python_command("nothing"); },
+              testing::ThrowsMessage<Failure>(HasSubstr("is not there: `apt install python3-shaken`")));
 }
 
 TEST(PlotsByPython, TellsInItsWordsWhyNothingWasDrawn) {
-  const Failure nothing = failure_of("echo there is nothing to plot yet; exit 1\n");
-  EXPECT_EQ(nothing.code, ExitCode::kFailed);
-  EXPECT_STREQ(nothing.what(), "there is nothing to plot yet");
-  const Failure bad = failure_of("echo one; echo two; exit 2\n");
-  EXPECT_EQ(bad.code, ExitCode::kBadInput);
-  EXPECT_STREQ(bad.what(), "one\ntwo");
+  EXPECT_EQ(test::said_with(ExitCode::kFailed, failure_of("echo there is nothing to plot yet; exit 1\n")),
+            "there is nothing to plot yet");
+  EXPECT_EQ(test::said_with(ExitCode::kBadInput, failure_of("echo one; echo two; exit 2\n")), "one\ntwo");
 }
 
 TEST(PlotsByPython, OfATracebackTheLastLineIsTold) {

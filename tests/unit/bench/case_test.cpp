@@ -1,5 +1,6 @@
 #include "bench/case.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -10,9 +11,12 @@
 #include "base/scratch_folder.h"
 #include "bench/hard/hard.h"
 #include "sim/balance.h"
+#include "tests/support/good.h"
 
 namespace shaken::bench {
 namespace {
+
+using testing::HasSubstr;
 
 /// A dozen rods for two milliseconds.
 Case small_case(double warm_up = 0.002) { return make_case(4.5, 0.3, 10, kPaperStep, warm_up); }
@@ -26,14 +30,13 @@ TEST(Case, HasTheScenesDefaults) {
   EXPECT_DOUBLE_EQ(made.rod_seconds(1250), 527 * 0.005);
 }
 
+template <class Act>
+std::string refusal_of(const Act& act) {
+  return test::said_with(ExitCode::kBadInput, test::thrown_by<Failure>(act));
+}
+
 TEST(Case, WhatASceneRefusesIsBadInput) {
-  try {
-    make_case(4.5, 0.75, 5, kPaperStep, 0.5);
-    FAIL() << "not refused";
-  } catch (const Failure& failure) {
-    EXPECT_EQ(failure.code, ExitCode::kBadInput);
-    EXPECT_NE(std::string(failure.what()).find("too small for rods"), std::string::npos) << failure.what();
-  }
+  EXPECT_THAT(refusal_of([] { make_case(4.5, 0.75, 5, kPaperStep, 0.5); }), HasSubstr("too small for rods"));
 }
 
 TEST(Case, IsWhatASceneSays) {
@@ -69,17 +72,11 @@ TEST(Case, IsReadFromAFileWithoutWhatItMeasures) {
 
   const auto refusal = [&](const char* scene) {
     std::ofstream(file) << scene;
-    try {
-      read_case(file, 0.5);
-    } catch (const Failure& failure) {
-      EXPECT_EQ(failure.code, ExitCode::kBadInput);
-      return std::string(failure.what());
-    }
-    return std::string("not refused");
+    return refusal_of([&] { read_case(file, 0.5); });
   };
-  const std::string both = refusal(R"({"rods": {"count": 40, "lenght": 3}, "boks": {}})");
-  for (const char* word : {"lenght", "boks"}) EXPECT_NE(both.find(word), std::string::npos) << both;
-  EXPECT_NE(refusal(R"({"start": {"run": "7b26405de457a366", "time": "10 s"}})").find("start"), std::string::npos);
+  EXPECT_THAT(refusal(R"({"rods": {"count": 40, "lenght": 3}, "boks": {}})"),
+              AllOf(HasSubstr("lenght"), HasSubstr("boks")));
+  EXPECT_THAT(refusal(R"({"start": {"run": "7b26405de457a366", "time": "10 s"}})"), HasSubstr("start"));
 }
 
 TEST(Case, CountsRodsOfAllSpecies) {
@@ -89,13 +86,10 @@ TEST(Case, CountsRodsOfAllSpecies) {
 }
 
 TEST(Case, NamesTheSceneThatIsRefused) {
-  try {
-    case_of({{"rods", {{"lenght", 4.5}}}}, 0.5, "mistyped");
-    FAIL() << "not refused";
-  } catch (const Failure& failure) {
-    EXPECT_EQ(failure.code, ExitCode::kBadInput);
-    EXPECT_EQ(std::string(failure.what()).rfind("mistyped: /rods/lenght: ", 0), 0u) << failure.what();
-  }
+  EXPECT_THAT(refusal_of([] {
+                case_of({{"rods", {{"lenght", 4.5}}}}, 0.5, "mistyped");
+              }),
+              testing::StartsWith("mistyped: /rods/lenght: "));
 }
 
 class SteadyStates : public ::testing::Test {

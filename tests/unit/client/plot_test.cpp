@@ -7,6 +7,7 @@
 #include "base/plots_by_python.h"
 #include "client/live/json.h"
 #include "run/files/observables_file.h"
+#include "tests/support/good.h"
 #include "tests/unit/client/fake_daemon.h"
 #include "tests/unit/client/run_client.h"
 
@@ -103,10 +104,10 @@ TEST(Plot, DrawsASweepFromTheDaemon) {
   daemon.on("GET /v1/sweeps/s1", Json{{"sweep", {{"id", "s1"}, {"name", "x"}}}, {"jobs", jobs}}.dump());
   daemon.on("GET /v1/results?sweep=s1", Json{{"rows", rows}}.dump());
   const auto out = root.path() / "plots";
-  const Outcome outcome = run_client({"plot", "s1", "--root", root.path().string(), "-o", out.string()});
-  EXPECT_EQ(outcome.code, ExitCode::kOk) << outcome.err;
-  EXPECT_THAT(outcome.err, HasSubstr("left out: "));
-  EXPECT_THAT(outcome.err, Not(HasSubstr("errno"))) << "in words, not in those of the library";
+  EXPECT_THAT(
+      test::said_with(ExitCode::kOk, run_client({"plot", "s1", "--root", root.path().string(), "-o", out.string()})),
+      AllOf(HasSubstr("left out: "), Not(HasSubstr("errno"))))
+      << "in words, not in those of the library";
   EXPECT_TRUE(is_png(out / "order_rods_area_fraction.png"));
   EXPECT_TRUE(is_png(out / "order_time.png"));
 
@@ -128,17 +129,15 @@ TEST(Plot, DrawsASweepFromTheDaemon) {
       one({"--where", "rods.area_fraction<0.7", "--width", "183mm", "-o", (root.path() / "w").string()});
   EXPECT_EQ(chosen.code, ExitCode::kOk) << chosen.err;
   EXPECT_EQ(chosen.err, "") << "the run without a file is not asked for";
-  const Outcome none = one({"--where", "rods.area_fraction>0.8"});
-  EXPECT_EQ(none.code, ExitCode::kFailed);
-  EXPECT_THAT(none.err, HasSubstr("nothing to plot"));
+  EXPECT_THAT(test::said_with(ExitCode::kFailed, one({"--where", "rods.area_fraction>0.8"})),
+              HasSubstr("nothing to plot"));
   EXPECT_EQ(one({"--where", "no.such_field=1 or x"}).code, ExitCode::kBadInput);
-  const Outcome wrong = one({"--width", "4mm", "--format", "bmp"});
-  EXPECT_EQ(wrong.code, ExitCode::kBadInput);
-  EXPECT_THAT(wrong.err, ::testing::AllOf(HasSubstr("--width takes 89mm"), HasSubstr("--format takes png")));
+  EXPECT_THAT(test::said_with(ExitCode::kBadInput, one({"--width", "4mm", "--format", "bmp"})),
+              ::testing::AllOf(HasSubstr("--width takes 89mm"), HasSubstr("--format takes png")));
   EXPECT_EQ(one({"-o", "all.pdf"}).code, ExitCode::kBadInput) << "several figures, one file";
-  const Outcome map = one({"--map", "-o", (root.path() / "map.png").string()});
-  EXPECT_EQ(map.code, ExitCode::kFailed);
-  EXPECT_THAT(map.err, HasSubstr("nothing was recorded")) << "in any of these runs";
+  EXPECT_THAT(test::said_with(ExitCode::kFailed, one({"--map", "-o", (root.path() / "map.png").string()})),
+              HasSubstr("nothing was recorded"))
+      << "in any of these runs";
   EXPECT_EQ(one({"--format", "gif"}).code, ExitCode::kBadInput);
   EXPECT_EQ(one({"--y", "order.maen"}).code, ExitCode::kBadInput);
 }
@@ -175,9 +174,8 @@ TEST(Plot, NothingMeasuredIsAFailure) {
   if (!have_matplotlib()) GTEST_SKIP() << "no matplotlib";
   const ScratchFolder folder;
   std::ofstream(folder.path() / "scene.json") << "{}";
-  const Outcome outcome = run_client({"plot", folder.path().string()});
-  EXPECT_EQ(outcome.code, ExitCode::kFailed);
-  EXPECT_THAT(outcome.err, HasSubstr("nothing to plot"));
+  EXPECT_THAT(test::said_with(ExitCode::kFailed, run_client({"plot", folder.path().string()})),
+              HasSubstr("nothing to plot"));
 }
 
 TEST(Plot, SaysWhatIsNotInstalled) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <sstream>
 #include <string>
 #include <vector>
@@ -37,6 +39,12 @@ inline Outcome run_client(const std::vector<std::string>& arguments, int width =
   Console console{.out = out, .err = err, .width = width, .run_instead = run_beside};
   const ExitCode code = run_program(arguments, console);
   return {code, out.str(), err.str()};
+}
+
+/// What a verb prints on stdout that must have done its work.
+inline std::string shown(const Outcome& outcome) {
+  EXPECT_EQ(outcome.code, ExitCode::kOk) << outcome.err;
+  return outcome.out;
 }
 
 }  // namespace shaken::client

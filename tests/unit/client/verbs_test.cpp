@@ -12,6 +12,7 @@
 #include "client/live/json.h"
 #include "client/waiting.h"
 #include "proto/bus.h"
+#include "tests/support/good.h"
 #include "tests/unit/client/fake_daemon.h"
 #include "tests/unit/client/run_client.h"
 
@@ -113,10 +114,8 @@ TEST_F(Verbs, ALongNameDoesNotMoveAllSweepsApart) {
 TEST_F(Verbs, StatusOfASweepAndItsFailures) {
   daemon_.on("GET /v1/sweeps/phases",
              text(sweep({job("1f0c000000000000", "done"), job("2a0c000000000000", "failed")})));
-  const Outcome all = run({"status", "phases"});
-  EXPECT_EQ(all.code, ExitCode::kOk) << all.err;
-  EXPECT_THAT(all.out, HasSubstr("sweep s1 (phases): 1 done, 1 failed"));
-  EXPECT_THAT(all.out, HasSubstr("1f0c0000  done"));
+  EXPECT_THAT(shown(run({"status", "phases"})),
+              AllOf(HasSubstr("sweep s1 (phases): 1 done, 1 failed"), HasSubstr("1f0c0000  done")));
   const Outcome failed = run({"status", "phases", "--failed"});
   EXPECT_THAT(failed.out, HasSubstr("2 rods overlap by 0.3 mm"));
   EXPECT_THAT(failed.out, HasSubstr("/data/runs/2a0c000000000000/worker.log"));
@@ -161,9 +160,7 @@ TEST_F(Verbs, StatusMarksWhatIsNotKnownToBeSteady) {
 TEST_F(Verbs, AnswersOfAnotherShapeAreNamedAsSuch) {
   daemon_.on("GET /v1/status", "{}");
   daemon_.on("GET /v1/sweeps", R"({"sweeps": 7})");
-  const Outcome outcome = run({"status"});
-  EXPECT_EQ(outcome.code, ExitCode::kFailed);
-  EXPECT_THAT(outcome.err, HasSubstr("another version"));
+  EXPECT_THAT(test::said_with(ExitCode::kFailed, run({"status"})), HasSubstr("another version"));
 }
 
 TEST_F(Verbs, SubmitSendsTheFileWithAllThatIsAskedAndShowsThePoints) {
@@ -173,16 +170,14 @@ TEST_F(Verbs, SubmitSendsTheFileWithAllThatIsAskedAndShowsThePoints) {
   answer["jobs"][1]["created_utime"] = 500;
   answer["counts"] = {{"new", 1}, {"requeued", 0}, {"done", 1}, {"running", 0}, {"queued", 1}};
   daemon_.on("POST /v1/sweeps", {{201, text(answer)}});
-  const Outcome outcome = run({"submit",       file,        "-s",           "rods.length=2.5,3.5",
-                               "--replicas",   "2",         "--name",       "phases",
-                               "--priority",   "10",        "--soft-limit", "10min",
-                               "--time-limit", "1.5 d",     "--at-once",    "4",
-                               "--after",      "s3",        "--after",      "1f0c",
-                               "--stop-if",    "failed>10%"});
-  EXPECT_EQ(outcome.code, ExitCode::kOk) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("sweep s1 (phases): 2 points: 1 new, 1 done\n"));
-  EXPECT_THAT(outcome.out, HasSubstr("1f0c0000  new"));
-  EXPECT_THAT(outcome.out, HasSubstr("2a0c0000  done"));
+  EXPECT_THAT(shown(run({"submit",       file,        "-s",           "rods.length=2.5,3.5",
+                         "--replicas",   "2",         "--name",       "phases",
+                         "--priority",   "10",        "--soft-limit", "10min",
+                         "--time-limit", "1.5 d",     "--at-once",    "4",
+                         "--after",      "s3",        "--after",      "1f0c",
+                         "--stop-if",    "failed>10%"})),
+              AllOf(HasSubstr("sweep s1 (phases): 2 points: 1 new, 1 done\n"), HasSubstr("1f0c0000  new"),
+                    HasSubstr("2a0c0000  done")));
   const Json asked{{"text", R"({"box": {"side": 30}})"},
                    {"file", file},
                    {"settings", {"rods.length=2.5,3.5"}},
@@ -199,9 +194,9 @@ TEST_F(Verbs, SubmitSendsTheFileWithAllThatIsAskedAndShowsThePoints) {
   EXPECT_EQ(run({"submit", file}).code, ExitCode::kOk);
   EXPECT_FALSE(Json::parse(daemon_.requests().back().body).contains("priority"));
   for (const char* time : {"soon", "0", "-3min", "5 mm", "1e999", "nan"}) {
-    const Outcome refused = run({"submit", file, "--time-limit", time});
-    EXPECT_EQ(refused.code, ExitCode::kBadInput) << time;
-    EXPECT_THAT(refused.err, HasSubstr("--time-limit")) << time;
+    EXPECT_THAT(test::said_with(ExitCode::kBadInput, run({"submit", file, "--time-limit", time})),
+                HasSubstr("--time-limit"))
+        << time;
   }
 }
 
@@ -268,21 +263,15 @@ TEST_F(Verbs, CleanRemovesOnlyWhatWasShown) {
   const Outcome unasked = run({"clean"});
   EXPECT_EQ(unasked.code, ExitCode::kBadInput) << "nobody is there who could agree";
   EXPECT_TRUE(daemon_.requests().empty());
-  const Outcome outcome = run({"clean", "--yes"});
-  EXPECT_EQ(outcome.code, ExitCode::kOk) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("1 removed, 3 kB\n"));
+  EXPECT_THAT(shown(run({"clean", "--yes"})), HasSubstr("1 removed, 3 kB\n"));
   EXPECT_EQ(Json::parse(daemon_.requests().back().body), Json({{"only", {"1f0c000000000000"}}}));
-  const Outcome kept = run({"clean", "--yes"});
-  EXPECT_EQ(kept.code, ExitCode::kFailed);
-  EXPECT_EQ(kept.err, "1f0c0000 stays: in use\n");
+  EXPECT_EQ(test::said_with(ExitCode::kFailed, run({"clean", "--yes"})), "1f0c0000 stays: in use\n");
 }
 
 TEST_F(Verbs, SubmitOfABadSceneNeverReachesTheDaemon) {
   const std::string file = (root_.path() / "scene.json").string();
   std::ofstream(file) << R"({"box": {"sied": 30}})";
-  const Outcome outcome = run({"submit", file});
-  EXPECT_EQ(outcome.code, ExitCode::kBadInput);
-  EXPECT_THAT(outcome.err, HasSubstr("sied"));
+  EXPECT_THAT(test::said_with(ExitCode::kBadInput, run({"submit", file})), HasSubstr("sied"));
   EXPECT_TRUE(daemon_.requests().empty());
 }
 
@@ -290,10 +279,8 @@ TEST_F(Verbs, SubmitDryRunQueuesNothing) {
   const std::string file = (root_.path() / "scene.json").string();
   std::ofstream(file) << R"({"box": {"side": 30}})";
   daemon_.on("POST /v1/sweeps", "{}");
-  const Outcome outcome = run({"submit", file, "--dry-run", "--no-probe", "-s", "rods.count=100,200,300"});
-  EXPECT_EQ(outcome.code, ExitCode::kOk) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("3 points, nothing queued"));
-  EXPECT_THAT(outcome.out, HasSubstr("  300  "));
+  EXPECT_THAT(shown(run({"submit", file, "--dry-run", "--no-probe", "-s", "rods.count=100,200,300"})),
+              AllOf(HasSubstr("3 points, nothing queued"), HasSubstr("  300  ")));
   ASSERT_EQ(daemon_.requests().size(), 1u);
   EXPECT_EQ(Json::parse(daemon_.requests()[0].body)["dry_run"], true) << "whether it would be taken is asked";
 
@@ -313,9 +300,7 @@ TEST_F(Verbs, WaitEndsWhenAllAreDone) {
 
 TEST_F(Verbs, WaitFailsWithTheReasonIfAJobFailed) {
   daemon_.on("GET /v1/sweeps/s1", text(sweep({job("1f0c000000000000", "done"), job("2a0c000000000000", "failed")})));
-  const Outcome outcome = run({"wait", "s1"});
-  EXPECT_EQ(outcome.code, ExitCode::kFailed);
-  EXPECT_THAT(outcome.err, HasSubstr("2a0c0000 failed: 2 rods overlap"));
+  EXPECT_THAT(test::said_with(ExitCode::kFailed, run({"wait", "s1"})), HasSubstr("2a0c0000 failed: 2 rods overlap"));
 }
 
 TEST_F(Verbs, WaitSaysWhatKeepsJobsWaiting) {
@@ -328,9 +313,8 @@ TEST_F(Verbs, WaitSaysWhatKeepsJobsWaiting) {
 
 TEST_F(Verbs, WaitGivesUpAfterTheTimeout) {
   daemon_.on("GET /v1/sweeps/s1", text(sweep({job("1f0c000000000000", "running")})));
-  const Outcome outcome = run({"wait", "s1", "--timeout", "0.2"});
-  EXPECT_EQ(outcome.code, ExitCode::kFailed);
-  EXPECT_THAT(outcome.err, HasSubstr("time is up: 1 of 1 jobs"));
+  EXPECT_THAT(test::said_with(ExitCode::kFailed, run({"wait", "s1", "--timeout", "0.2"})),
+              HasSubstr("time is up: 1 of 1 jobs"));
 }
 
 TEST_F(Verbs, CtrlCIsExitCode130) {
@@ -348,9 +332,7 @@ TEST_F(Verbs, WaitForNothingSaysSo) {
   for (const char* state : {"queued", "running", "stopping"}) {
     daemon_.on(std::string("GET /v1/jobs?state=") + state, R"({"jobs": []})");
   }
-  const Outcome outcome = run({"wait"});
-  EXPECT_EQ(outcome.code, ExitCode::kOk);
-  EXPECT_EQ(outcome.err, "no job is queued or running\n");
+  EXPECT_EQ(test::said_with(ExitCode::kOk, run({"wait"})), "no job is queued or running\n");
 }
 
 TEST_F(Verbs, WaitLeavesOutWhatAFailedJobDoesNotHave) {
@@ -374,9 +356,7 @@ TEST_F(Verbs, CancelLooksEverythingUpBeforeItStopsAnything) {
   EXPECT_EQ(run({"cancel", "s1", "nothing"}).code, ExitCode::kBadInput);
   for (const auto& request : daemon_.requests()) EXPECT_THAT(request.line, Not(HasSubstr("POST")));
   EXPECT_THAT(run({"cancel", "s1"}).out, HasSubstr("3 jobs cancelled"));
-  const Outcome again = run({"cancel", "s1"});
-  EXPECT_EQ(again.code, ExitCode::kOk);
-  EXPECT_THAT(again.out, HasSubstr("nothing to be cancelled"));
+  EXPECT_THAT(shown(run({"cancel", "s1"})), HasSubstr("nothing to be cancelled"));
 }
 
 TEST_F(Verbs, JobsAreHeldAndPutFirst) {
@@ -384,9 +364,8 @@ TEST_F(Verbs, JobsAreHeldAndPutFirst) {
   daemon_.on("POST /v1/sweeps/s1/hold", R"({"held": 1})");
   daemon_.on("POST /v1/sweeps/s1/priority", R"({"changed": 2})");
   EXPECT_THAT(run({"hold", "s1"}).out, HasSubstr("1 job held"));
-  const Outcome unknown = run({"hold", "n1", "s1", "n2"});
-  EXPECT_EQ(unknown.code, ExitCode::kBadInput);
-  EXPECT_THAT(unknown.err, AllOf(HasSubstr("is called 'n1'"), HasSubstr("is called 'n2'"), Not(HasSubstr("'s1'"))));
+  EXPECT_THAT(test::said_with(ExitCode::kBadInput, run({"hold", "n1", "s1", "n2"})),
+              AllOf(HasSubstr("is called 'n1'"), HasSubstr("is called 'n2'"), Not(HasSubstr("'s1'"))));
   EXPECT_THAT(run({"priority", "7", "s1"}).out, HasSubstr("2 jobs changed"));
   EXPECT_EQ(daemon_.requests().back().body, R"({"priority":7})");
   EXPECT_EQ(run({"priority", "much", "s1"}).code, ExitCode::kBadInput);
@@ -458,9 +437,9 @@ TEST_F(Verbs, ResultsAreThoseOfPython) {
   EXPECT_EQ(run({"results", "s1", "-a", "--csv", "--columns", "rods.length,n_done"}).out,
             "rods.length,n_done\n4.5,2\n");
   EXPECT_EQ(Json::parse(run({"results", "s1", "--json"}).out).at("rows"), rows);
-  const Outcome wrong = run({"results", "s1", "--where", "order.mean>", "--where", "(state=done"});
-  EXPECT_EQ(wrong.code, ExitCode::kBadInput);
-  EXPECT_THAT(wrong.err, HasSubstr("this ( is never closed"));
+  EXPECT_THAT(
+      test::said_with(ExitCode::kBadInput, run({"results", "s1", "--where", "order.mean>", "--where", "(state=done"})),
+      HasSubstr("this ( is never closed"));
 }
 
 TEST_F(Verbs, WatchWithoutAnIdShowsEverythingThatRuns) {
@@ -490,9 +469,8 @@ TEST_F(Verbs, WatchWithoutAnIdShowsEverythingThatRuns) {
 
 TEST_F(Verbs, MovieOfWhatIsNotRunningHasNothingLive) {
   daemon_.on("GET /v1/jobs/1f0c", text({{"job", job("1f0c000000000000", "done")}}));
-  const Outcome outcome = run({"movie", "1f0c", "--live"});
-  EXPECT_EQ(outcome.code, ExitCode::kFailed);
-  EXPECT_THAT(outcome.err, HasSubstr("job 1f0c0000 is done: nothing of it is live. `shaken movie 1f0c --frame last`"));
+  EXPECT_THAT(test::said_with(ExitCode::kFailed, run({"movie", "1f0c", "--live"})),
+              HasSubstr("job 1f0c0000 is done: nothing of it is live. `shaken movie 1f0c --frame last`"));
 }
 
 TEST_F(Verbs, WatchWithoutLiveStateAsksTheDaemonUntilTheEnd) {
@@ -525,11 +503,8 @@ TEST_F(Verbs, WatchAsksTheDaemonWhatHasEnded) {
                                    {200, text(sweep({job("1f0c000000000000", "running")}))},
                                    {200, text(sweep({job("1f0c000000000000", "running")}))},
                                    {200, text(sweep({job("1f0c000000000000", "failed")}))}});
-  const Outcome outcome = run({"watch", "s1", "--lcm-url", "file://" + log + "?mode=r"});
-  EXPECT_EQ(outcome.code, ExitCode::kOk) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("1f0c0000 failed"));
-  EXPECT_THAT(outcome.out, Not(HasSubstr("done")));
-  EXPECT_THAT(outcome.out, Not(HasSubstr("forged")));
+  EXPECT_THAT(shown(run({"watch", "s1", "--lcm-url", "file://" + log + "?mode=r"})),
+              AllOf(HasSubstr("1f0c0000 failed"), Not(HasSubstr("done")), Not(HasSubstr("forged"))));
 }
 
 TEST_F(Verbs, NothingThatATerminalObeysIsPrinted) {

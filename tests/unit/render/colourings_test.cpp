@@ -1,5 +1,6 @@
 #include "render/colourings.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,6 +12,7 @@
 #include "render/style_file.h"
 #include "render/style_keys.h"
 #include "tests/support/generated_page.h"
+#include "tests/support/good.h"
 #include "tests/unit/render/render_support.h"
 
 namespace shaken::render {
@@ -202,8 +204,7 @@ TEST(StyleFile, RefusesWhatContradictsItself) {
 
 TEST(StyleFile, PresetsAreSound) {
   for (const Preset& preset : presets()) {
-    const auto style = load_style(preset.text, preset.name, {});
-    ASSERT_TRUE(style) << to_string(style.error());
+    const auto style = test::good(load_style(preset.text, preset.name, {}));
     EXPECT_TRUE(check(*style)) << preset.name;
     EXPECT_TRUE(named_style(preset.name, {})) << preset.name;
   }
@@ -213,9 +214,7 @@ TEST(NamedStyle, IsAPresetOrAFile) {
   const ScratchFolder folder;
   std::ofstream(folder / "mine.json") << R"({"zoom": 3})";
   EXPECT_DOUBLE_EQ(named_style((folder / "mine.json").string(), {})->zoom, 3);
-  const auto missing = named_style("layer", {});
-  ASSERT_FALSE(missing);
-  EXPECT_NE(missing.error().message.find("did you mean layers?"), std::string::npos) << missing.error().message;
+  EXPECT_THAT(test::refusal(named_style("layer", {})), testing::HasSubstr("did you mean layers?"));
 }
 
 TEST(StyleKeys, EachTakesItsOwnDefaultBack) {

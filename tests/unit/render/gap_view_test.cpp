@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,6 +7,7 @@
 
 #include "render/colours.h"
 #include "render/rods_pass.h"
+#include "tests/support/good.h"
 #include "tests/unit/render/render_support.h"
 
 namespace shaken::render {
@@ -143,15 +145,12 @@ TEST(GapView, AnEmptyGapAndADegenerateOne) {
   EXPECT_TRUE(extent_of(look(empty_picture(kBox))).is_empty());
   RodPicture flat = empty_picture(kBox);
   flat.cell.gap = 0;
-  const Result<Image> none = rods_pass().draw(flat, gap_style(), kWidth, kHeight);
-  ASSERT_FALSE(none);
-  EXPECT_NE(none.error().message.find("no gap"), std::string::npos);
+  EXPECT_THAT(test::refusal(rods_pass().draw(flat, gap_style(), kWidth, kHeight)), testing::HasSubstr("no gap"));
   PictureStyle style = gap_style();
   for (const auto& [width, height] : {std::pair{1280, 720}, {640, 360}, {720, 720}, {400, 900}}) {
     style.width = width;
     style.height = height;
-    const Result<Image> image = painter().paint(empty_picture(kBox), style);
-    ASSERT_TRUE(image) << image.error().message;
+    const Result<Image> image = test::good(painter().paint(empty_picture(kBox), style));
     EXPECT_EQ(image->height, height);
   }
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "run/files/trajectory.h"
+#include "tests/support/good.h"
 
 namespace shaken::render {
 namespace {
@@ -79,8 +80,7 @@ void plant_frames(const std::filesystem::path& directory, const std::vector<RodP
   if (!frames.empty()) first = frames.front();
   const run::TrajectoryHeader header{static_cast<int>(first.n_rods()), first.cell, 4e-6, scene_json, {}};
   const run::RunDirectory files{directory};
-  Result<run::FrameLog> log = run::FrameLog::create(files.frames(), header);
-  ASSERT_TRUE(log) << log.error().message;
+  Result<run::FrameLog> log = test::good(run::FrameLog::create(files.frames(), header));
   for (const RodPicture& rods : frames) {
     Snapshot snapshot;
     snapshot.tick = std::llround(rods.frame.time / header.dt);
@@ -91,11 +91,9 @@ void plant_frames(const std::filesystem::path& directory, const std::vector<RodP
     snapshot.image.resize(rods.n_rods());
     snapshot.velocity.assign(rods.n_rods(), Vec3::Zero());
     snapshot.angular_velocity.assign(rods.n_rods(), Vec3::Zero());
-    const auto done = log->append(run::record(snapshot));
-    ASSERT_TRUE(done) << done.error().message;
+    (void)test::good(log->append(run::record(snapshot)));
   }
-  const auto recorded = run::TrajectoryReader::open(files.frames());
-  ASSERT_TRUE(recorded) << recorded.error().message;
+  const auto recorded = test::good(run::TrajectoryReader::open(files.frames()));
   ASSERT_TRUE(run::write_trajectory(files.trajectory(), recorded->recorded()));
   std::filesystem::remove(files.frames());
 }

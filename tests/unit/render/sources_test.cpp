@@ -83,8 +83,7 @@ TEST(TrajectorySource, TakesShakingAndMovieFromTheScene) {
   const RodPicture first = source.picture(0, plain()).value();
   EXPECT_EQ(first.captions.label, "\u2113 = 4.5 mm, \u03c6 = 0.07, N = 3, w = 1.2 mm");
   EXPECT_EQ(first.captions.subtitle, "L = 10 mm, \u0393 = 7, f = 200 Hz");
-  const std::optional<scene::Movie> request = source.movie_request();
-  ASSERT_TRUE(request);
+  const std::optional<scene::Movie> request = test::good(source.movie_request());
   EXPECT_DOUBLE_EQ(request->every, 0.1);
   EXPECT_EQ(request->width, 640);
   EXPECT_EQ(request->height, 360);
@@ -284,9 +283,8 @@ TEST(TrajectorySource, RodsThatAreMissedKeepTheirNumbers) {
 
 TEST(TrajectorySource, SaysWhatIsMissing) {
   const ScratchFolder folder;
-  const Result<TrajectorySource> nothing = TrajectorySource::open(folder.path());
-  ASSERT_FALSE(nothing);
-  EXPECT_NE(nothing.error().message.find((folder / "trajectory.h5").string()), std::string::npos);
+  EXPECT_THAT(test::refusal(TrajectorySource::open(folder.path())),
+              testing::HasSubstr((folder / "trajectory.h5").string()));
   plant_trajectory(folder.path(), 0);
   EXPECT_THAT(test::refusal(TrajectorySource::open(folder.path())), testing::HasSubstr("no complete frame"));
 }

@@ -13,6 +13,7 @@
 #include "run/loop/open_run.h"
 #include "scene/canonical.h"
 #include "sim/simulation.h"
+#include "tests/support/good.h"
 #include "tests/support/random_rods.h"
 #include "tests/support/short_rods.h"
 
@@ -347,8 +348,7 @@ TEST(PlacedRods, WithoutPlatesLieInOnePlaneOrHaveHeights) {
 }
 
 TEST(PlacedRods, GetTheRandomMotionOfAnyStartWhereThatIsAskedFor) {
-  auto rods = placed(test::short_rods(2), "x,y,angle\n2,2,0\n2,6,0\n").rods;
-  ASSERT_TRUE(rods);
+  auto rods = test::good(placed(test::short_rods(2), "x,y,angle\n2,2,0\n2,6,0\n").rods);
   EXPECT_EQ(rods->n_still, 2);
   const World still = rods->world;
   draw_velocities(rods->world);
@@ -418,10 +418,9 @@ TEST_F(RecordedRods, AreRefusedWhereTheSceneHasOthers) {
   System other = system;
   other.n_rods = 11;
   other.gap = 1.3;
-  const auto refused = read_recorded_rods(file, {}, other);
-  ASSERT_FALSE(refused);
-  EXPECT_THAT(refused.error().message, HasSubstr("not the same in the scene: their number, the side of the box or the "
-                                                 "gap (12 mm and 1.2 mm in the file)"));
+  EXPECT_THAT(test::refusal(read_recorded_rods(file, {}, other)),
+              HasSubstr("not the same in the scene: their number, the side of the box or the "
+                        "gap (12 mm and 1.2 mm in the file)"));
   const auto no_frame = read_recorded_rods(file, 1, system);
   ASSERT_FALSE(no_frame);
   EXPECT_THAT(no_frame.error().message, HasSubstr("has no frame 1; it has 1"));

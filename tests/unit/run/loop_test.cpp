@@ -317,9 +317,7 @@ TEST(Run, RefusesTheDirectoryOfAnotherScene) {
   scene::RunPlan other = small_plan();
   other.system.seed += 1;
   const auto before = read_file(RunDirectory{undisturbed()}.summary());
-  const RunOutcome outcome = run_in(undisturbed(), other);
-  EXPECT_EQ(outcome.state, RunState::kFailed);
-  EXPECT_NE(outcome.message.find("another scene"), std::string::npos) << outcome.message;
+  EXPECT_THAT(test::said_with(RunState::kFailed, run_in(undisturbed(), other)), HasSubstr("another scene"));
   EXPECT_EQ(*read_file(RunDirectory{undisturbed()}.summary()), *before);
 }
 
@@ -454,9 +452,8 @@ TEST(Run, EndsAtTheLatestWhereUntilSays) {
 TEST(Run, RefusesADirectoryInUse) {
   const ScratchFolder folder;
   const auto lock = test::good(DirectoryLock::acquire(RunDirectory{folder.path()}.lock()));
-  const RunOutcome outcome = run_in(folder.path(), small_plan());
-  EXPECT_EQ(outcome.state, RunState::kFailed);
-  EXPECT_NE(outcome.message.find(std::to_string(getpid())), std::string::npos) << outcome.message;
+  EXPECT_THAT(test::said_with(RunState::kFailed, run_in(folder.path(), small_plan())),
+              HasSubstr(std::to_string(getpid())));
   EXPECT_FALSE(std::filesystem::exists(RunDirectory{folder.path()}.progress())) << "that is its owner's";
 }
 
@@ -730,14 +727,12 @@ TEST(Run, StartsFromAnotherInASmallerBoxWithEitherStepperAndThroughStops) {
 
 TEST(Run, StartingFromAStateThatIsNotThereFailsWithTheReason) {
   const ScratchFolder folder;
-  const RunOutcome nowhere = run_in(folder.path() / "two", plan_from(0.3));
-  EXPECT_EQ(nowhere.state, RunState::kFailed);
-  EXPECT_THAT(nowhere.message, HasSubstr("from which this one starts, is not in " + folder.path().string()));
+  EXPECT_THAT(test::said_with(RunState::kFailed, run_in(folder.path() / "two", plan_from(0.3))),
+              HasSubstr("from which this one starts, is not in " + folder.path().string()));
 
   ASSERT_EQ(run_in(folder.path() / "one", small_plan()).state, RunState::kDone);
-  const RunOutcome then = run_in(folder.path() / "earlier", plan_from(0.2));
-  EXPECT_EQ(then.state, RunState::kFailed);
-  EXPECT_THAT(then.message, HasSubstr("no state of it at 0.2 s: its last saved state is that at 0.3 s"));
+  EXPECT_THAT(test::said_with(RunState::kFailed, run_in(folder.path() / "earlier", plan_from(0.2))),
+              HasSubstr("no state of it at 0.2 s: its last saved state is that at 0.3 s"));
 
   // a damaged checkpoint is no hindrance where the one before has the state, nor is a copy without it
   const RunDirectory parent{folder.path() / "one"};

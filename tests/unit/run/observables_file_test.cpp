@@ -25,8 +25,7 @@ TEST(ObservablesFile, KeepsEveryNumberExactly) {
                             {"/defects/n_plus", {}},
                             {"/defects/list/x_mm", {83.73}}};
   ASSERT_TRUE(write_observables(folder / "observables.h5", written));
-  const auto read = read_observables(folder / "observables.h5");
-  ASSERT_TRUE(read) << read.error().message;
+  const auto read = test::good(read_observables(folder / "observables.h5"));
   EXPECT_EQ(*read, written);
 }
 
@@ -66,8 +65,7 @@ TEST(UnitOfName, IsWhatTheNameEndsIn) {
 TEST(ObservablesFile, NotANumberComesBack) {
   const ScratchFolder folder;
   ASSERT_TRUE(write_observables(folder / "observables.h5", {{"/tilt/v_along_mm_s", {std::nan("")}}}));
-  const auto read = read_observables(folder / "observables.h5");
-  ASSERT_TRUE(read);
+  const auto read = test::good(read_observables(folder / "observables.h5"));
   EXPECT_TRUE(std::isnan(read->at("/tilt/v_along_mm_s").at(0)));
 }
 

@@ -1,5 +1,6 @@
 #include "run/files/progress.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,6 +8,7 @@
 
 #include "base/files.h"
 #include "base/scratch_folder.h"
+#include "tests/support/good.h"
 
 namespace shaken::run {
 namespace {
@@ -16,8 +18,7 @@ TEST(Progress, ComesBackFromItsFile) {
   const Progress written{"failed", "numerical \"trouble\"\n\xff", 4711, 2109, 1.25, 10, 0.0123, -1, 0.5, 0.875, 0.75,
                          1e-5};
   ASSERT_TRUE(write_progress(folder / "progress.json", written));
-  const auto read = read_progress(folder / "progress.json");
-  ASSERT_TRUE(read) << read.error().message;
+  const auto read = test::good(read_progress(folder / "progress.json"));
   EXPECT_EQ(read->state, "failed");
   EXPECT_EQ(read->message.substr(0, 20), "numerical \"trouble\"\n") << "bytes that are not UTF-8 are replaced";
   EXPECT_EQ(read->pid, 4711);
@@ -39,8 +40,7 @@ TEST(Progress, WhatSpheresDoNotHaveIsNull) {
   written.order = written.order_running_mean = std::numeric_limits<double>::quiet_NaN();
   ASSERT_TRUE(write_progress(folder / "progress.json", written));
   EXPECT_NE(read_file(folder / "progress.json")->find("\"order\": null"), std::string::npos);
-  const auto read = read_progress(folder / "progress.json");
-  ASSERT_TRUE(read) << read.error().message;
+  const auto read = test::good(read_progress(folder / "progress.json"));
   EXPECT_TRUE(std::isnan(read->order));
   EXPECT_TRUE(std::isnan(read->order_running_mean));
 }
@@ -49,9 +49,7 @@ TEST(Progress, OtherFilesAreRefusedWithTheirName) {
   const ScratchFolder folder;
   for (const char* text : {"", "{", "[]", "{}", R"({"state": 1})"}) {
     ASSERT_TRUE(write_file_atomically(folder / "progress.json", text));
-    const auto read = read_progress(folder / "progress.json");
-    ASSERT_FALSE(read) << text;
-    EXPECT_NE(read.error().message.find("progress.json"), std::string::npos);
+    EXPECT_THAT(test::refusal(read_progress(folder / "progress.json")), testing::HasSubstr("progress.json")) << text;
   }
 }
 

@@ -355,13 +355,9 @@ TEST(QueueFileTest, AFileOfAnotherVersionIsRefusedWithAWayOut) {
     const ScratchFolder directory;
     { const Queue queue(directory / "queue.db"); }
     Database(directory / "queue.db").execute(("PRAGMA user_version = " + version).c_str());
-    try {
-      const Queue queue(directory / "queue.db");
-      FAIL() << "opened";
-    } catch (const StorageError& problem) {
-      EXPECT_THAT(problem.what(), HasSubstr("has schema version " + version + ","));
-      EXPECT_THAT(problem.what(), HasSubstr("--root"));
-    }
+    EXPECT_THAT([&] { Queue(directory / "queue.db"); },
+                testing::ThrowsMessage<StorageError>(
+                    AllOf(HasSubstr("has schema version " + version + ","), HasSubstr("--root"))));
   }
 }
 

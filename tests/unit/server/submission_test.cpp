@@ -8,6 +8,7 @@
 
 #include "scene/sweeps/sweep.h"
 #include "tests/support/generated_page.h"
+#include "tests/support/good.h"
 #include "tests/unit/server/server_support.h"
 
 namespace shaken::server {
@@ -105,8 +106,7 @@ TEST(ExpandTest, APlainSceneIsOneJobNamedAfterItsFile) {
   SubmitRequest request;
   request.text = "{}";
   request.file = "folder/plain.json";
-  const auto submission = expand(request, directory.path());
-  ASSERT_TRUE(submission);
+  const auto submission = test::good(expand(request, directory.path()));
   EXPECT_EQ(submission->name, "plain");
   ASSERT_EQ(submission->jobs.size(), 1U);
   EXPECT_EQ(submission->jobs[0].has_results, false);
@@ -121,9 +121,7 @@ TEST(ExpandTest, ANameIsCheckedBeforeThePoints) {
     SubmitRequest request;
     request.text = text;
     request.file = file;
-    const auto refused = expand(request, "/nowhere");
-    ASSERT_FALSE(refused);
-    EXPECT_THAT(keys::to_string(refused.error()),
+    EXPECT_THAT(test::refusal(expand(request, "/nowhere")),
                 testing::AnyOf(HasSubstr("sweep's id"), HasSubstr("a name has 1 to")));
   }
 }
@@ -131,9 +129,7 @@ TEST(ExpandTest, ANameIsCheckedBeforeThePoints) {
 TEST(ExpandTest, ANameIsCheckedWhereverItComesFrom) {
   SubmitRequest request;
   request.text = R"({"name": "s12", "scene": {}})";
-  const auto like_an_id = expand(request, "/nonexistent");
-  ASSERT_FALSE(like_an_id);
-  EXPECT_THAT(to_string(like_an_id.error()), HasSubstr("sweep's id"));
+  EXPECT_THAT(test::refusal(expand(request, "/nonexistent")), HasSubstr("sweep's id"));
   request.name = "named";
   EXPECT_TRUE(expand(request, "/nonexistent"));
   request.text = R"({"name": "\u001b[2J", "scene": {}})";
@@ -146,15 +142,13 @@ TEST(ExpandTest, WhatTheWorkerReadsIsTheSameRun) {
   request.text = R"({"scene": {"box": {"gap": "1.3 mm"}}, "sweep": {"grid": {"rods.area_fraction": [0.5, 0.6]}}})";
   request.replicas = 2;
   request.name = "named";
-  const auto submission = expand(request, directory.path());
-  ASSERT_TRUE(submission) << to_string(submission.error());
+  const auto submission = test::good(expand(request, directory.path()));
   EXPECT_EQ(submission->name, "named");
   ASSERT_EQ(submission->jobs.size(), 4U);
   for (const NewJob& job : submission->jobs) {
     request.text = job.scene;
     request.replicas.reset();
-    const auto again = expand(request, directory.path());
-    ASSERT_TRUE(again) << to_string(again.error());
+    const auto again = test::good(expand(request, directory.path()));
     EXPECT_EQ(again->jobs.at(0).id, job.id);
     EXPECT_TRUE(nlohmann::json::parse(job.parameters).contains("rods.area_fraction"));
   }

@@ -14,6 +14,7 @@
 #include "base/clock.h"
 #include "server/local_executor.h"
 #include "server/submission.h"
+#include "tests/support/good.h"
 #include "tests/unit/server/server_support.h"
 
 namespace shaken::server {
@@ -500,8 +501,7 @@ TEST_F(SupervisorTest, ADirectoryInUseIsWaitedForWhileOthersRun) {
   submit('a', "done");
   std::filesystem::create_directories(directory('a'));
   {
-    const auto held = run::DirectoryLock::acquire(directory('a') / "lock");
-    ASSERT_TRUE(held);
+    const auto held = test::good(run::DirectoryLock::acquire(directory('a') / "lock"));
     submit('b', "done");
     ASSERT_TRUE(step_until('b', kDone));
     EXPECT_EQ(job('a').state, kQueued);
@@ -577,8 +577,7 @@ TEST_F(LocalExecutorTest, WhatAWorkerHasStartedEndsWithIt) {
   write_text(directory_ / "parent", "#!/bin/sh\nsleep 1000 & echo $! >\"$1\"\n");
   std::filesystem::permissions(directory_ / "parent", std::filesystem::perms::owner_all);
   LocalExecutor executor(directory_ / "parent");
-  const auto pid = executor.start({directory_.path(), {directory_ / "child"}, "heading"});
-  ASSERT_TRUE(pid);
+  const auto pid = test::good(executor.start({directory_.path(), {directory_ / "child"}, "heading"}));
   ASSERT_TRUE(eventually([&] { return executor.poll(*pid).phase == WorkerReport::Phase::kEnded; }));
   const int child = std::stoi(read_text(directory_ / "child"));
   EXPECT_TRUE(eventually([&] {

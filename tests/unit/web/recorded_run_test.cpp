@@ -8,6 +8,7 @@
 
 #include "base/scratch_folder.h"
 #include "run/files/directory.h"
+#include "tests/support/good.h"
 
 namespace shaken::web {
 namespace {
@@ -44,15 +45,13 @@ class RecordedRunTest : public testing::Test {
 
 TEST_F(RecordedRunTest, SpheresHaveNoOrder) {
   record(3, {{0}, {0.4}});
-  const auto frame = run_.frame(0);
-  ASSERT_TRUE(frame) << frame.error().message;
+  const auto frame = test::good(run_.frame(0));
   EXPECT_TRUE(std::isnan(frame->order));
 }
 
 TEST_F(RecordedRunTest, FramesAreThoseOfTheTrajectory) {
   record(3);
-  const auto frames = run_.frames();
-  ASSERT_TRUE(frames) << frames.error().message;
+  const auto frames = test::good(run_.frames());
   EXPECT_EQ(frames->n, 3u);
   EXPECT_DOUBLE_EQ(frames->first, 0);
   EXPECT_NEAR(frames->last, 0.2, 1e-12);
@@ -71,8 +70,7 @@ TEST_F(RecordedRunTest, FramesAreThoseOfTheTrajectory) {
 
 TEST_F(RecordedRunTest, ARodHasItsPath) {
   record(4);
-  const auto path = run_.path(1, 1, 3);
-  ASSERT_TRUE(path) << path.error().message;
+  const auto path = test::good(run_.path(1, 1, 3));
   ASSERT_EQ(path->times.size(), 3u);
   EXPECT_NEAR(path->times[0], 0.1, 1e-12);
   EXPECT_NEAR(path->x[2], 7, 1e-6);

@@ -14,6 +14,7 @@
 #include "run/files/directory.h"
 #include "run/files/observables_file.h"
 #include "tests/support/damaged_hdf5.h"
+#include "tests/support/good.h"
 #include "tests/unit/web/small_recording.h"
 
 namespace shaken::web {
@@ -45,8 +46,7 @@ class RunReaderTest : public testing::Test {
 
 TEST_F(RunReaderTest, TellsWhatTheRunHas) {
   RunReader reader(folder_.path(), {}, hours(1));
-  const auto answer = reader.ask(kGood, {"curves", "/order/order"});
-  ASSERT_TRUE(answer) << answer.error().message;
+  const auto answer = test::good(reader.ask(kGood, {"curves", "/order/order"}));
   const auto json = nlohmann::json::parse(*answer);
   EXPECT_EQ(json["names"][0]["points"], 2);
   EXPECT_EQ(json["curves"]["/order/order"][1], 0.25);
@@ -86,9 +86,7 @@ TEST_F(RunReaderTest, AFileThatEndsItsReaderIsNamed) {
   setenv("ASAN_OPTIONS", "abort_on_error=1", 1);  // where a sanitizer sees first what would end it by a signal
   ASSERT_TRUE(make_fatal(trajectory(kBad)));
   RunReader reader(folder_.path(), {}, hours(1));
-  const auto answer = reader.ask(kBad, {"frames"});
-  ASSERT_FALSE(answer);
-  EXPECT_THAT(answer.error().message, HasSubstr(trajectory(kBad).string()));
+  EXPECT_THAT(test::refusal(reader.ask(kBad, {"frames"})), HasSubstr(trajectory(kBad).string()));
 }
 
 TEST_F(RunReaderTest, ADamagedFileIsRefusedByItsHash) {

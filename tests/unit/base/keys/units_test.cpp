@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "base/keys/decimal.h"
+#include "tests/support/good.h"
 
 namespace shaken::keys {
 namespace {
@@ -94,9 +95,7 @@ TEST(Decimal, KeepsDigitsWithoutTrailingZeros) {
 
 TEST(Decimal, RefusesWhatIsNoNumber) {
   for (const char* text : {"", "-", ".", "e5", "1e", "1e+", "1.2.3", "nan", "inf", "0x10", "1 ", " 1", "1,5", "--1"}) {
-    const auto number = parse_decimal(text);
-    ASSERT_FALSE(number) << text;
-    EXPECT_EQ(number.error().message, '"' + std::string(text) + "\" is not a number");
+    EXPECT_EQ(test::refusal(parse_decimal(text)), '"' + std::string(text) + "\" is not a number") << text;
   }
 }
 

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "client/watch/live_screen.h"
+#include "tests/support/good.h"
 
 namespace shaken::client {
 namespace {
@@ -72,11 +73,9 @@ class WatchCells : public ::testing::Test {
 };
 
 TEST(WatchLayout, NumbersStandBesideThePictureOrUnderIt) {
-  const auto wide = watch_layout(120, 40);
-  ASSERT_TRUE(wide);
+  const auto wide = test::good(watch_layout(120, 40));
   EXPECT_EQ(*wide, (WatchLayout{.picture = {0, 1, 74, 37}, .legend = {0, 38, 74, 1}, .numbers = {75, 1, 45, 38}}));
-  const auto high = watch_layout(50, 60);
-  ASSERT_TRUE(high);
+  const auto high = test::good(watch_layout(50, 60));
   EXPECT_EQ(high->picture.columns, 50);
   EXPECT_EQ(high->numbers.line, high->legend.line + 1);
 }

@@ -11,13 +11,13 @@
 #include "proto/relay/client.h"
 #include "proto/relay/send_queue.h"
 #include "proto/relay/tcpq.h"
+#include "tests/support/good.h"
 
 namespace shaken::relay {
 namespace {
 
 TEST(RelayAddress, IsReadAndShown) {
-  const auto address = parse_address("127.0.0.1:7700");
-  ASSERT_TRUE(address);
+  const auto address = test::good(parse_address("127.0.0.1:7700"));
   EXPECT_TRUE(address->is_loopback());
   EXPECT_EQ(address->port, 7700);
   EXPECT_EQ(address->text(), "127.0.0.1:7700");
@@ -34,9 +34,7 @@ TEST(RelayAddress, OfOtherMachinesIsNoLoopback) {
 TEST(RelayAddress, RefusesWhatTcpqCannotReach) {
   for (const char* text : {"", "7700", "127.0.0.1", "127.0.0.1:", "127.0.0.1:70000", "127.0.0.1:-1", "127.0.0.1:7700x",
                            "desk:7700", "localhost:7700", "[::1]:7700", "127.1:7700", "tcpq://127.0.0.1:7700"}) {
-    const auto address = parse_address(text);
-    ASSERT_FALSE(address) << text;
-    EXPECT_NE(address.error().message.find("127.0.0.1:7700"), std::string::npos);
+    EXPECT_THAT(test::refusal(parse_address(text)), testing::HasSubstr("127.0.0.1:7700")) << text;
   }
 }
 

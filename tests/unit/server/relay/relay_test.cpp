@@ -11,6 +11,7 @@
 
 #include "proto/bus.h"
 #include "tests/contract/samples.h"
+#include "tests/support/good.h"
 
 namespace shaken::relay {
 namespace {
@@ -231,12 +232,9 @@ TEST(Relay, EndsWhileClientsAreConnectedAndItsPortIsFreeAgain) {
   const Address address = middle->address();
   const auto bus = lcm_client(*middle);
   bus->subscribe<job_t>(proto::kJobChannel, [](const job_t&) {});
-  const auto taken = Relay::start(address, nullptr);
-  ASSERT_FALSE(taken);
-  EXPECT_THAT(taken.error().message, StartsWith("the relay cannot listen at 127.0.0.1:"));
+  EXPECT_THAT(test::refusal(Relay::start(address, nullptr)), StartsWith("the relay cannot listen at 127.0.0.1:"));
   middle.reset();
-  const auto again = Relay::start(address, nullptr);
-  ASSERT_TRUE(again) << again.error().message;
+  const auto again = test::good(Relay::start(address, nullptr));
   EXPECT_TRUE(eventually([&] {
     bus->handle(10);
     return (*again)->counters().clients == 1;

@@ -11,6 +11,7 @@
 #include "server/slurm/batch.h"
 #include "server/slurm/command.h"
 #include "server/slurm/squeue.h"
+#include "tests/support/good.h"
 #include "tests/unit/server/server_support.h"
 
 namespace shaken::server::slurm {
@@ -279,8 +280,7 @@ TEST_F(SlurmExecutorTest, AnotherExecutorFindsTheWorkersByTheirNames) {
   EXPECT_FALSE(executor.adopt("0123456789abcdef/0")) << "never written";
   EXPECT_FALSE(executor.adopt("../../etc/0"));
   EXPECT_FALSE(executor.adopt(name.substr(0, 17) + "9"));
-  const auto worker = executor.adopt(name);
-  ASSERT_TRUE(worker);
+  const auto worker = test::good(executor.adopt(name));
   EXPECT_EQ(executor.name(*worker), name);
   ASSERT_TRUE(step_until_says(executor, *worker, "waits for its turn in Slurm job 7_0"));
 }
@@ -350,8 +350,7 @@ TEST_F(SlurmExecutorTest, WhatAFormerDaemonHasStoppedStaysSo) {
     executor.step();
   }
   SlurmExecutor executor(options());
-  const auto worker = executor.adopt(name);
-  ASSERT_TRUE(worker);
+  const auto worker = test::good(executor.adopt(name));
   executor.stop(*worker);
   executor.step();
   EXPECT_EQ(read_stop(files.stop(0)), (std::set{0, 1}));
@@ -456,8 +455,7 @@ TEST(BatchFiles, WhatIsWrittenIsRead) {
   const BatchFolder folder{directory.path()};
   const Batch batch{"/a program/worker", {{{"/runs/a", {"one", "two words\n'"}, "heading"}}, {{"/runs/b", {}, ""}}}};
   ASSERT_TRUE(write_batch(folder, batch));
-  const auto read = read_batch(folder);
-  ASSERT_TRUE(read);
+  const auto read = test::good(read_batch(folder));
   EXPECT_EQ(read->worker, batch.worker);
   ASSERT_EQ(read->tasks.size(), 2);
   EXPECT_EQ(read->tasks[0][0].directory, "/runs/a");
@@ -467,8 +465,7 @@ TEST(BatchFiles, WhatIsWrittenIsRead) {
   TaskReport report{.slurm_job = "7", .host = "n0", .restarts = 2, .begun = {0, 3}, .ends = {}};
   report.ends[3] = {1, 9, 77};
   ASSERT_TRUE(write_report(folder.report(1), report));
-  const auto told = read_report(folder.report(1));
-  ASSERT_TRUE(told);
+  const auto told = test::good(read_report(folder.report(1)));
   EXPECT_EQ(told->slurm_job, "7");
   EXPECT_EQ(told->restarts, 2);
   EXPECT_EQ(told->begun, report.begun);
@@ -503,9 +500,7 @@ TEST(BatchFiles, WhatIsNoneIsRefusedWithItsName) {
   EXPECT_FALSE(read_batch(folder));
   for (const char* text : {"", "{", "[]", R"({"worker": 3, "tasks": []})", R"({"worker": "w", "tasks": [[3]]})"}) {
     write_text(folder.plan(), text);
-    const auto read = read_batch(folder);
-    ASSERT_FALSE(read) << text;
-    EXPECT_THAT(read.error().message, testing::HasSubstr("batch.json"));
+    EXPECT_THAT(test::refusal(read_batch(folder)), testing::HasSubstr("batch.json")) << text;
   }
 }
 
