@@ -56,28 +56,18 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     rods = {};
     rods.select(kJob);
   }
+  const auto note = [](auto message, auto& to) {
+    if (!message) return;
+    message->job_id = kJob;
+    to.note(*message);
+  };
   (void)decoded<status_t>(payload);
-  if (auto message = decoded<frame_static_t>(payload)) {
-    message->job_id = kJob;
-    rods.note(*message);
-  }
-  if (auto message = decoded<posts_t>(payload)) {
-    message->job_id = kJob;
-    rods.note(*message);
-  }
-  if (auto message = decoded<sizes_t>(payload)) {
-    message->job_id = kJob;
-    rods.note(*message);
-  }
+  note(decoded<frame_static_t>(payload), rods);
+  note(decoded<posts_t>(payload), rods);
+  note(decoded<sizes_t>(payload), rods);
   if (const auto message = decoded<job_t>(payload)) (void)jobs.contradicts(*message);
-  if (auto message = decoded<observables_t>(payload)) {
-    message->job_id = kJob;
-    jobs.note(*message);
-  }
-  if (auto message = decoded<defects_t>(payload)) {
-    message->job_id = kJob;
-    jobs.note(*message);
-  }
+  note(decoded<observables_t>(payload), jobs);
+  note(decoded<defects_t>(payload), jobs);
   if (auto message = decoded<frame_t>(payload)) {
     (void)proto::decode_chunk(*message);
     message->job_id = kJob;

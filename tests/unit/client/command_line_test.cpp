@@ -17,6 +17,7 @@
 #include "client/picture_options.h"
 #include "client/verb.h"
 #include "tests/support/generated_page.h"
+#include "tests/support/good.h"
 #include "tests/unit/client/fake_daemon.h"
 #include "tests/unit/client/run_client.h"
 
@@ -50,30 +51,25 @@ TEST(Help, ListsTheExitCodes) {
 }
 
 TEST(Version, IsPrinted) {
-  const Outcome outcome = run_client({"--version"});
-  EXPECT_EQ(outcome.code, ExitCode::kOk);
-  EXPECT_THAT(outcome.out, ::testing::MatchesRegex("shaken [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+  EXPECT_THAT(shown(run_client({"--version"})), ::testing::MatchesRegex("shaken [0-9]+\\.[0-9]+\\.[0-9]+\n"));
 }
 
 TEST(BadArguments, UnknownVerbSuggestsTheNearest) {
-  const Outcome outcome = run_client({"stauts"});
-  EXPECT_EQ(outcome.code, ExitCode::kBadInput);
-  EXPECT_THAT(outcome.err, HasSubstr("'stauts'; did you mean status?"));
+  EXPECT_THAT(test::said_with(ExitCode::kBadInput, run_client({"stauts"})),
+              HasSubstr("'stauts'; did you mean status?"));
   EXPECT_THAT(run_client({"xyzzyx"}).err, Not(HasSubstr("did you mean")));
 }
 
 TEST(TwoDashes, EndTheOptionsOfEveryVerb) {
-  const Outcome outcome = run_client({"validate", "--", "-rf"});
-  EXPECT_EQ(outcome.code, ExitCode::kBadInput);
-  EXPECT_THAT(outcome.err, HasSubstr("cannot open -rf"));
+  EXPECT_THAT(test::said_with(ExitCode::kBadInput, run_client({"validate", "--", "-rf"})),
+              HasSubstr("cannot open -rf"));
   EXPECT_THAT(run_client({"validate", "--", "-rf", "more"}).err, HasSubstr("'more'"));
   EXPECT_THAT(run_client({"validate", "--", "--"}).err, HasSubstr("cannot open --"));
 }
 
 TEST(BadArguments, UnknownOptionSuggestsTheNearest) {
-  const Outcome outcome = run_client({"results", "--agregate"});
-  EXPECT_EQ(outcome.code, ExitCode::kBadInput);
-  EXPECT_THAT(outcome.err, HasSubstr("did you mean --aggregate?"));
+  EXPECT_THAT(test::said_with(ExitCode::kBadInput, run_client({"results", "--agregate"})),
+              HasSubstr("did you mean --aggregate?"));
   EXPECT_THAT(run_client({"--rot", "x", "status"}).err, HasSubstr("did you mean --root?"));
 }
 
@@ -142,9 +138,8 @@ TEST(BadArguments, AreAllExitCodeTwo) {
                                                                      {"completion", "fish"},
                                                                      {"schema", "film"},
                                                                      {"status", "a", "b"}}) {
-    const Outcome outcome = run_client(arguments);
-    EXPECT_EQ(outcome.code, ExitCode::kBadInput) << ::testing::PrintToString(arguments);
-    EXPECT_THAT(outcome.err, HasSubstr("shaken: ")) << ::testing::PrintToString(arguments);
+    EXPECT_THAT(test::said_with(ExitCode::kBadInput, run_client(arguments)), HasSubstr("shaken: "))
+        << ::testing::PrintToString(arguments);
   }
 }
 
@@ -179,51 +174,46 @@ TEST(NoDaemon, WithoutAnyRootIsRefusedOnlyWhereOneIsNeeded) {
 }
 
 TEST(NoDaemon, TooLongARootIsRefusedRatherThanCut) {
-  const Outcome outcome = run_client({"status", "--root", "/tmp/" + std::string(120, 'x')});
-  EXPECT_EQ(outcome.code, ExitCode::kBadInput);
-  EXPECT_THAT(outcome.err, HasSubstr("too long"));
+  EXPECT_THAT(test::said_with(ExitCode::kBadInput, run_client({"status", "--root", "/tmp/" + std::string(120, 'x')})),
+              HasSubstr("too long"));
 }
 
-TEST(Validate, ListsEveryProblemAtOnce) {
-  const ScratchFolder folder;
-  const std::string file = (folder.path() / "bad.json").string();
-  std::ofstream(file) << R"({"rods": {"lenght": 4.5}, "box": {"gap": -1}})";
-  const Outcome outcome = run_client({"validate", file});
-  EXPECT_EQ(outcome.code, ExitCode::kBadInput);
-  EXPECT_THAT(outcome.err, HasSubstr("2 problems"));
-  EXPECT_THAT(outcome.err, HasSubstr("lenght"));
-  EXPECT_THAT(outcome.err, HasSubstr("gap"));
+class Validate : public ::testing::Test {
+ protected:
+  void write(const std::string& scene) const { std::ofstream(file_) << scene; }
 
-  const Outcome json = run_client({"validate", file, "--json"});
+  const ScratchFolder folder_;
+  const std::string file_ = (folder_.path() / "scene.json").string();
+};
+
+TEST_F(Validate, ListsEveryProblemAtOnce) {
+  write(R"({"rods": {"lenght": 4.5}, "box": {"gap": -1}})");
+  EXPECT_THAT(test::said_with(ExitCode::kBadInput, run_client({"validate", file_})),
+              AllOf(HasSubstr("2 problems"), HasSubstr("lenght"), HasSubstr("gap")));
+
+  const Outcome json = run_client({"validate", file_, "--json"});
   EXPECT_EQ(json.code, ExitCode::kBadInput);
   EXPECT_THAT(json.out, HasSubstr("\"ok\": false"));
   EXPECT_THAT(json.out, HasSubstr("\"line\": 1"));
 }
 
-TEST(Validate, StarterSceneIsFineAndItsNumbersFollow) {
-  const ScratchFolder folder;
-  const std::string file = (folder.path() / "scene.json").string();
-  ASSERT_EQ(run_client({"init", file}).code, ExitCode::kOk);
-  const Outcome summary = run_client({"validate", file});
+TEST_F(Validate, StarterSceneIsFineAndItsNumbersFollow) {
+  ASSERT_EQ(run_client({"init", file_}).code, ExitCode::kOk);
+  const Outcome summary = run_client({"validate", file_});
   EXPECT_EQ(summary.code, ExitCode::kOk) << summary.err;
   EXPECT_THAT(summary.out, HasSubstr("is fine: one run"));
   // 100 s in ticks of 4 us.
   EXPECT_THAT(summary.out, HasSubstr("2.5e+07"));
 
-  EXPECT_THAT(run_client({"validate", file, "--resolved"}).out, HasSubstr("\"amplitude\""));
-  EXPECT_THAT(run_client({"validate", file, "-s", "rods.length=2.5,3.5", "--replicas", "2"}).out, HasSubstr("4 runs"));
+  EXPECT_THAT(run_client({"validate", file_, "--resolved"}).out, HasSubstr("\"amplitude\""));
+  EXPECT_THAT(run_client({"validate", file_, "-s", "rods.length=2.5,3.5", "--replicas", "2"}).out, HasSubstr("4 runs"));
 }
 
-TEST(Validate, ShowsThePackingOfEachSpeciesAndOfAll) {
-  const ScratchFolder folder;
-  const std::string file = (folder.path() / "scene.json").string();
-  std::ofstream(file)
-      << R"({"rods": {"area_fraction": 0.3}, "rods_2": {"beads": 1, "count": 40}, "box": {"side": 40}})";
-  const Outcome summary = run_client({"validate", file});
-  EXPECT_EQ(summary.code, ExitCode::kOk) << summary.err;
-  EXPECT_THAT(summary.out, HasSubstr("233 = 193 + 40"));
-  EXPECT_THAT(summary.out, HasSubstr("0.3132 = 0.3006 + 0.01257"));
-  const Json json = Json::parse(run_client({"validate", file, "--json"}).out);
+TEST_F(Validate, ShowsThePackingOfEachSpeciesAndOfAll) {
+  write(R"({"rods": {"area_fraction": 0.3}, "rods_2": {"beads": 1, "count": 40}, "box": {"side": 40}})");
+  EXPECT_THAT(shown(run_client({"validate", file_})),
+              AllOf(HasSubstr("233 = 193 + 40"), HasSubstr("0.3132 = 0.3006 + 0.01257")));
+  const Json json = Json::parse(run_client({"validate", file_, "--json"}).out);
   const Json& point = json.at("points").at(0);
   EXPECT_EQ(point.at("n_rods"), 233);
   EXPECT_NEAR(point.at("area_fraction").get<double>(), 0.3132, 1e-4);
@@ -231,12 +221,10 @@ TEST(Validate, ShowsThePackingOfEachSpeciesAndOfAll) {
   EXPECT_EQ(point.at("species").at(1).at("count"), 40);
 }
 
-TEST(Validate, CountsTheFramesThatAMovieRecords) {
-  const ScratchFolder folder;
-  const std::string file = (folder.path() / "scene.json").string();
+TEST_F(Validate, CountsTheFramesThatAMovieRecords) {
   const auto frames = [&](const std::string& recorded) {
-    std::ofstream(file) << R"({"time": {"steady": 0, "measure": 2})" << recorded << "}";
-    return Json::parse(run_client({"validate", file, "--json"}).out).at("points").at(0).at("trajectory_frames");
+    write(R"({"time": {"steady": 0, "measure": 2})" + recorded + "}");
+    return Json::parse(run_client({"validate", file_, "--json"}).out).at("points").at(0).at("trajectory_frames");
   };
   EXPECT_EQ(frames(""), 0);
   EXPECT_EQ(frames(R"(, "movie": {"every": 0.1})"), 21);
@@ -244,26 +232,19 @@ TEST(Validate, CountsTheFramesThatAMovieRecords) {
   EXPECT_EQ(frames(R"(, "movie": {"every": 0.5}, "trajectory": {"every": 0.1})"), 21);
 }
 
-TEST(Validate, PlacesTheRods) {
-  const ScratchFolder folder;
-  const std::string file = (folder.path() / "scene.json").string();
-  std::ofstream(file) << R"({"rods": {"area_fraction": 0.915}, "box": {"side": 25}})";
-  const Outcome outcome = run_client({"validate", file});
-  EXPECT_EQ(outcome.code, ExitCode::kBadInput);
-  EXPECT_THAT(outcome.err, HasSubstr("do not fit into the box: in rows at most "));
-  EXPECT_THAT(run_client({"validate", file, "--json"}).out, HasSubstr("\"path\": \"/rods\""));
+TEST_F(Validate, PlacesTheRods) {
+  write(R"({"rods": {"area_fraction": 0.915}, "box": {"side": 25}})");
+  EXPECT_THAT(test::said_with(ExitCode::kBadInput, run_client({"validate", file_})),
+              HasSubstr("do not fit into the box: in rows at most "));
+  EXPECT_THAT(run_client({"validate", file_, "--json"}).out, HasSubstr("\"path\": \"/rods\""));
 }
 
-TEST(Validate, RemarksOnWhatIsHardlyMeant) {
-  const ScratchFolder folder;
-  const std::string file = (folder.path() / "scene.json").string();
-  std::ofstream(file) << R"({"box": {"side": 25}, "trajectory": {"every": "20 s"}, "time": {"measure": "10 s"}})";
-  const Outcome summary = run_client({"validate", file, "-s", "plates.gamma=0.5,7"});
-  EXPECT_EQ(summary.code, ExitCode::kOk) << summary.err;
-  EXPECT_THAT(summary.out, HasSubstr("remark: plates.gamma is 0.5"));
-  EXPECT_THAT(summary.out, HasSubstr("(in 1 of 2 runs)"));
-  EXPECT_THAT(summary.out, HasSubstr("a single frame, of the start (in 2 of 2 runs)"));
-  const Json json = Json::parse(run_client({"validate", file, "--json"}).out);
+TEST_F(Validate, RemarksOnWhatIsHardlyMeant) {
+  write(R"({"box": {"side": 25}, "trajectory": {"every": "20 s"}, "time": {"measure": "10 s"}})");
+  EXPECT_THAT(shown(run_client({"validate", file_, "-s", "plates.gamma=0.5,7"})),
+              AllOf(HasSubstr("remark: plates.gamma is 0.5"), HasSubstr("(in 1 of 2 runs)"),
+                    HasSubstr("a single frame, of the start (in 2 of 2 runs)")));
+  const Json json = Json::parse(run_client({"validate", file_, "--json"}).out);
   EXPECT_EQ(json.at("points").at(0).at("remarks").size(), 1u);
 }
 
@@ -271,9 +252,7 @@ TEST(Init, DoesNotReplaceAFile) {
   const ScratchFolder folder;
   const std::string file = (folder.path() / "scene.json").string();
   std::ofstream(file) << "mine";
-  const Outcome outcome = run_client({"init", file});
-  EXPECT_EQ(outcome.code, ExitCode::kBadInput);
-  EXPECT_THAT(outcome.err, HasSubstr("--force"));
+  EXPECT_THAT(test::said_with(ExitCode::kBadInput, run_client({"init", file})), HasSubstr("--force"));
   EXPECT_EQ(run_client({"init", file, "--force"}).code, ExitCode::kOk);
 }
 
@@ -310,10 +289,8 @@ TEST(CommandLine, NoRefusalEndsWithAnEmptyLine) {
   for (const std::vector<std::string>& command : {std::vector<std::string>{"validate", file},
                                                   {"validate", file, "-s", "box.side"},
                                                   {"plot", "--format", "bmp"}}) {
-    const Outcome refused = run_client(command);
-    EXPECT_EQ(refused.code, ExitCode::kBadInput);
-    EXPECT_THAT(refused.err, ::testing::Not(::testing::EndsWith("\n\n")));
-    EXPECT_THAT(refused.err, ::testing::EndsWith("\n"));
+    EXPECT_THAT(test::said_with(ExitCode::kBadInput, run_client(command)),
+                AllOf(::testing::Not(::testing::EndsWith("\n\n")), ::testing::EndsWith("\n")));
   }
 }
 

@@ -10,18 +10,12 @@
 #include "sim/balance.h"
 #include "sim/simulation.h"
 #include "sim/world.h"
+#include "tests/support/free_rods.h"
 
 namespace shaken {
 namespace {
 
-System short_rods() {
-  System system;
-  system.rod.length = 2.5;
-  system.rod.n_beads = beads_for_pitch(2.5, system.rod.end_diameter, 0.3);
-  system.box_side = 16;
-  system.n_rods = static_cast<int>(std::round(0.4 * system.area() / make_species(system.rod).area));
-  return system;
-}
+System short_rods() { return test::scene_at(2.5, 0.4, 16, Start::kAligned); }
 
 /// Rods of two species that have been shaken for `periods` vibrations of the plates.
 Simulation shaken_for(double periods) {
