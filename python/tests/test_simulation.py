@@ -289,6 +289,12 @@ def test_known_answers_of_arrays():
     assert found["S"].value == pytest.approx(np.exp(-2 * 0.2**2), abs=0.005)
     assert any("measure.msd is left out" in remark for remark in found.summary["frames"]["remarks"])
 
+    missed = [(np.where(rng.random((500, 1)) < 0.1, np.nan, at), angle) for at, angle in paths]
+    found = shaken.measure(missed, interval="20 ms", box=(60.0, 60.0), order=True, msd=True, drift=True)
+    assert np.allclose(found["/msd/total_mm2"], (0.3 / 0.02 * lag) ** 2, rtol=1e-4), "followed across the gaps"
+    assert "measure.drift is left out: it needs every rod in every frame" in found.summary["frames"]["remarks"]
+    assert found.summary["n_rods"] == pytest.approx(450, abs=20)
+
 
 @pytest.mark.parametrize("given, said", [
     (dict(frames=[], box=10), "no frames"), (dict(frames=[([[1, 1]], [0.0])], interval=1.0), "box"),
@@ -297,7 +303,8 @@ def test_known_answers_of_arrays():
     (dict(frames=[([[1, 1]], [0.0])], box=20, interval=1.0, g3=True), "g3"),
     (dict(frames=[([1, 1], [0.0])], box=20, interval=1.0, order=True), "shape"),
     *((dict(frames=[([[1, 1], [9, at]], [0.0, 0.1])] * 2, box=20, interval=1.0, order=True), "frame 0, rod 1")
-      for at in (np.inf, np.nan, 1e15)),
+      for at in (np.inf, 1e15)),
+    (dict(frames=[([[1, 1], [9, 1]], [0.0, np.nan])] * 2, box=20, interval=1.0, order=True), "frame 0, rod 1"),
     (dict(frames=[([[1, 1]], [0.0])], box=20, scene={}), "leave out box=")])
 def test_says_what_is_wrong_with_arrays(given, said):
     with pytest.raises(shaken.ShakenError, match=said):
