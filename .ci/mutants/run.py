@@ -206,8 +206,8 @@ def trace(all_tests: dict, longest: float, jobs: int) -> dict[int, list[tuple[fl
     return {k: sorted(found) for k, found in reached.items()}
 
 
-def try_out(mutants: dict, reached: dict, all_tests: dict, jobs: int, most: float) -> dict[int, str]:
-    """Mutant -> the test that killed it; "" if none did."""
+def try_out(mutants: dict, reached: dict, all_tests: dict, jobs: int, most: float, log: str | None) -> dict[int, str]:
+    """Mutant -> the test that killed it; "" if none did. `log` is written after each, so that a stop loses none."""
     def one(k):
         spent = 0.0
         for seconds, name in reached.get(k, []):
@@ -221,9 +221,20 @@ def try_out(mutants: dict, reached: dict, all_tests: dict, jobs: int, most: floa
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         for number, (k, by) in enumerate(pool.map(one, mutants), 1):
             killed[k] = by
+            if log:
+                write_log(Path(log), mutants, killed, reached)
             if number % 25 == 0:
                 print(f"   {number} of {len(mutants)}, {sum(map(bool, killed.values()))} killed", flush=True)
     return killed
+
+
+def write_log(log: Path, mutants: dict, killed: dict, reached: dict) -> None:
+    """What became of those that were tried, as JSON."""
+    part = log.with_suffix(".part")
+    part.write_text(json.dumps([{
+        "number": k, "file": mutants[k].file, "line": mutants[k].line, "rule": mutants[k].rule, "what": mutants[k].what,
+        "killed_by": by, "reached_by": len(reached.get(k, []))} for k, by in killed.items()], indent=1))
+    part.replace(log)
 
 
 def report(mutants: dict, killed: dict, reached: dict, equal: list[dict], least: float) -> bool:
@@ -290,12 +301,8 @@ def main() -> int:
     if not all(of_cpp):
         trace_python(all_tests, reached, options.longest, options.jobs)
     print(f"== trying {len(mutants)} mutants", flush=True)
-    killed = try_out(mutants, reached, all_tests, options.jobs, options.most)
+    killed = try_out(mutants, reached, all_tests, options.jobs, options.most, options.json)
     equal = json.loads(EQUAL.read_text()) if EQUAL.exists() else []
-    if options.json:
-        Path(options.json).write_text(json.dumps([{
-            "file": point.file, "line": point.line, "rule": point.rule, "what": point.what,
-            "killed_by": killed[k], "reached_by": len(reached.get(k, []))} for k, point in mutants.items()], indent=1))
     return 0 if report(mutants, killed, reached, equal, options.least) else 1
 
 
