@@ -17,10 +17,11 @@ def curves(rng):
     symmetric = np.exp(-(r[:, None] ** 2 + 0.5 * r[None, :] ** 2) / 4)
     n = 5000
     return {"order/time_s": (np.arange(n) * 0.02, "s"), "order/order": (0.8 + 0.05 * rng.normal(size=n), "1"),
-            "order/director_rad": (0.01 * rng.normal(size=n), "rad"), "pairs/across_mm": (r, "mm"),
-            "pairs/along_mm": (r, "mm"), "pairs/g2": (symmetric.ravel(), "1"), "pairs/g": (symmetric.ravel(), "1"),
-            "msd/lag_s": ([0.1, 1, 10], "s"), "msd/total_mm2": ([0.5, 6, np.nan], "mm2"),
-            "defects/time_s": (np.arange(0, 5, 0.5), "s"), "defects/n_plus": ([0, 1, 2, 3, 9, 1, 1, 1, 0, 0], "1")}
+            "order/director_rad": (np.angle(-np.exp(0.02j * rng.normal(size=n))) / 2, "rad"),
+            "pairs/across_mm": (r, "mm"), "pairs/along_mm": (r, "mm"), "pairs/g2": (symmetric.ravel(), "1"),
+            "pairs/g": (symmetric.ravel(), "1"), "msd/lag_s": ([0.1, 1, 10], "s"),
+            "msd/total_mm2": ([0.5, 6, np.nan], "mm2"), "defects/time_s": (np.arange(0, 5, 0.5), "s"),
+            "defects/n_plus": ([0, 1, 2, 3, 9, 1, 1, 1, 0, 0], "1")}
 
 
 def test_an_archived_run_says_what_the_run_says(tmp_path):
@@ -38,6 +39,7 @@ def test_an_archived_run_says_what_the_run_says(tmp_path):
     assert np.allclose(kept["/pairs/g2"], run["/pairs/g2"], rtol=2e-4)
     assert kept["/pairs/g2"].shape == (BINS, BINS) and len(kept["/order/order"]) <= 1050
     assert kept["/order/order"].mean() == pytest.approx(run["/order/order"].mean(), abs=1e-3)
+    assert np.allclose(np.exp(2j * np.asarray(kept["/order/director_rad"])), -1, atol=0.1), "no mean of both ends"
     with pytest.raises(shaken.ShakenError, match="comes from an archive"):
         next(kept.frames())
 

@@ -175,6 +175,11 @@ def test_marks_and_bars_keep_off_the_axes() -> None:
     sheet.finish()
     (left, right), (low, high) = sheet[0].axes.get_xlim(), sheet[0].axes.get_ylim()
     assert left < 1 and right > 3 and low < -0.05 and high > 1.03
+    assert not sheet[0].axes.yaxis.get_major_formatter().get_useMathText(), "plain numbers, which are drawn soon"
+    for highest, keeps_off in ((0.97, False), (0.99, True)):
+        line = style.sheet()
+        line[0].titles("x", "y").range(y=(0, 1)).curve([0, 1], [0, highest], look="line")
+        assert (line.finish()[0].axes.get_ylim()[1] > 1) == keeps_off
     sheet = style.sheet(columns=2)
     sheet[0].titles("x", "y").dots(["a"], [2.0], error=[0.0])
     sheet[1].titles("x", "y").curve([2.0], [3.0])
@@ -301,6 +306,9 @@ def test_keys_show_the_marks_that_are_drawn() -> None:
     assert [label for _, label in panel.entries] == ["relaxing", "steady"]
     hollow, filled = (handle.get_markerfacecolor() for handle, _ in panel.entries)
     assert hollow == "white" and filled != "white"
+    for steady in (False, True):
+        panel.curve([0, 1], [3, 4], steady=steady, label="line", look="line")
+        assert panel.entries[-1][0].is_dashed() != steady
 
 
 def test_lines_do_not_pass_over_what_has_no_logarithm() -> None:

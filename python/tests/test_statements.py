@@ -2,6 +2,7 @@
 import itertools
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,7 +12,7 @@ from shaken.estimate import Estimate, replica_mean
 from shaken.run import Arrays, Run
 from shaken.study import (figures_motion, figures_order, late_lags, layer_checks, order_checks, report, rules, scaling,
                           structure_checks)
-from shaken.study.evidence import Evidence, Runs, crossing, place_on
+from shaken.study.evidence import PACKING, Evidence, Runs, crossing, key_of, place_on
 from shaken.study.material import Material
 from shaken.study.order_checks import n_peaks
 from shaken.study.statements import STATEMENTS, judged
@@ -783,6 +784,20 @@ def test_crossing_lies_on_the_line_and_has_its_errors():
     found = crossing(points, 0.5)
     assert found.value == pytest.approx(0.525) and found.error == pytest.approx(math.hypot(0.5 * 0.02, 0.5 * 0.04) / 8)
     assert not crossing(points, 0.9).is_known
+
+
+@pytest.mark.parametrize("found, asked", [(0.7481, 0.75), (0.742, 0.742)])
+def test_the_area_fraction_of_whole_rods_is_what_was_asked_for(found, asked):
+    assert key_of(SimpleNamespace(key=lambda path: found, parameters={}), PACKING) == pytest.approx(asked)
+
+
+def test_where_rods_swim_fastest_is_known_to_a_bin():
+    assert "±0.200 ± 0.020" in CHECKS["tilt"].check(Evidence(swim())).found
+
+
+def test_plates_at_rest_that_give_energy_are_counted_beside_the_trend():
+    found = CHECKS["activity"].check(Evidence(shaken_at([(3, 0.5), (7, 3.0), (14, 9.0)], WILD)))
+    assert [answer.word for answer in found.answers] == [rules.YES.word, rules.NO.word]
 
 
 def test_controls_are_told_from_the_points():

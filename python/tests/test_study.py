@@ -313,6 +313,7 @@ def test_numbers_of_rods_grow_with_the_boxes():
     assert fluid["zip"] == {"rods.end_diameter": [0.4, 0.5, 0.6], "rods.count": [2704, 2484, 2292]}
     assert fluid["stages"][1] == {"rods.area_fraction": [0.85], "time.steady": ["360 s"], "time.measure": ["840 s"]}
     strip = scaled("paper", "strip")
+    assert strip["name"] == "strip-paper"
     assert strip["scene"]["box"] == {"side": "42 mm", "aspect": 6}, "as wide as the paper's box is large"
     assert strip["sweep"][1]["zip"]["rods.count"] == [4 * n for n in (1159, 1021, 902)]
     tiny = scaled("tiny", "strip")
