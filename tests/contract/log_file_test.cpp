@@ -112,6 +112,13 @@ TEST_F(LogFile, DamageIsSaidWithItsPlace) {
   EXPECT_FALSE(LogReader::open(file_).value().first_utime());
 }
 
+TEST_F(LogFile, TheLongestMessageIsRead) {
+  const std::string channel(999, 'c');
+  LogWriter log = LogWriter::create(file_).value();
+  ASSERT_TRUE(log.write(1, channel, std::vector<std::uint8_t>(LogReader::kLongest)) && log.finish());
+  EXPECT_EQ(LogReader::open(file_).value().next().value()->channel, channel);
+}
+
 TEST(FullDisk, IsSaid) {
   LogWriter log = LogWriter::create("/dev/full").value();
   EXPECT_THAT(test::refusal(log.write(1, "C", std::vector<std::uint8_t>(10))),

@@ -252,8 +252,23 @@ TEST_F(ClientTest, HalfAMessageAfterAFloodIsStillNoticed) {
   EXPECT_THAT(client_->refusal(), testing::HasSubstr("half a message"));
 }
 
+TEST_F(ClientTest, AMessageThatHasComeWholeIsNoLongerWaitedFor) {
+  const std::string whole = client_greeting() + publication("A", "payload");
+  send(whole.substr(0, 20));
+  EXPECT_TRUE(turn().empty());
+  send(whole.substr(20));
+  EXPECT_EQ(turn(), std::vector<std::string>{"A"});
+  client_->check_times(Client::Clock::now() + std::chrono::hours(1));
+  EXPECT_FALSE(client_->has_ended()) << client_->refusal();
+}
+
 TEST_F(ClientTest, SubscriptionsThatTakeLongToMatchAreRefused) {
-  send(client_greeting() + subscription(Kind::kSubscribe, "(.?){60}.{60}Q"));
+  limits_.program = ChannelPattern::compile("A").value().size();
+  send(client_greeting() + subscription(Kind::kSubscribe, "A"));
+  turn();
+  EXPECT_EQ(client_->refusal(), "") << "as long as may be";
+  limits_ = {};
+  send(subscription(Kind::kSubscribe, "(.?){60}.{60}Q"));
   turn();
   EXPECT_THAT(client_->refusal(), testing::HasSubstr("take too long"));
 }
