@@ -846,6 +846,9 @@ TEST_F(ApiTest, AHeadIsTakenUpTo64KiB) {
   for (const std::string& head : {line + many + "\r\n", line + "X: " + std::string(100'000, 'y') + "\r\n\r\n",
                                   "GET /v1/status?x=" + std::string(100'000, 'y') + " HTTP/1.1\r\n\r\n"}) {
     EXPECT_THAT(exchange(head), StartsWith("HTTP/1.1 431"));
+    EXPECT_THAT(exchange("POST /v1/sweeps HTTP/1.1\r\nHost: x\r\nContent-Length: 2\r\n\r\n{}" + head),
+                HasSubstr("HTTP/1.1 431"))
+        << "after a body";
   }
   EXPECT_THAT(exchange(line + "X: " + std::string(9'000, 'y') + "\r\n\r\n"), StartsWith("HTTP/1.1 400"));
   EXPECT_EQ(get("/v1/status").status, 200);
