@@ -110,8 +110,8 @@ def build(mutants: dict, programs: list[str]) -> None:
                     "-DCMAKE_CXX_FLAGS_MUTANTS=-O1 -w", "-DSHAKEN_WERROR=OFF", "-DCMAKE_UNITY_BUILD=ON",
                     "-DCMAKE_UNITY_BUILD_BATCH_SIZE=8"], check=True, stdout=subprocess.DEVNULL)
     while True:
-        done = subprocess.run(["cmake", "--build", BUILD, "--target", *(programs or ["all"])], capture_output=True,
-                              text=True)
+        done = subprocess.run(["cmake", "--build", BUILD, "--target", *(programs or ["all"]), "--", "-k", "0"],
+                              capture_output=True, text=True)  # all that do not compile at once
         if done.returncode == 0:
             BUILT.touch()
             return
