@@ -175,6 +175,7 @@ TEST(ReadPart, IsWhatIsThereOfIt) {
   ASSERT_TRUE(write_file(file, "0123456789"));
   EXPECT_EQ(*read_part(file, 0, 4), "0123");
   EXPECT_EQ(*read_part(file, 8, 4), "89");
+  errno = EINTR;  // of an earlier call
   EXPECT_EQ(*read_part(file, 20, 4), "");
   EXPECT_EQ(*read_part(file, -3, 100), "789");
   EXPECT_EQ(*read_part(file, -30, 2), "01");

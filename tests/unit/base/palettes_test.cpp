@@ -14,12 +14,15 @@ constexpr double kDegree = kPi / 180;
 
 double spread(const Colour& c) { return *std::max_element(c.begin(), c.end()) - *std::min_element(c.begin(), c.end()); }
 
+/// Of sRGB (IEC 61966-2-1).
+Colour linear(Colour c) {
+  for (double& part : c) part = part <= 0.04045 ? part / 12.92 : std::pow((part + 0.055) / 1.055, 2.4);
+  return c;
+}
+
 /// OKLab from sRGB: the published forward matrices (Ottosson 2020), independent of the inverse ones under test.
 std::array<double, 3> oklab(const Colour& c) {
-  std::array<double, 3> linear;
-  for (std::size_t i = 0; i < 3; ++i)
-    linear[i] = c[i] <= 0.04045 ? c[i] / 12.92 : std::pow((c[i] + 0.055) / 1.055, 2.4);
-  const auto [r, g, b] = linear;
+  const auto [r, g, b] = linear(c);
   const double l = std::cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
   const double m = std::cbrt(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b);
   const double s = std::cbrt(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b);
@@ -88,12 +91,10 @@ constexpr std::array<Matrix, 3> kEyes{
 
 /// CIELAB (CIE 1976, white D65) of what somebody with this matrix of linear RGB sees.
 std::array<double, 3> lab_seen(const Colour& colour, const Matrix& matrix) {
-  Colour linear, seen;
+  const auto [red, green, blue] = linear(colour);
+  Colour seen;
   for (std::size_t i = 0; i < 3; ++i)
-    linear[i] = colour[i] <= 0.04045 ? colour[i] / 12.92 : std::pow((colour[i] + 0.055) / 1.055, 2.4);
-  for (std::size_t i = 0; i < 3; ++i) {
-    seen[i] = std::clamp(matrix[i][0] * linear[0] + matrix[i][1] * linear[1] + matrix[i][2] * linear[2], 0.0, 1.0);
-  }
+    seen[i] = std::clamp(matrix[i][0] * red + matrix[i][1] * green + matrix[i][2] * blue, 0.0, 1.0);
   const auto f = [](double t) { return t > 216.0 / 24389 ? std::cbrt(t) : (24389.0 / 27 * t + 16) / 116; };
   const auto [r, g, b] = seen;
   const double x = f((0.4124564 * r + 0.3575761 * g + 0.1804375 * b) / 0.95047),
@@ -152,6 +153,15 @@ TEST(SequentialColour, GetsLighterAllTheWay) {
   }
   EXPECT_EQ(sequential_colour(-3), sequential_colour(0));
   EXPECT_EQ(sequential_colour(3), sequential_colour(1));
+}
+
+TEST(Colours, AreThoseAskedForInOklab) {
+  const auto off = [](const Colour& colour, double lightness, double chroma, double hue) {
+    return distance(oklab(colour), {lightness, chroma * std::cos(hue * kDegree), chroma * std::sin(hue * kDegree)});
+  };
+  EXPECT_LT(off(diverging_colour(1), 0.68, 0.165, 56), 1e-5) << "whose blue is nearly none";
+  EXPECT_LT(off(no_order_colour(true), 0.50, 0.09, 265), 1e-5);
+  EXPECT_LT(off(no_order_colour(false), 0.55, 0.07, 255), 1e-5);
 }
 
 TEST(DivergingColour, TellsSignsFromEachOtherAndFromNothing) {

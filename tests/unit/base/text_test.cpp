@@ -15,6 +15,8 @@
 namespace shaken {
 namespace {
 
+using namespace std::string_literals;
+
 TEST(DisplayWidth, CountsCharactersNotBytesNorColours) {
   EXPECT_EQ(display_width(""), 0u);
   EXPECT_EQ(display_width("abc"), 3u);
@@ -31,22 +33,20 @@ TEST(Fitted, CutsWithEllipsisAndEndsColours) {
 }
 
 TEST(Printable, HarmlessTextStaysAsItIs) {
-  for (const char* text : {"", "abc", "Γ = 7, ⟨S⟩ \\ \"x\"", "\xF0\x9F\xA6\x80", "\u00a0\u2065\u206a\u2029\u202f"}) {
+  for (const char* text :
+       {"", "abc", "Γ = 7, ⟨S⟩ \\ \"x\"", "\xF0\x9F\xA6\x80", "\u0915", "\u00a0\u2065\u206a\u2029\u202f"}) {
     EXPECT_EQ(printable(text), text);
     EXPECT_EQ(printable(text, Lines::kMany), text);
   }
 }
 
-TEST(Printable, NothingATerminalObeysIsLeft) {
+TEST(Printable, NothingATerminalObeysIsLeftButLinesAndTabsWhereTheyAreMeant) {
   EXPECT_EQ(printable("a\x1b[2Jb"), "a\\u001b[2Jb");
   EXPECT_EQ(printable("\x1b]0;title\x07"), "\\u001b]0;title\\u0007");
   EXPECT_EQ(printable(std::string_view("a\0b", 3)), "a\\u0000b");
   EXPECT_EQ(printable("\x7f"), "\\u007f");
   EXPECT_EQ(printable("\u0080\u009b31m\u009f"), "\\u0080\\u009b31m\\u009f");
   EXPECT_EQ(printable("\u202a\u202e\u2066\u2069"), "\\u202a\\u202e\\u2066\\u2069");
-}
-
-TEST(Printable, LinesAndTabsStayWhereTheyAreMeant) {
   EXPECT_EQ(printable("a\n\tb\r"), "a\\u000a\\u0009b\\u000d");
   EXPECT_EQ(printable("a\n\tb\r\x1b", Lines::kMany), "a\n\tb\\u000d\\u001b");
 }
@@ -123,35 +123,21 @@ TEST(CsvField, QuotesOnlyWhereNeeded) {
 }
 
 TEST(Base64, IsThatOfRfc4648) {
-  const std::pair<const char*, const char*> kVectors[] = {{"", ""},
-                                                          {"f", "Zg=="},
-                                                          {"fo", "Zm8="},
-                                                          {"foo", "Zm9v"},
-                                                          {"foob", "Zm9vYg=="},
-                                                          {"fooba", "Zm9vYmE="},
-                                                          {"foobar", "Zm9vYmFy"}};
-  for (const auto& [bytes, text] : kVectors) EXPECT_EQ(base64(bytes), text);
+  const char* const kVectors[] = {"", "Zg==", "Zm8=", "Zm9v", "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy"};
+  for (std::size_t n = 0; n < std::size(kVectors); ++n) EXPECT_EQ(base64("foobar"s.substr(0, n)), kVectors[n]);
   EXPECT_EQ(base64("\xFF\xFE\xFD"), "//79");
 }
 
-TEST(WrappedHelp, LeavesWhatFits) {
+TEST(WrappedHelp, BreaksProseAndDescriptionsButNoCommands) {
   const std::string text = "Usage: shaken\n\n  -o,--out FILE   Where to write\n";
   EXPECT_EQ(wrapped_help(text), text);
-}
-
-TEST(WrappedHelp, DescriptionsGoOnBelowThemselves) {
   EXPECT_EQ(wrapped_help("  -o FILE    where the picture goes\n  -x    y\n", 25),
             "  -o FILE    where the\n             picture goes\n  -x    y\n");
-}
-
-TEST(WrappedHelp, ADescriptionFarToTheRightGetsLinesOfItsOwn) {
   EXPECT_EQ(
       wrapped_help("  shaken picture RUN RUN RUN --style layers -o x.png   three runs side by side, one headline", 60),
       "  shaken picture RUN RUN RUN --style layers -o x.png\n"
-      "                              three runs side by side, one\n                              headline");
-}
-
-TEST(WrappedHelp, ProseIsBrokenAndCommandsAreNot) {
+      "                              three runs side by side, one\n                              headline")
+      << "a description far to the right gets lines of its own";
   EXPECT_EQ(wrapped_help("one two three four", 9), "one two\nthree\nfour");
   EXPECT_EQ(wrapped_help("  shaken submit scene.json", 10), "  shaken submit scene.json");
   EXPECT_EQ(wrapped_help("µµµ µµµ µµµ", 7), "µµµ µµµ\nµµµ") << "columns, not bytes";
@@ -189,12 +175,9 @@ TEST(TableText, NarrowTerminalShortensTheWidestColumn) {
   EXPECT_EQ(text, "ID    POINT\n1f0c  rods.length=2…\n");
   // No column becomes narrower than 4, whatever the terminal.
   EXPECT_EQ(table.text(1), "ID    POI…\n1f0c  rod…\n");
-}
-
-TEST(TableText, NumbersAndNamesAreNeverCut) {
-  Table table({{"JOB"}, {"S", Table::Align::kRight}});
-  table.add_row({"1f0c5e2a", "0.9496"});
-  EXPECT_EQ(table.text(5), "JOB            S\n1f0c5e2a  0.9496\n");
+  Table numbers({{"JOB"}, {"S", Table::Align::kRight}});
+  numbers.add_row({"1f0c5e2a", "0.9496"});
+  EXPECT_EQ(numbers.text(5), "JOB            S\n1f0c5e2a  0.9496\n");
 }
 
 TEST(ProgressLine, IsWrittenOverOnATerminalAndWipedAtTheEnd) {

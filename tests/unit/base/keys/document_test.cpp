@@ -62,6 +62,10 @@ TEST(Document, CommentsEndWhereTheParserEndsThem) {
     EXPECT_EQ(root->members[0].value.text, "text");
     EXPECT_EQ(place(root->members[0].value.place), end == '\n' ? "2:8" : "1:22");
   }
+  std::vector<Problem> none;
+  const auto blocks = parse("{ /*/ \"a\" //*//* \"b\" */ \"key\": 1}", none);
+  ASSERT_TRUE(blocks) << to_string(none);
+  EXPECT_EQ(place(blocks->members[0].value.place), "1:32");
   EXPECT_EQ(error_of("// \"quote\r1 \"x\": \"12"),
             "f:1:15: syntax error while parsing value - unexpected string literal; expected end of input\n");
 }
