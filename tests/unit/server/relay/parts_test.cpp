@@ -228,7 +228,7 @@ class ClientTest : public testing::Test {
 TEST_F(ClientTest, AFloodIsObeyedInTurns) {
   std::string flood = client_greeting();
   for (int k = 0; k < 100; ++k) flood += publication("A" + std::to_string(k), "");
-  send(flood);
+  send(flood.substr(0, flood.size() - 1));
   std::vector<std::string> all = turn();
   EXPECT_EQ(all.size(), limits_.turn);
   while (client_->has_more()) {
@@ -236,8 +236,9 @@ TEST_F(ClientTest, AFloodIsObeyedInTurns) {
     EXPECT_LE(more.size(), limits_.turn);
     all.insert(all.end(), more.begin(), more.end());
   }
-  ASSERT_EQ(all.size(), 100u);
-  EXPECT_EQ(all.back(), "A99");
+  EXPECT_EQ(all.size(), 99u);
+  send(flood.substr(flood.size() - 1));
+  EXPECT_EQ(turn(), std::vector<std::string>{"A99"});
   client_->check_times(Client::Clock::now() + std::chrono::hours(1));
   EXPECT_FALSE(client_->has_ended()) << "nothing is left half said";
 }
@@ -250,16 +251,6 @@ TEST_F(ClientTest, HalfAMessageAfterAFloodIsStillNoticed) {
   while (client_->has_more());
   client_->check_times(Client::Clock::now() + std::chrono::hours(1));
   EXPECT_THAT(client_->refusal(), testing::HasSubstr("half a message"));
-}
-
-TEST_F(ClientTest, AMessageThatHasComeWholeIsNoLongerWaitedFor) {
-  const std::string whole = client_greeting() + publication("A", "payload");
-  send(whole.substr(0, 20));
-  EXPECT_TRUE(turn().empty());
-  send(whole.substr(20));
-  EXPECT_EQ(turn(), std::vector<std::string>{"A"});
-  client_->check_times(Client::Clock::now() + std::chrono::hours(1));
-  EXPECT_FALSE(client_->has_ended()) << client_->refusal();
 }
 
 TEST_F(ClientTest, SubscriptionsThatTakeLongToMatchAreRefused) {
