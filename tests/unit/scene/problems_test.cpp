@@ -314,6 +314,8 @@ TEST(Problems, AreListedAllAtOnceInTheOrderOfTheText) {
                   "run.json:5:29: /movie/size: 719 is odd; video needs even numbers of pixels; did you mean 720?",
                   "-s plates.gama=3: /plates/gama: unknown key; did you mean plates.gamma?",
                   "-s time.measure=0 s: /time/measure: 0 s is outside [1e-06, 10000000] s"));
+  EXPECT_THAT(problems_of(R"({"box": {"side": 5}})", {"contacts.rod_rod.friction=-1"}),
+              ElementsAre(testing::HasSubstr("run.json:1:18: "), testing::HasSubstr("friction")));
 }
 
 TEST(Problems, OneMistakeIsReportedOnce) {
