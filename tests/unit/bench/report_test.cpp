@@ -98,6 +98,7 @@ TEST(Rates, OfBothSteppersHaveTheirRatio) {
   EXPECT_DOUBLE_EQ(row().at("scheduled").at("ns_per_impulse"), 1e5);
   EXPECT_DOUBLE_EQ(row().at("scheduled").at("impulses_per_rod_second").at("plates"), 90);
   EXPECT_DOUBLE_EQ(row().at("ratio"), 20);
+  EXPECT_EQ(row(0xab).at("scheduled").at("state_hash"), "00000000000000ab");
 }
 
 TEST(Rates, SayWhatIsNotTheSteadyState) {
@@ -123,6 +124,11 @@ TEST(Rates, OfWorkArePerRodSecondAndPerPiece) {
   EXPECT_DOUBLE_EQ(row().at("per_rod_second").at("pairs_bounded"), 100);
   EXPECT_DOUBLE_EQ(row().at("ns").at("rods_visited"), 20'000);
   EXPECT_DOUBLE_EQ(row().at("phase_shares").at("pair_bounds"), 0.1);
+  EXPECT_NEAR(row().at("phase_shares").at("other"), 0.2, 1e-12);
+  constexpr const char* kTitle = "Where the scheduled stepper's CPU time goes";
+  EXPECT_THAT(rates_report({}, Comparison::kSteppers, Json::array({row()})).text, HasSubstr(kTitle));
+  const Json threads = threads_row(contender(0.1), contender(0.1), work());
+  EXPECT_THAT(rates_report({}, Comparison::kThreads, Json::array({threads})).text, Not(HasSubstr(kTitle)));
 }
 
 TEST(Rates, OfASeriesAreRelativeToTheFirst) {

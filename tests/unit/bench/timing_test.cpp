@@ -47,6 +47,7 @@ TEST_F(SmallBox, AStretchCountsWhatHappensInIt) {
   EXPECT_GT(speed.rate(), 0);
   EXPECT_GE(speed.bytes_per_rod, sizeof(Flight));
   EXPECT_EQ(speed.spread(), 1);
+  EXPECT_EQ(speed.max_overlap, after.max_overlap());
 }
 
 TEST_F(SmallBox, ImpulsesFromSideWallsCount) {
