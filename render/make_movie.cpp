@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "render/movie.h"
+#include "render/painter.h"
 #include "render/png.h"
 
 namespace shaken::render {
