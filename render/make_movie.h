@@ -8,6 +8,7 @@
 
 #include "base/core/result.h"
 #include "render/picture.h"
+#include "render/style.h"
 
 namespace shaken::render {
 
