@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "base/palettes.h"
 #include "render/gl.h"
 #include "render/picture.h"
 

@@ -199,7 +199,7 @@ struct RodCollisions {
   static constexpr void (*switch_off)(System&) = nullptr;
 };
 
-/// Of rods with what a scene may have or not.
+/// Collisions of rods with what a scene may have or not.
 template <class Contact>
 struct Collisions {
   static bool is_on(const System& system) { return Contact::is_there(system); }

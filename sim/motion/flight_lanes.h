@@ -41,7 +41,7 @@ SHAKEN_INLINE FlightOf<D> flight_of(const PoseOf<D>& pose, const MotionOf<D>& mo
   return flight;
 }
 
-/// The flight of rods that turn by at most kLargestSmallAngle.
+/// The pose of rods that turn by at most kLargestSmallAngle.
 template <class D>
 SHAKEN_INLINE PoseOf<D> pose_after(const FlightOf<D>& flight, const D& tau, const Gravity& gravity) {
   PoseOf<D> pose;
