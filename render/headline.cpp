@@ -57,7 +57,7 @@ Notes settings_of(const RodPicture& picture) {
   }
   settings.emplace_back("\u03c6", fmt::format("{:.2f}", picture.area_fraction()));
   settings.emplace_back("N", fmt::format("{}", picture.n_rods()));
-  settings.emplace_back(kGapSymbol, fmt::format("{:.4g} mm", cell.gap));
+  settings.emplace_back("w", fmt::format("{:.4g} mm", cell.gap));
   if (!cell.walls && cell.box.x() == cell.box.y()) {
     settings.emplace_back("L", fmt::format("{:.4g} mm", cell.box.x()));
   } else if (!cell.walls) {

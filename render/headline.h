@@ -11,9 +11,6 @@ namespace shaken::render {
 /// "φ = 0.8, ℓ = 2.5 mm". Words that are not settings of a scene stay as they are.
 std::string headline(const std::string& label);
 
-/// What the gap between the plates is called among the settings.
-inline constexpr const char* kGapSymbol = "w";
-
 /// What identifies a run by its rods and its box: length, packing, number, gap, size of the box or of the arena.
 Notes settings_of(const RodPicture& picture);
 

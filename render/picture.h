@@ -62,7 +62,7 @@ struct Frame {
   std::vector<Vec3> position;   ///< (n_rods) centres [mm]
   std::vector<Vec3> director;   ///< (n_rods) unit vectors, to the head
   std::vector<Vec3> velocity;   ///< (n_rods) [mm/s]; empty where it is not known
-  /// (n_rods) the number of each rod, rising, where some that were tracked are missed; else empty, and they are 0, 1, ...
+  /// (n_rods) the number of each rod, rising, of rods that were tracked and may be missed; else empty: 0, 1, ...
   std::vector<std::uint32_t> number{};
 
   /// (n_rods) how far each rod's centre has come within some time, across borders too [mm]; empty unless asked for.

@@ -171,8 +171,6 @@ Result<RodPicture> TrajectorySource::bare_picture(const Snapshot& frame, Asked a
   const bool was_tracked = !reader_.header().lacking.empty();  // whose scene has other plates than the experiment
   const std::optional<double> gamma = plan_ && !was_tracked ? scene::gamma_of(plan_->system) : std::nullopt;
   picture.captions.settings = settings_of(picture);
-  if (was_tracked)
-    std::erase_if(picture.captions.settings, [](const auto& setting) { return setting.first == kGapSymbol; });
   if (gamma) {
     picture.captions.settings.emplace_back("\u0393", fmt::format("{:.4g}", *gamma));
     picture.captions.settings.emplace_back("f", fmt::format("{:.4g} Hz", plan_->system.frequency));
@@ -212,6 +210,7 @@ Result<void> TrajectorySource::follow(const FollowedDefect& defect, std::size_t 
 }
 
 Result<std::vector<Vec2>> TrajectorySource::displacements(const Snapshot& now, std::size_t index, double span) const {
+  if (!reader_.header().are_followed()) return Error{"no displacements: the rods were not followed"};
   const double recorded = SHAKEN_TRY(time_of(index));
   const std::size_t past = SHAKEN_TRY(nearest_frame(recorded - span));
   if (past == index && index > 0) {
@@ -247,7 +246,7 @@ Result<RodPicture> TrajectorySource::picture_at(double time, const PictureStyle&
   }
   const std::size_t first = time > recorded ? nearest : nearest - 1;
   const Snapshot before = SHAKEN_TRY(reader_.frame(first)), after = SHAKEN_TRY(reader_.frame(first + 1));
-  if (before.track != after.track) return picture(nearest, style);
+  if (before.track != after.track || !reader_.header().are_followed()) return picture(nearest, style);
   return picture_of(between(before, after, time, reader_.header().cell), first, style);
 }
 

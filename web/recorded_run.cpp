@@ -59,6 +59,7 @@ Result<run::OrderCurve> RecordedRun::order(std::size_t most) const {
 
 Result<RecordedRun::Path> RecordedRun::path(std::size_t rod, std::size_t first, std::size_t last) const {
   const auto reader = SHAKEN_TRY(this->reader());
+  if (!reader.header().are_followed()) return Error{"the rods were not followed"};
   const Snapshot shown = SHAKEN_TRY(reader.frame(last));
   if (rod >= shown.n_rods()) return Error{"there is no rod " + std::to_string(rod)};
   Path path;

@@ -15,6 +15,7 @@ std::unique_ptr<Verb> make_plot() {
        "  shaken plot s3 --format svg   as PDF or SVG instead of PNG\n"
        "  shaken plot s3 --map -o map.png   the last frames of its runs, by one or two swept numbers\n"
        "  shaken plot sim seen paper.csv   a run, an experiment and curves of a paper over each other\n"
+       "  shaken plot sim seen -o one.pdf  the same, as panels of one figure\n"
        "  shaken plot runs/first        what `shaken run` has left there"},
       [](Arguments& arguments) {
         arguments.list(
@@ -31,7 +32,7 @@ std::unique_ptr<Verb> make_plot() {
         arguments.repeatable("-w,--where", "CONDITION",
                              "Only points that match, as of `results`; repeatable, all must hold");
         arguments.flag("--map", "One figure: the last frames of the runs over the first one or two swept numbers");
-        arguments.option("-o,--out", "DIR", "Where to write; plots-ID if left out. Of one figure also a file",
+        arguments.option("-o,--out", "DIR", "Where to write; plots-ID if left out. Of one figure also a file, and of runs all of them in one",
                          Names::kFolder);
         arguments.option("--format", "png|pdf|svg", "png if left out; of one figure also by the suffix of --out",
                          Names::kAnything);

@@ -66,6 +66,7 @@ Result<Measured> measure_arrays(const Scene& scene, std::vector<Snapshot> frames
   for (Snapshot& frame : frames) {
     n_tracks = std::max(n_tracks, frame.n_rods());
     leave_out_missed(frame, is_followed);
+    if (frame.n_rods() == 0) return Error{fmt::format("frame {} has no rod", &frame - frames.data())};
     n_all += frame.n_rods();
   }
   const bool is_complete = is_followed && n_all == n_tracks * frames.size();

@@ -49,7 +49,8 @@ def field_about(frames: Iterable[Frame], tagged: int = 1, around: int = 0, reach
     former: Frame | None = None
     for frame in frames:
         if former is not None:
-            tags, others = np.flatnonzero(former.species == tagged), np.flatnonzero(former.species == around)
+            stay = former.is_seen & frame.is_seen  # tracked rods may be missed
+            tags, others = (np.flatnonzero(stay & (former.species == of)) for of in (tagged, around))
             for species, found in ((tagged, tags), (around, others)):
                 if not len(found):
                     raise ShakenError(f"no rod is of species {species}; there are {set(former.species.tolist())}")

@@ -250,7 +250,7 @@ def _kept_snapshots(run: DirectoryRun) -> list[_Small]:
 def _small(frame: Frame) -> _Small:
     """The rods of a frame in whole numbers. They go in the order of their places, which compresses better than that of
     their numbers."""
-    first = frame.species == 0
+    first = frame.is_seen & (frame.species == 0)
     box = frame.box[:2]
     place = np.minimum((frame.positions[first, :2] / box * 65536).astype(int), 65535)
     turn = (frame.theta[first] / np.pi + 0.5) % 1.0

@@ -54,7 +54,8 @@ class Frame:
     def _mean_axis(self) -> complex:
         """<exp 2i theta> of the first species; NaN of spheres."""
         of_first = self.is_seen & (self.species == 0)
-        return complex("nan") if 0 in self.spheres else np.exp(2j * self.theta[of_first]).mean()
+        has_axis = 0 not in self.spheres and of_first.any()
+        return complex(np.exp(2j * self.theta[of_first]).mean()) if has_axis else complex("nan")
 
     @property
     def is_seen(self) -> NDArray[Any]:

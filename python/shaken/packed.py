@@ -49,8 +49,8 @@ def unpack(file: str | Path, folder: str | Path) -> list[Path]:
     is left as it is. Raises ShakenError, and puts nothing there, where the file is no such file or is damaged, or where
     a directory of the same name holds other results."""
     place = Path(folder)
-    place.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(prefix=".unpacked-", dir=place) as beside:
+    beside_it = next(parent for parent in (place, *place.absolute().parents) if parent.is_dir())
+    with tempfile.TemporaryDirectory(prefix=".unpacked-", dir=beside_it) as beside:
         names = _extracted(file, Path(beside))
         for name in names:
             if DirectoryRun(Path(beside, name)).id != name:
@@ -62,7 +62,7 @@ def unpack(file: str | Path, folder: str | Path) -> list[Path]:
                 if there.exists() and not filecmp.cmp(there, path, shallow=False):
                     raise ShakenError(f"{there} is there, and is another file: unpack into another folder")
         for name in names:
-            (place / name).mkdir(exist_ok=True)
+            (place / name).mkdir(parents=True, exist_ok=True)
             for part in _FILES:
                 if Path(beside, name, part).exists():
                     os.replace(Path(beside, name, part), place / name / part)

@@ -45,3 +45,12 @@ def test_they_are_drawn_with_their_names(tmp_path, capsys):
     rows = [line.split(",") for line in (tmp_path / "out" / "g2.csv").read_text().splitlines()]
     assert {row[1] for row in rows if len(row) == 6 and row[1] != "curve"} == {"sim", "seen"}
     assert main(["plot", "--x=rods.length", *paths]) == 2
+
+    assert main(["plot", f"--out={tmp_path / 'one.svg'}", *paths]) == 0
+    assert (tmp_path / "one.svg").is_file() and not list(tmp_path.glob("g2*"))
+    rows = [line.split(",") for line in (tmp_path / "one.csv").read_text().splitlines()]
+    assert {row[1] for row in rows if len(row) == 6 and row[1] != "curve"} == {"sim", "seen"}
+    many = [with_g2(tmp_path / f"of{k}", [0.9, 0.8, 0.6, 0.4]) for k in range(9)]
+    assert main(["plot", f"--out={tmp_path / 'many.svg'}", *many]) == 2
+    assert "9 curves in each panel are too many" in capsys.readouterr().err
+    assert main(["plot", f"--out={tmp_path / 'alone.svg'}", paths[0]]) == 0 and (tmp_path / "alone.svg").is_file()

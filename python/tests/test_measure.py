@@ -94,6 +94,11 @@ def test_rods_that_are_missed_are_drawn_exported_and_measured_in_the_frames_that
         n_each = 1 if form == "extxyz" else 15
         assert int(lines[0]) == there[-1].sum() * n_each == len(lines) - 2
         assert not any("nan" in line.split()[1:4] for line in lines[2:])
+    of_degrees = json.loads(measure(folder, folder / "few.csv", "--scene", folder / "lab.json", "--scale", 0.05,
+                                    "--interval", "10ms", "--flip-y", "--radians"))
+    assert of_degrees["run_id"] != holes["run_id"] and any("give --degrees" in one for one in of_degrees["remarks"])
+    holes = json.loads(measure(folder, folder / "few.csv", "--scene", folder / "lab.json", "--scale", 0.05,
+                               "--interval", "10ms", "--flip-y"))
     assert frames[-1]._repr_png_().startswith(b"\x89PNG")
     said(PROGRAMS / "shaken", "movie", holes["directory"], "-o", folder / "few.mp4", "--size", "320x240")
 

@@ -95,6 +95,7 @@ def test_a_damaged_file_is_named(runs, tmp_path):
         file.write_bytes(damaged)
         with pytest.raises(shaken.ShakenError, match="both.tar.xz is damaged"):
             packed.unpack(file, tmp_path / "damaged")
+        assert not (tmp_path / "damaged").exists()
 
 
 def test_what_is_not_done_is_not_packed(tmp_path):

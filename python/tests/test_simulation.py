@@ -305,6 +305,7 @@ def test_known_answers_of_arrays():
     *((dict(frames=[([[1, 1], [9, at]], [0.0, 0.1])] * 2, box=20, interval=1.0, order=True), "frame 0, rod 1")
       for at in (np.inf, 1e15)),
     (dict(frames=[([[1, 1], [9, 1]], [0.0, np.nan])] * 2, box=20, interval=1.0, order=True), "frame 0, rod 1"),
+    (dict(frames=[([[1, 1]], [0.0]), ([[np.nan, 1]], [0.0])], box=20, interval=1.0, order=True), "frame 1 has no rod"),
     (dict(frames=[([[1, 1]], [0.0])], box=20, scene={}), "leave out box=")])
 def test_says_what_is_wrong_with_arrays(given, said):
     with pytest.raises(shaken.ShakenError, match=said):

@@ -74,7 +74,10 @@ Result<Snapshot> decode(const RecordedFrame& recorded, const Box& box, bool were
   const auto &x = recorded.position, &v = recorded.velocity, &q = recorded.orientation;
   for (std::size_t i = 0; 3 * i < x.size(); ++i) {
     const auto is_none = [](float number) { return std::isnan(number); };
-    if (were_tracked && std::all_of(&x[3 * i], &x[3 * i] + 3, is_none)) continue;
+    if (were_tracked && std::all_of(&x[3 * i], &x[3 * i] + 3, is_none) &&
+        std::all_of(&v[3 * i], &v[3 * i] + 3, is_none) && std::all_of(&q[4 * i], &q[4 * i] + 4, is_none)) {
+      continue;
+    }
     if (were_tracked) frame.track.push_back(static_cast<std::uint32_t>(i));
     const std::array<double, 4> turn{q[4 * i], q[4 * i + 1], q[4 * i + 2], q[4 * i + 3]};
     const double norm2 = turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2] + turn[3] * turn[3];

@@ -10,6 +10,9 @@
 
 namespace shaken::run {
 
+/// What tracked rods lack where nobody knows which rod of one frame is which of another.
+inline constexpr const char* kFollowedRods = "rods that are followed from frame to frame";
+
 /// What does not change along a trajectory, and what drawing it needs.
 struct TrajectoryHeader {
   int n_rods = 0;
@@ -18,6 +21,8 @@ struct TrajectoryHeader {
   std::string scene_json{};  ///< the resolved scene
   Provenance provenance{};
   std::string lacking{};  ///< of rods that were tracked: what nobody has seen, in words (run/measure: words_of)
+
+  bool are_followed() const { return lacking.find(kFollowedRods) == std::string::npos; }
 };
 
 /// Nothing if a scene may have such rods (scene/keys/cell_limits.h); else what is wrong.

@@ -45,7 +45,7 @@ class CsvRods {
                           report(column, message);
                         },
                     .example = "x,y,nx,ny or x,y,angle"});
-    const auto remark = remark_on_angles(largest_angle_, "multiply them by 180/pi");
+    const auto remark = remark_on_angles(largest_angle_, false, "multiply them by 180/pi");
     if (has("angle") && rods.size() > 1 && remark) remarks_.push_back(*remark);
     return rods;
   }

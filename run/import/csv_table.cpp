@@ -156,9 +156,12 @@ std::optional<std::string> lack_of_species(std::span<const std::string> names) {
   return fmt::format("column species is missing: the scene has {}", fmt::join(names, " and "));
 }
 
-std::optional<std::string> remark_on_angles(double largest, std::string_view cure) {
-  constexpr double kMostRadians = 3.2, kAlongX = 0.1;
-  if (largest > kMostRadians || largest <= kAlongX) return std::nullopt;
+std::optional<std::string> remark_on_angles(double largest, bool is_in_radians, std::string_view cure) {
+  constexpr double kMostRadians = 3.2, kTurns = 7, kAlongX = 0.1;
+  if (is_in_radians && largest > kTurns) {
+    return fmt::format("angles go up to {:.3g}: they are taken as radians; if they are degrees, {}", largest, cure);
+  }
+  if (is_in_radians || largest > kMostRadians || largest <= kAlongX) return std::nullopt;
   return fmt::format("no angle is larger than {:.3g}: they are taken as degrees; if they are radians, {}", largest,
                      cure);
 }

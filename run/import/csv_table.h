@@ -45,8 +45,8 @@ Result<std::uint8_t> species_in(const std::string& text, std::span<const std::st
 /// What is wrong with a table without a column of species; nothing where there is but one.
 std::optional<std::string> lack_of_species(std::span<const std::string> names);
 
-/// What to say of angles in degrees none of which is larger than `largest`: that they may be radians, and what to do
-/// about it then. Nothing where they are too large for that, or so small that all rods lie along x.
-std::optional<std::string> remark_on_angles(double largest, std::string_view cure);
+/// What to say of angles none of which is larger than `largest`: that degrees may be radians, or radians degrees, and
+/// what to do about it then. Nothing where they are too large or too small for that, as where all rods lie along x.
+std::optional<std::string> remark_on_angles(double largest, bool is_in_radians, std::string_view cure);
 
 }  // namespace shaken::run

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "run/files/foreign_file.h"
 #include "run/files/trajectory.h"
 #include "run/import/imported_rods.h"
@@ -14,22 +16,26 @@ Result<std::vector<ImportedRod>> read_recorded_rods(const std::string& file, std
   SHAKEN_TRY(try_to_read(file));
   const auto frames = SHAKEN_TRY(TrajectoryReader::open(file));
   const TrajectoryHeader& header = frames.header();
-  const auto plan = scene::load_scene(header.scene_json, file + ", its scene");
+  auto plan = scene::load_scene(header.scene_json, file + ", its scene");
   if (!plan) return Error{keys::to_string(plan.error())};
+  if (frames.n_frames() == 0) return Error{file + " has no frames"};
+  const auto index = frame ? static_cast<std::size_t>(*frame) : frames.n_frames() - 1;
+  const Snapshot snapshot = SHAKEN_TRY(frames.frame(index));
+  const auto& added = plan->system.added;
+  const bool has_one_species = std::ranges::none_of(added, [](const auto& species) { return species.has_value(); });
+  if (has_one_species) plan->system.n_rods = static_cast<int>(snapshot.n_rods());  // of tracked ones some may be missed
   std::string differs = start_mismatch(system, plan->system);
   if (is_resized(system, plan->system)) {
     differs += fmt::format("{}the side of the box or the gap ({:.10g} mm and {:.10g} mm in the file)",
                            differs.empty() ? "" : ", ", plan->system.box_side, plan->system.gap);
   }
+  if (system.n_rods != plan->system.n_rods) differs += fmt::format("; there, rods.count is {}", plan->system.n_rods);
   if (!differs.empty()) {
     return Error{
         fmt::format("{}: not the same in the scene: {}; a run that starts from the imported rods may then have "
                     "another box and gap",
                     file, differs)};
   }
-  if (frames.n_frames() == 0) return Error{file + " has no frames"};
-  const auto index = frame ? static_cast<std::size_t>(*frame) : frames.n_frames() - 1;
-  const Snapshot snapshot = SHAKEN_TRY(frames.frame(index));
 
   const World world = empty_world(plan->system);
   const bool has_plates = system.base || system.lid;

@@ -9,6 +9,7 @@
 #include <limits>
 #include <sstream>
 
+#include "run/files/recorded_frames.h"
 #include "scene/keys/fields.h"
 #include "scene/keys/observables.h"
 
@@ -26,7 +27,7 @@ constexpr std::array<std::string_view, 7> kNeeds{"impacts",
                                                  "angular velocities",
                                                  "velocities",
                                                  "tilts out of the plane",
-                                                 "rods that are followed from frame to frame",
+                                                 kFollowedRods,
                                                  "every rod in every frame",
                                                  "heads (all rods point to one half of the plane)"};  // as in Needs
 constexpr std::string_view kBetweenNeeds = ", ";

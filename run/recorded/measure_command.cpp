@@ -55,10 +55,21 @@ void claim(const RunDirectory& directory) {
                             printable(directory.root.string())));
 }
 
-/// 16 hex digits that name a measurement: XXH3-64 of the frames' file and of what is measured.
-std::string id_of(const scene::RunPlan& plan, const fs::path& file) {
-  const ContentHash frames = value_or_fail(content_hash(file));
-  const std::string text = fmt::format("shaken measure\n{}\n{:016x}", scene::run_id(plan), frames.xxh3);
+/// XXH3-64 of frames that are made of a table: the same table, read in another way, has others.
+std::uint64_t hash_of(const RecordedFrames& frames) {
+  std::uint64_t hash = 0;
+  for (std::size_t k = 0; k < frames.n_frames(); ++k) {
+    const RecordedFrame frame = value_or_fail(frames.frame(k));
+    for (const std::vector<float>* numbers : {&frame.position, &frame.orientation, &frame.velocity})
+      hash = XXH3_64bits_withSeed(numbers->data(), numbers->size() * sizeof(float), hash);
+    hash = XXH3_64bits_withSeed(frame.image.data(), frame.image.size() * sizeof(std::int32_t), hash);
+  }
+  return hash;
+}
+
+/// 16 hex digits that name a measurement: XXH3-64 of the frames, or of their file, and of what is measured.
+std::string id_of(const scene::RunPlan& plan, std::uint64_t frames) {
+  const std::string text = fmt::format("shaken measure\n{}\n{:016x}", scene::run_id(plan), frames);
   return fmt::format("{:016x}", XXH3_64bits(text.data(), text.size()));
 }
 
@@ -117,7 +128,8 @@ keys::Loaded<Task> task_of(const MeasureOptions& asked, std::optional<TrackedRod
   const std::string& own = tracks->frames->header().scene_json;
   auto made = SHAKEN_TRY(plan_for_frames({own, asked.scene}, {own, asked.scene}, {}, *spacing, tracks->lacking));
   made.remarks.insert(made.remarks.begin(), tracks->remarks.begin(), tracks->remarks.end());
-  std::ranges::move(remarks_on_few_samples(made.plan, *spacing), std::back_inserter(made.remarks));
+  if (tracks->frames->n_frames() > 1)
+    std::ranges::move(remarks_on_few_samples(made.plan, *spacing), std::back_inserter(made.remarks));
   return Task{std::move(made), tracks->frames.get()};
 }
 
@@ -173,7 +185,8 @@ ExitCode measure(const MeasureOptions& asked) {
   const keys::Loaded<Task> task = trajectory ? task_of(asked, *trajectory) : task_of(asked, tracks);
   if (!task) return refuse(asked.file, task.error(), asked.json);
 
-  const std::string id = id_of(task->by.plan, file);
+  const std::string id =
+      id_of(task->by.plan, tracks ? hash_of(*tracks->frames) : value_or_fail(content_hash(file)).xxh3);
   const RunDirectory directory{asked.out.empty() ? "measured-" + id.substr(0, 8) : asked.out};
   claim(directory);
   const MeasuredFrames found = write_run(*task, directory, asked.file, id);

@@ -88,8 +88,9 @@ class TrackRows {
     if (n_missed_ > 0) {
       found_.remarks.push_back(fmt::format("{} without a position, an angle or a time", counted(n_missed_, "row")));
     }
-    const auto remark = remark_on_angles(largest_angle_, "give --radians");
-    if (has("angle") && !is_in_radians_ && remark) found_.remarks.push_back(*remark);
+    const char* const cure = is_in_radians_ ? "give --degrees" : "give --radians";
+    const auto remark = remark_on_angles(largest_angle_, is_in_radians_, cure);
+    if (has("angle") && remark) found_.remarks.push_back(*remark);
     for (const auto& [column, place] : place_) found_.columns.insert(column);
     return std::move(found_);
   }
@@ -112,6 +113,7 @@ class TrackRows {
   }
   /// What may be wrong with every row alike is said of the first, with the number of the others.
   void report_once(const std::string& kind, const std::string& message, int line, int column = 0) {
+    if (repeated_.size() >= kMostProblems && !repeated_.contains(kind)) return;
     ++repeated_.try_emplace(kind, Repeated{message, line, column}).first->second.n;
   }
   bool has(const std::string& name) const { return place_.contains(name); }
@@ -221,7 +223,7 @@ class TrackRows {
     const Result<std::uint8_t> named =
         species_in(given != conventions_.species.end() ? given->second : field.text, species_);
     if (!named) {
-      report_once(field.text,
+      report_once("species " + field.text,
                   fmt::format("{}; --species {}=NAME says which it is", named.error().message, printable(field.text)),
                   row.line, field.column);
     }

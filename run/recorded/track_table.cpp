@@ -23,7 +23,7 @@ using keys::Problem;
 
 constexpr double kEqual = 1e-3;        ///< by which intervals between frames may differ, of themselves
 constexpr double kMostInterval = 1e5;  ///< between frames [s]
-/// Tracks times frames, where some are missed: each has a place in all frames, of 52 bytes, seen or not.
+/// Tracks, or the most rods in a frame, times frames, where some are missed: each has a place of 52 bytes, seen or not.
 constexpr std::size_t kMostPlaces = 20'000'000;
 
 /// Frames of a run, made of what was seen of rods.
@@ -114,7 +114,8 @@ class SeenFrames {
     const auto n_complete = static_cast<std::size_t>(
         std::ranges::count_if(table_.seen, [&](const auto& track) { return track.second.size() == n_frames; }));
     is_complete_ = n_complete == n_tracks || conventions_.only_complete;
-    is_followed_ = table_.has("id") && (is_complete_ || n_tracks * n_frames <= kMostPlaces);
+    const bool is_mixture = species_names(plan_.system).size() > 1, are_few = n_tracks * n_frames <= kMostPlaces;
+    is_followed_ = table_.has("id") && (is_complete_ || (are_few && !is_mixture));
     if (n_complete == n_tracks) return;
     std::string remark = fmt::format("{} of {} tracks are in every frame: ", n_complete, n_tracks);
     if (conventions_.only_complete) {
@@ -124,6 +125,7 @@ class SeenFrames {
       if (n_complete == 0) report("no rod is in every frame: measure without --complete");
     } else {
       remark += is_followed_ ? "lags are of the rods that are in both frames"
+                : is_mixture ? "those of a mixture are not followed then"
                              : "too many tracks are short for all to be followed";
       remark += "; --complete measures these alone, and --fill N closes gaps of up to N frames before";
     }
@@ -165,6 +167,12 @@ class SeenFrames {
     const auto mean =
         static_cast<std::size_t>(std::llround(static_cast<double>(n_all) / static_cast<double>(table_.frames.size())));
     most_in_frame_ = most;
+    const std::size_t n_places = most * table_.frames.size();
+    if (n_places > std::max(kMostPlaces, 2 * n_all)) {
+      report(
+          fmt::format("a frame has {} rods, where there are {} on average: leave out what are none there", most, mean));
+      return std::nullopt;
+    }
     if (least < most) {
       made_.remarks.push_back(fmt::format("{} to {} rods in a frame, {} on average", least, most, mean));
     }
@@ -219,6 +227,7 @@ class SeenFrames {
       frame.velocity.assign(rods.size(), Vec3::Zero());
       frames.push_back(std::move(frame));
     }
+    if (is_followed_) remark_on_jumps(frames);
     if (is_followed_ && is_complete_ && frames.size() > 1) {
       set_velocities(frames, interval);
       made_.remarks.push_back(remark_on_velocities(frames.size(), interval));
@@ -226,6 +235,23 @@ class SeenFrames {
       made_.lacking.insert(Needs::kVelocities);
     }
     return frames;
+  }
+
+  /// A word on rods that move farther than their length from one frame to the next, as mixed up ones do.
+  void remark_on_jumps(const std::vector<Snapshot>& frames) {
+    const double length = plan_.system.rod.length;
+    std::size_t n_jumps = 0;
+    for (std::size_t k = 1; k < frames.size(); ++k) {
+      for (std::size_t i = 0; i < frames[k].n_rods(); ++i) {
+        const auto before = frames[k - 1].rod_of(frames[k].track_of(i));
+        n_jumps += before && (frames[k].unwrapped(i) - frames[k - 1].unwrapped(*before)).norm() > length ? 1 : 0;
+      }
+    }
+    if (n_jumps == 0) return;
+    made_.remarks.push_back(
+        fmt::format("{} from a frame to the next, farther than a rod is long: are ids mixed up, or the rods in a "
+                    "periodic box?",
+                    counted(n_jumps, "step")));
   }
 
   TrajectoryHeader header(const std::vector<std::size_t>& n_rods) const {

@@ -12,6 +12,7 @@ from ..hdf5 import object_in, open_file
 from ..run import axes_of, error_name
 from ..rows import newness, version_text
 from . import maps, names
+from .panel import Panel
 from .series import VERSION, Arrangement, grouped, label_of, mean_curve
 from .sheet import Sheet
 
@@ -221,36 +222,71 @@ def run_figures(runs: Sequence[PlottedRun], width: str | None = None) -> Iterato
     """(name, figure) of each observable that at least one run has, and of the maps of each point. Of replicas by one
     version the mean is drawn, with the standard error of replica_mean; what differs in parameters or version are
     different curves."""
-    versions = sorted({run.version for run in runs if run.version}, key=newness)
-    # what different versions computed are different points; a run that is not done yet is of the newest
-    found = grouped(({**run.parameters, **({VERSION: run.version or versions[-1]} if len(versions) > 1 else {})}, run)
-                    for run in runs)
-    points, of_point = [point for point, _ in found], [of_one for _, of_one in found]
-    for of in OF_EVERY_SPECIES:
-        curves = [[curve for run in of_one if (curve := curve_of(run, of)) is not None] for of_one in of_point]
+    points, of_point = _points(runs)
+    for of, curves in _measured(of_point):
         known = [k for k, found in enumerate(curves) if found]
-        if not known:
-            continue
         arrangement = Arrangement([points[k] for k in known])
         sheet = arrangement.sheet(width, *of.titles)
-        # one look for all: the curves of shorter runs have fewer lags
-        longest = max(len(curve.x) for found in curves for curve in found)
-        is_line = of.is_trace or longest > (12 if arrangement.is_crowded else 40)
-        for panel, at in arrangement.each(sheet):
-            look = arrangement.look(at)
-            for k, curve in enumerate(_averaged(curves[known[at]])):
-                shown = _thinned(curve) if of.is_trace else curve
-                panel.curve(shown.x, shown.y, shown.error, shown.steady,
-                            look="line" if is_line else "points", name=arrangement.label(at),
-                            **(look if k == 0 else {"colour": look["colour"]}))
-        for panel, _ in arrangement.panels_of(sheet):
-            panel.scale(*("log" if log else "linear" for log in of.log))
-            panel.range(*of.ranges)
-            if of.zero:
-                panel.zero()
-            if of.x_ticks:
-                panel.axes.set_xticks(of.x_ticks)
+        _draw(of, [curves[k] for k in known], arrangement, arrangement.each(sheet),
+              [panel for panel, _ in arrangement.panels_of(sheet)])
         yield of.name, sheet
     labels = [label_of(point) if len(points) > 1 else "" for point in points]
     yield from maps.map_figures([(label, [run.arrays for run in of_one]) for label, of_one in zip(labels, of_point)],
                                 width)
+
+
+def run_sheet(runs: Sequence[PlottedRun], width: str | None = None) -> Sheet | None:
+    """All these figures but the maps as panels of one sheet, with one key; None where nothing is measured. Raises
+    ShakenError where the runs are more than one panel can name."""
+    points, of_point = _points(runs)
+    measured = list(_measured(of_point))
+    arrangement = Arrangement(points)
+    if len(arrangement.panels) > 1 or arrangement.scale is not None:
+        raise ShakenError(f"{len(points)} curves in each panel are too many for one picture: give a folder")
+    if not measured:
+        return None
+    columns = min(len(measured), 3)
+    sheet = Sheet(width or ("89mm", "120mm", "183mm")[columns - 1], -(-len(measured) // columns), columns)
+    for panel, (of, curves) in zip(sheet.panels, measured):
+        panel.titles(*of.titles)
+        _draw(of, curves, arrangement, [(panel, k) for k, found in enumerate(curves) if found], [panel])
+    return sheet.share_key()
+
+
+def _points(runs: Sequence[PlottedRun]) -> tuple[list[dict[str, Any]], list[list[PlottedRun]]]:
+    """What different curves are of, and the runs of each."""
+    versions = sorted({run.version for run in runs if run.version}, key=newness)
+    # what different versions computed are different points; a run that is not done yet is of the newest
+    found = grouped(({**run.parameters, **({VERSION: run.version or versions[-1]} if len(versions) > 1 else {})}, run)
+                    for run in runs)
+    return [point for point, _ in found], [of_one for _, of_one in found]
+
+
+def _measured(of_point: Sequence[Sequence[PlottedRun]]) -> Iterator[tuple[Observable, list[list[Curve]]]]:
+    """Each observable that at least one run has, with the curves of each point."""
+    for of in OF_EVERY_SPECIES:
+        curves = [[curve for run in of_one if (curve := curve_of(run, of)) is not None] for of_one in of_point]
+        if any(curves):
+            yield of, curves
+
+
+def _draw(of: Observable, curves: Sequence[Sequence[Curve]], arrangement: Arrangement,
+          each: Sequence[tuple[Panel, int]], panels: Sequence[Panel]) -> None:
+    """Draws curves (points) into the panel of each."""
+    # one look for all: the curves of shorter runs have fewer lags
+    longest = max(len(curve.x) for found in curves for curve in found)
+    is_line = of.is_trace or longest > (12 if arrangement.is_crowded else 40)
+    for panel, at in each:
+        look = arrangement.look(at)
+        for k, curve in enumerate(_averaged(curves[at])):
+            shown = _thinned(curve) if of.is_trace else curve
+            panel.curve(shown.x, shown.y, shown.error, shown.steady,
+                        look="line" if is_line else "points", name=arrangement.label(at),
+                        **(look if k == 0 else {"colour": look["colour"]}))
+    for panel in panels:
+        panel.scale(*("log" if log else "linear" for log in of.log))
+        panel.range(*of.ranges)
+        if of.zero:
+            panel.zero()
+        if of.x_ticks:
+            panel.axes.set_xticks(of.x_ticks)

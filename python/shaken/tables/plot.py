@@ -32,7 +32,7 @@ def _picture(options: argparse.Namespace) -> Path | None:
         (f"--format takes png, pdf or svg, not '{options.format}'", options.format not in ("", *_FORMATS)),
         (f"--width takes 89mm, 120mm or 183mm, not '{options.width}'", options.width not in ("", *_WIDTHS)),
         (f"{options.out} is one picture, and this draws several: give a folder, or --x and --y, or --map",
-         is_picture and not is_one),
+         is_picture and not is_one and not _are_runs(options.ids)),
         ("--map goes with neither --x nor --y", options.map and (options.x or options.y)),
         (f"{options.out}: a plot is a .png, .pdf or .svg",
          is_one and suffix and not is_picture and not Path(options.out).is_dir()),
@@ -42,6 +42,11 @@ def _picture(options: argparse.Namespace) -> Path | None:
         raise ShakenError("\n".join(problems))
     options.format = options.format or (suffix if is_picture else "png")
     return Path(options.out) if is_picture else None
+
+
+def _are_runs(ids: Sequence[str]) -> bool:
+    """Whether these are runs to be drawn over each other, or one run, and no sweep or job of the daemon."""
+    return len(ids) > 1 or any(os.path.exists(f"{one}/scene.json") for one in ids)
 
 
 def _times_over(points: Sequence[Row], name: str) -> list[float]:
@@ -136,7 +141,11 @@ def plot(options: argparse.Namespace) -> None:
         if of - {""}:
             origin[name] = origin_list(sorted(of - {""}))
     folder = picture.parent if picture else Path(options.out) if options.out else folder
-    figures += runs.run_figures(drawn, options.width or None) if drawn else []
+    if picture and not options.is_one:
+        sheet = runs.run_sheet(drawn, options.width or None)
+        figures += [(picture.stem, sheet)] if sheet else []
+    elif drawn:
+        figures += runs.run_figures(drawn, options.width or None)
     for name, sheet in figures:
         path = folder / f"{picture.stem if picture else name}.{options.format}"
         print(sheet.save(path, origin, data=any(panel.drawn for panel in sheet)), flush=True)

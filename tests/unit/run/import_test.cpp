@@ -8,6 +8,7 @@
 #include "base/files.h"
 #include "base/scratch_folder.h"
 #include "run/files/frame_log.h"
+#include "run/files/trajectory.h"
 #include "run/import/place_rods.h"
 #include "run/loop/import_id.h"
 #include "run/loop/open_run.h"
@@ -420,10 +421,26 @@ TEST_F(RecordedRods, AreRefusedWhereTheSceneHasOthers) {
   other.gap = 1.3;
   EXPECT_THAT(test::refusal(read_recorded_rods(file, {}, other)),
               HasSubstr("not the same in the scene: their number, the side of the box or the "
-                        "gap (12 mm and 1.2 mm in the file)"));
+                        "gap (12 mm and 1.2 mm in the file); there, rods.count is 10; a run"));
   const auto no_frame = read_recorded_rods(file, 1, system);
   ASSERT_FALSE(no_frame);
   EXPECT_THAT(no_frame.error().message, HasSubstr("has no frame 1; it has 1"));
+}
+
+// The scene of tracked rods has their mean number; a frame may have more.
+TEST_F(RecordedRods, OfTrackedRodsAreThoseOfTheFrame) {
+  const System system = test::short_rods(10);
+  const TrajectoryReader whole = TrajectoryReader::open(record_run(system, {0})).value();
+  scene::RunPlan fewer;
+  fewer.system = system;
+  fewer.system.n_rods = 7;
+  TrajectoryHeader header = whole.header();
+  header.lacking = "velocities";
+  header.scene_json = scene::to_json(fewer).dump();
+  const std::string tracked = (folder_ / "tracked.h5").string();
+  ASSERT_TRUE(write_trajectory(tracked, header, whole.recorded()));
+  EXPECT_THAT(test::refusal(read_recorded_rods(tracked, {}, fewer.system)), HasSubstr("there, rods.count is 10"));
+  EXPECT_EQ(test::good(read_recorded_rods(tracked, {}, system))->size(), 10U);
 }
 
 TEST(ImportId, IsOfTheSceneAndTheRodsAlone) {

@@ -603,9 +603,19 @@ TEST(Measurements, RefuseTheStateOfAnotherPlan) {
   scene::RunPlan p = plan();
   p.tilt.reset();
   EXPECT_FALSE(Measurements(p).restore(full.save()));
-  p = plan();
-  p.angles->bins = 20;
-  EXPECT_FALSE(Measurements(p).restore(full.save()));
+  using Change = void (*)(scene::RunPlan&);
+  const Change changes[] = {
+      [](scene::RunPlan& of) { of.angles->bins = 20; },       [](scene::RunPlan& of) { of.tilt->bins = 11; },
+      [](scene::RunPlan& of) { of.g2->bins = 21; },           [](scene::RunPlan& of) { of.pairs->bins = 13; },
+      [](scene::RunPlan& of) { of.van_hove->bins = 17; },     [](scene::RunPlan& of) { of.flow->bins = 9; },
+      [](scene::RunPlan& of) { of.structure->waves = 7; },    [](scene::RunPlan& of) { of.defect_maps->bins = 9; },
+      [](scene::RunPlan& of) { of.velocity->window = 0.05; }, [](scene::RunPlan& of) { of.rods->count = 4; },
+      [](scene::RunPlan& of) { of.system.box_side = 21; }};
+  for (const Change& change : changes) {
+    p = plan();
+    change(p);
+    EXPECT_FALSE(Measurements(p).restore(full.save())) << "change " << &change - changes;
+  }
   EXPECT_FALSE(Measurements(plan()).restore({}));
 }
 

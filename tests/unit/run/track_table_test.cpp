@@ -272,6 +272,8 @@ TEST(TrackTable, RodsThatCrossThePeriodicBorderGoOn) {
               HasSubstr("is outside of the arena, which is 20 mm long: see --scale\n"))
       << "walls are no periodic border";
   const TrackedRods inside = tracks_in(text, at_intervals(), walled);
+  EXPECT_THAT(inside.remarks, testing::Contains(HasSubstr("2 steps from a frame to the next, farther than a rod is")));
+  EXPECT_THAT(tracks.remarks, testing::Not(testing::Contains(HasSubstr("farther than a rod"))));
   EXPECT_EQ(frame_of(inside, 1).image[0], (std::array<std::int32_t, 2>{0, 0}));
   expect_rod(frame_of(inside, 0), 0, {20.5, 2}, 0);
 }
@@ -353,6 +355,17 @@ TEST(TrackTable, OfTwoSpeciesIsMeasuredSpeciesBySpecies) {
   EXPECT_THAT(arrays.at("/msd/total_mm2").at(0), DoubleNear(0.5, 1e-5));
   EXPECT_THAT(arrays.at("/rods_2/msd/total_mm2").at(0), DoubleNear(0, 1e-9));
 
+  // another number for the last rod: of a mixture, rods that are not in every frame are not followed
+  std::string renamed = text;
+  renamed.replace(renamed.rfind("\n1,1,1,") + 3, 1, "5");
+  const TrackedRods unfollowed = tracks_in(renamed, at_intervals(), mixed);
+  EXPECT_THAT(unfollowed.lacking, IsSupersetOf({Needs::kIdentities, Needs::kEveryRod}));
+  EXPECT_THAT(unfollowed.remarks[0], HasSubstr("those of a mixture are not followed then"));
+  EXPECT_FALSE(unfollowed.frames->header().are_followed());
+  expect_rod(frame_of(unfollowed, 0), 0, {5, 5}, 90);
+  EXPECT_THAT(measured(unfollowed).arrays.at("/rods_2/order/order"),
+              ElementsAre(DoubleNear(0, 1e-6), DoubleNear(1, 1e-6)));
+
   const auto refused = [&](const std::string& table) { return refusal_of(table, at_intervals(), mixed); };
   EXPECT_THAT(refused("frame,x,y,angle\n0,1,2,3\n"),
               HasSubstr("column species is missing: the scene has rods and rods_2; --columns species=NAME says"));
@@ -376,6 +389,11 @@ TEST(TrackTable, AnglesThatMayBeRadiansGetARemark) {
   TrackConventions degrees = at_intervals();
   degrees.radians = false;
   EXPECT_THAT(tracks_in("frame,x,y,angle\n0,1,2,170\n", degrees).remarks, IsEmpty());
+  TrackConventions radians = at_intervals();
+  radians.radians = true;
+  EXPECT_THAT(tracks_in("frame,x,y,angle\n0,1,2,6.2\n", radians).remarks, IsEmpty());
+  EXPECT_THAT(tracks_in("frame,x,y,angle\n0,1,2,170\n", radians).remarks,
+              ElementsAre("angles go up to 170: they are taken as radians; if they are degrees, give --degrees"));
 }
 
 }  // namespace
