@@ -1,4 +1,5 @@
 // What users get to see when something is wrong: each kind of mistake, with its place and its remedy.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "scene/keys/observables.h"
@@ -35,6 +36,10 @@ TEST(Problems, ContactsOfRodsThatAreNotThere) {
   EXPECT_EQ(problem_of(R"({"rods_2": {"count": 5}, "contacts": {"rod_rod": {"rods_2_rods_3": {"restitution": 0.3}}}})"),
             "run.json:1:84: /contacts/rod_rod/rods_2_rods_3/restitution: contacts.rod_rod.rods_2_rods_3.restitution is "
             "about rods_3, which the scene does not have; add rods_3 or remove the key");
+  for (const char* contact : {"rod_rod.rods_rods_2", "rod_rod.rods_2_rods_2", "rod_lid.rods_2", "rod_base.rods_2"}) {
+    EXPECT_THAT(problem_of("{}", {fmt::format("contacts.{}.friction=0.3", contact)}),
+                testing::HasSubstr("is about rods_2, which the scene does not have"));
+  }
 }
 
 TEST(Problems, NoiseOfRodsThatAreNotThere) {
