@@ -27,8 +27,8 @@ def measure(frames: Iterable[Any], *, interval: float | str | None = None, scene
     frames:      Frame of a run or of a simulation, or tuples of arrays (positions, directors) or (positions, directors,
                  velocities): positions (n, 2) or (n, 3) [mm], directors (n, 2) or (n, 3), or (n,) angles in the plane
                  [rad], velocities (n, 3) [mm/s]. Without z, rods lie between the plates; without velocities those of
-                 rods that are followed are displacements, which is said. n may vary. A rod whose position is NaN was
-                 missed in that frame: it is followed across, and lags are of the rods that are in both frames
+                 rods that are followed are displacements, which is said. n may vary. Rods whose position is NaN were
+                 missed, and are followed across that frame
     interval:    from one frame to the next [s]; that of the frames where they are `Frame`
     box:         sides of the periodic box [mm]; a scene has other views, as a disc or a rectangle with open edges
     length:      of the rods, by which bins and ranges are chosen that are not given

@@ -26,13 +26,14 @@ def _picture(options: argparse.Namespace) -> Path | None:
     """Sets the format and `is_one`, whether one figure is asked for; returns the picture that --out names, if it names
     one. Raises ShakenError with all that is wrong."""
     suffix, is_one = Path(options.out).suffix[1:], bool(options.map or options.x or options.y)
+    are_runs = len(options.ids) > 1 or os.path.exists(f"{options.id}/scene.json")  # no sweep or job of the daemon
     options.is_one = is_one
     is_picture = suffix in _FORMATS
     problems = [problem for problem, is_wrong in (
         (f"--format takes png, pdf or svg, not '{options.format}'", options.format not in ("", *_FORMATS)),
         (f"--width takes 89mm, 120mm or 183mm, not '{options.width}'", options.width not in ("", *_WIDTHS)),
         (f"{options.out} is one picture, and this draws several: give a folder, or --x and --y, or --map",
-         is_picture and not is_one and not _are_runs(options.ids)),
+         is_picture and not is_one and not are_runs),
         ("--map goes with neither --x nor --y", options.map and (options.x or options.y)),
         (f"{options.out}: a plot is a .png, .pdf or .svg",
          is_one and suffix and not is_picture and not Path(options.out).is_dir()),
@@ -42,11 +43,6 @@ def _picture(options: argparse.Namespace) -> Path | None:
         raise ShakenError("\n".join(problems))
     options.format = options.format or (suffix if is_picture else "png")
     return Path(options.out) if is_picture else None
-
-
-def _are_runs(ids: Sequence[str]) -> bool:
-    """Whether these are runs to be drawn over each other, or one run, and no sweep or job of the daemon."""
-    return len(ids) > 1 or any(os.path.exists(f"{one}/scene.json") for one in ids)
 
 
 def _times_over(points: Sequence[Row], name: str) -> list[float]:
