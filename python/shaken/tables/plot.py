@@ -138,8 +138,8 @@ def plot(options: argparse.Namespace) -> None:
             origin[name] = origin_list(sorted(of - {""}))
     folder = picture.parent if picture else Path(options.out) if options.out else folder
     if picture and not options.is_one:
-        sheet = runs.run_sheet(drawn, options.width or None)
-        figures += [(picture.stem, sheet)] if sheet else []
+        of_all = runs.run_sheet(drawn, options.width or None)
+        figures += [(picture.stem, of_all)] if of_all else []
     elif drawn:
         figures += runs.run_figures(drawn, options.width or None)
     for name, sheet in figures:
