@@ -32,8 +32,10 @@ std::unique_ptr<Verb> make_plot() {
         arguments.repeatable("-w,--where", "CONDITION",
                              "Only points that match, as of `results`; repeatable, all must hold");
         arguments.flag("--map", "One figure: the last frames of the runs over the first one or two swept numbers");
-        arguments.option("-o,--out", "DIR", "Where to write; plots-ID if left out. Of one figure also a file, and of runs all of them in one",
-                         Names::kFolder);
+        arguments.option(
+            "-o,--out", "DIR",
+            "Where to write; plots-ID if left out. Of one figure also a file, and of runs all of them in one",
+            Names::kFolder);
         arguments.option("--format", "png|pdf|svg", "png if left out; of one figure also by the suffix of --out",
                          Names::kAnything);
         arguments.option("--width", "89mm|120mm|183mm",

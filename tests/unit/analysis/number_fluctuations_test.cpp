@@ -159,5 +159,18 @@ TEST(NumberFluctuations, NothingOrOneRod) {
   EXPECT_DOUBLE_EQ(NumberFluctuations::reduce(blocks, 0).mean_n[0], 0.125);
 }
 
+TEST(NumberFluctuations, BoxesAreAskedForByTheirMiddles) {
+  Vec2 sum = Vec2::Zero();
+  int n = 0;
+  const NumberFluctuations boxes(8, 1, 1, [&](const Vec2& middle, const Vec2& sides) {
+    EXPECT_TRUE(((middle - sides / 2).array() >= 0).all() && ((middle + sides / 2).array() <= 8).all());
+    sum += middle;
+    ++n;
+    return true;
+  });
+  EXPECT_GT(n, 4);
+  EXPECT_NEAR((sum / n - Vec2(4, 4)).norm(), 0, 1e-12);
+}
+
 }  // namespace number_fluctuations_test
 }  // namespace shaken::analysis
