@@ -65,7 +65,8 @@ class Submit : public Verb {
                     fmt::format("{}: {}; choose another one with --name", printable(input.file), printable(*problem)));
     }
     // Read here as the daemon reads it: mistakes are told even without a daemon, and rods can be counted.
-    const scene::Sweep sweep = load_points(input, settings_, replicas_);
+    scene::Sweep sweep = load_points(input, settings_, replicas_);
+    sweep.name = name;
     Json request{{"text", input.text}, {"file", input.file}, {"settings", settings_}};
     if (replicas_) request["replicas"] = *replicas_;
     if (!name_.empty()) request["name"] = name_;

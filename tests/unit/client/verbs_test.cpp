@@ -279,8 +279,9 @@ TEST_F(Verbs, SubmitDryRunQueuesNothing) {
   const std::string file = (root_.path() / "scene.json").string();
   std::ofstream(file) << R"({"box": {"side": 30}})";
   daemon_.on("POST /v1/sweeps", "{}");
-  EXPECT_THAT(shown(run({"submit", file, "--dry-run", "--no-probe", "-s", "rods.count=100,200,300"})),
-              AllOf(HasSubstr("3 points, nothing queued"), HasSubstr("  300  ")));
+  EXPECT_THAT(
+      shown(run({"submit", file, "--dry-run", "--no-probe", "-s", "rods.count=100,200,300", "--name", "sizes"})),
+      AllOf(HasSubstr("sizes: 3 points, nothing queued"), HasSubstr("  300  ")));
   ASSERT_EQ(daemon_.requests().size(), 1u);
   EXPECT_EQ(Json::parse(daemon_.requests()[0].body)["dry_run"], true) << "whether it would be taken is asked";
 
