@@ -70,5 +70,4 @@ endif()
 if(SHAKEN_SANITIZE)
   target_compile_options(shaken_options INTERFACE -fsanitize=${SHAKEN_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(shaken_options INTERFACE -fsanitize=${SHAKEN_SANITIZE})
-  target_compile_definitions(shaken_options INTERFACE _GLIBCXX_ASSERTIONS)  # bounds of the standard library's containers
 endif()
