@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+#include <utility>
+
 #include "sim/balance.h"
 #include "sim/checkpoint.h"
 #include "sim/simulation.h"
@@ -73,6 +76,12 @@ TEST(Rectangle, ACheckpointBelongsToItsShape) {
   system.box_side = 32;
   system.box_aspect = 0.5;
   EXPECT_FALSE(restore_checkpoint(system, saved));
+}
+
+TEST(Simulation, OfAWorldNeedsAFlightForEachRod) {
+  World world = *test::good(make_world(small_scene(StepperKind::kScheduled)));
+  world.rods.pop_back();
+  EXPECT_THROW(Simulation::start_from(std::move(world)), std::logic_error);
 }
 
 }  // namespace
