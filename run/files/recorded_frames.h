@@ -22,6 +22,7 @@ struct TrajectoryHeader {
   Provenance provenance{};
   std::string lacking{};  ///< of rods that were tracked: what nobody has seen, in words (run/measure: words_of)
 
+  /// Whether a rod of one frame is known in others, so that paths and displacements mean something.
   bool are_followed() const { return lacking.find(kFollowedRods) == std::string::npos; }
 };
 

@@ -33,8 +33,8 @@ inline constexpr double kMostBoxes = 1e6;
 
 /// Where a rod that is followed was last, and how often it had left the box.
 struct LastSeen {
-  Vec3 position = Vec3::Zero();
-  std::array<std::int32_t, 2> image{};
+  Vec3 position = Vec3::Zero();         ///< in the box [mm]
+  std::array<std::int32_t, 2> image{};  ///< box crossings (Snapshot::image)
   bool is_known = false;
 };
 
