@@ -1,8 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <stdexcept>
-#include <utility>
-
 #include "sim/balance.h"
 #include "sim/checkpoint.h"
 #include "sim/simulation.h"
@@ -81,7 +78,7 @@ TEST(Rectangle, ACheckpointBelongsToItsShape) {
 TEST(Simulation, OfAWorldNeedsAFlightForEachRod) {
   World world = *test::good(make_world(small_scene(StepperKind::kScheduled)));
   world.rods.pop_back();
-  EXPECT_THROW(Simulation::start_from(std::move(world)), std::logic_error);
+  EXPECT_THROW(Simulation::start_from(world), std::logic_error);
 }
 
 }  // namespace
