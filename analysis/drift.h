@@ -36,7 +36,17 @@ class DriftStatistics : public Summed<DriftStatistics> {
 class Drift : public Saved<Drift> {
  public:
   /// At `time` [s], later than all before: unwrapped centres (n_rods) [mm], the same rods in every call.
-  void accumulate(double time, std::span<const Vec3> unwrapped);
+  void accumulate(double time, std::span<const Vec3> unwrapped) {
+    Vec2 centre = Vec2::Zero();
+    for (const Vec3& place : unwrapped) centre += place.head<2>();
+    centre /= static_cast<double>(unwrapped.size());
+    if (!has_first_) first_ = centre;
+    series_.accumulate(time, {centre.x() - first_.x(), centre.y() - first_.y()});
+    if (has_first_) statistics_.accumulate(last_time_, Vec2(centre - last_), time - last_time_);
+    has_first_ = true;
+    last_ = centre;
+    last_time_ = time;
+  }
 
   const std::vector<double>& times() const { return series_.times(); }  ///< (n) [s]
   const std::vector<double>& x() const { return series_.column(0); }    ///< (n) displacement [mm]

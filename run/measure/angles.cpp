@@ -3,7 +3,6 @@
 #include <optional>
 #include <string>
 
-#include "analysis/two_peaks.h"
 #include "run/measure/measured.h"
 #include "run/measure/rows.h"
 
@@ -23,8 +22,7 @@ constexpr std::array kAnglePeaks{
         called("tilt of the layers", R"(θ_\mathrm{m})",
                {"theta_m_deg",
                 "angle by which layers are turned: ± the means of two Gaussians fitted to P(θ); null if there is "
-                "one "
-                "peak",
+                "one peak",
                 false, "P(theta) has one peak, or too few samples to tell two"})),
     from<[](const TwoPeaks& peaks) { return peaks.maximum * 180 / kPi; }>(
         {"theta_m_maximum_deg",
@@ -58,7 +56,7 @@ std::unique_ptr<Measurement> measure_angles(const MeasureContext& context) {
 MeasurementKind angles_kind() {
   return {
       .name = "angles",
-      .sources = "angles, two_peaks",
+      .sources = "angles",
       .make = measure_angles,
       .arrays = outputs_of(kAnglePdf),
       .numbers = outputs_of(kAnglePeaks, kAngleDip),

@@ -54,7 +54,7 @@ void MeasuredOrder::restore(StateReader& reader) {
 MeasurementKind order_kind() {
   return {
       .name = "order",
-      .sources = "order, order_statistics, time_series",
+      .sources = "order, time_series",
       .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
         return std::make_unique<MeasuredOrder>(context.plan.system.n_rods);
       },

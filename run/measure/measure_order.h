@@ -2,7 +2,6 @@
 
 #include "analysis/errors/blocked.h"
 #include "analysis/order.h"
-#include "analysis/order_statistics.h"
 #include "run/measure/measurement.h"
 
 namespace shaken::run {

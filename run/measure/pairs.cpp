@@ -22,8 +22,7 @@ constexpr std::array kPairCurves{
         called("distance across the director", "r_⊥",
                {"cut/r_mm",
                 "bin centres of cuts through the maps, up to half the longer side of the box; NaN stands where "
-                "images "
-                "end"})),
+                "images end"})),
     from<&PairCurves::g_along>({"cut/g_along", "g along the director", kWithError}),
     from<&PairCurves::g_across>({"cut/g_across", "g across it", kWithError}),
     from<&PairCurves::g2_along>({"cut/g2_along", "G₂ along the director", kWithError}),

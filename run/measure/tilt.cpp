@@ -2,9 +2,6 @@
 
 #include <algorithm>
 
-#include "analysis/tilt_summary.h"
-#include "analysis/tilt_switches.h"
-#include "run/measure/largest_tilt.h"
 #include "run/measure/measured.h"
 #include "run/measure/rows.h"
 
@@ -40,9 +37,7 @@ constexpr std::array kTiltNumbers{
     from<&TiltSummary::v_largest>(
         {"tilt_fastest_mm_s",
          "folded mean of velocities of instants along the rod where its magnitude is largest, over bins with 1 % "
-         "of the samples at least; negative: away "
-         "from the "
-         "raised end",
+         "of the samples at least; negative: away from the raised end",
          false, "no mean velocity differs from 0 by three of its errors"}),
     from<&TiltSummary::n_z_largest>({"tilt_fastest_n_z", "tilt at which it is reached", false,
                                      "no mean velocity differs from 0 by three of its errors"}),
@@ -58,7 +53,9 @@ constexpr std::array kTiltNumbers{
 std::unique_ptr<Measurement> measure_tilt(const MeasureContext& context) {
   // Soft overlaps let rods tilt a little further; a gap that lets them stand gives the whole range.
   double n_z_max = 1e-6;
-  for (const Species& size : context.sizes) n_z_max = std::max(n_z_max, largest_tilt(size, context.plan.system.gap));
+  for (const Species& size : context.sizes) {
+    n_z_max = std::max(n_z_max, analysis::largest_tilt(size.half_length, size.end_radius, context.plan.system.gap));
+  }
   const auto sample = [](const Sample& now, auto& tilt, auto& switches) {
     tilt.accumulate(now->time, now->director, now->velocity);
     switches.accumulate(now->time, now->director);
@@ -80,7 +77,7 @@ std::unique_ptr<Measurement> measure_tilt(const MeasureContext& context) {
 MeasurementKind tilt_kind() {
   return {
       .name = "tilt",
-      .sources = "tilt, tilt_summary, tilt_switches",
+      .sources = "tilt",
       .make = measure_tilt,
       .arrays = outputs_of(kTiltCurves, kTiltFolded),
       .numbers = outputs_of(kTiltSwitching, kTiltNumbers),

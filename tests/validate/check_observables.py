@@ -408,7 +408,7 @@ def histogram(place, bins, edge):
 
 
 def two_gaussians(theta, density):
-    """theta_m [degrees], dip and maximum [degrees] of analysis/two_peaks.h, by scipy; NaN without samples."""
+    """theta_m [degrees], dip and maximum [degrees] of analysis/angles.h, by scipy; NaN without samples."""
     none = (np.nan, np.nan, np.nan)
     width = np.pi / len(theta)
     if len(theta) < 8 or not density.max() > 0:

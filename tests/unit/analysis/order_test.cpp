@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "analysis/geometry/periodic.h"
-#include "analysis/order_statistics.h"
 #include "tests/unit/analysis/analysis_samples.h"
 #include "tests/unit/analysis/state_checks.h"
 

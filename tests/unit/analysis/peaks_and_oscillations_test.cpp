@@ -4,10 +4,10 @@
 #include <cmath>
 #include <functional>
 
+#include "analysis/angles.h"
 #include "analysis/errors/blocked.h"
 #include "analysis/errors/jackknife.h"
 #include "analysis/oscillation.h"
-#include "analysis/two_peaks.h"
 #include "tests/support/effort.h"
 #include "tests/unit/analysis/analysis_samples.h"
 

@@ -8,8 +8,6 @@
 #include "analysis/errors/blocked.h"
 #include "analysis/errors/jackknife.h"
 #include "analysis/errors/parts.h"
-#include "analysis/tilt_summary.h"
-#include "analysis/tilt_switches.h"
 #include "tests/unit/analysis/analysis_samples.h"
 
 namespace shaken::analysis {
@@ -283,6 +281,14 @@ TEST(TiltSwitches, OfATelegraphWithItsError) {
   EXPECT_LT(std::abs(sum - kRepeats * kInterval / kP / 400) / std::sqrt(squares), 4.5);
   EXPECT_GT(chi2 / kRepeats, 0.8);
   EXPECT_LT(chi2 / kRepeats, 1.35);
+}
+
+TEST(LargestTilt, IsSetByTheGap) {
+  // The end beads touch both plates: half_length * n_z + end_radius = gap / 2.
+  EXPECT_NEAR(largest_tilt(2.0, 0.2, 1.2), (0.6 - 0.2) / 2.0, 1e-12);
+  EXPECT_EQ(largest_tilt(2.0, 0.2, 100), 1);
+  EXPECT_EQ(largest_tilt(2.0, 0.2, 0.3), 0);
+  EXPECT_EQ(largest_tilt(0.0, 0.2, 1.2), 1) << "a sphere may point anywhere";
 }
 
 }  // namespace

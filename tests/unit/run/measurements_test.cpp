@@ -11,7 +11,7 @@
 #include "analysis/geometry/director_field.h"
 #include "analysis/geometry/region.h"
 #include "analysis/temperatures.h"
-#include "run/measure/largest_tilt.h"
+#include "analysis/tilt.h"
 #include "scene/keys/observables.h"
 #include "sim/world.h"
 
@@ -310,7 +310,8 @@ TEST(Measurements, WaysAndTiltsOfSingleRods) {
   p.velocity = scene::MeasureVelocity{0.01, 0.01};
   Measurements measurements(p);
   // At 30 mm/s to and fro, turning every 0.1 s; tilted to either side for 50 ms.
-  const double tilt = largest_tilt(make_species(RodShape{}), p.system.gap);
+  const Species rod = make_species(RodShape{});
+  const double tilt = analysis::largest_tilt(rod.half_length, rod.end_radius, p.system.gap);
   for (Tick tick = 0; tick <= 200000; tick = measurements.next_due(tick + 1)) {
     Snapshot s = random_snapshot(0);
     s.tick = tick;
@@ -802,17 +803,6 @@ TEST(Measurements, OfSpheresAmongRodsAreOfNoAxis) {
   EXPECT_FALSE(result.scalars.contains("rods_3.diffusion_along_mm2_s"));
   EXPECT_FALSE(result.arrays.contains("/rods_3/g2/g2"));
   EXPECT_TRUE(result.arrays.contains("/rods_3/g2/g"));
-}
-
-TEST(LargestTilt, IsSetByTheGap) {
-  RodShape shape;
-  shape.end_diameter = 0.4;
-  const Species s = make_species(shape);
-  // The end beads touch both plates: half_length * n_z + end_radius = gap / 2.
-  EXPECT_NEAR(largest_tilt(s, 1.2), (0.6 - 0.2) / s.half_length, 1e-12);
-  EXPECT_EQ(largest_tilt(s, 100), 1);
-  shape.n_beads = 1;
-  EXPECT_EQ(largest_tilt(make_species(shape), 1.2), 1) << "a sphere may point anywhere";
 }
 
 }  // namespace
