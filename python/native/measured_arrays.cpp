@@ -9,7 +9,7 @@
 
 #include "base/keys/problem.h"
 #include "base/text.h"
-#include "run/files/frames_in_memory.h"
+#include "run/files/recorded_frames.h"
 #include "run/loop/open_run.h"
 #include "run/recorded/measure_frames.h"
 #include "run/recorded/tracks.h"

@@ -15,7 +15,7 @@
 #include "python/native/arrays.h"
 #include "python/native/measured_arrays.h"
 #include "python/native/simulated_run.h"
-#include "run/files/frames_in_memory.h"
+#include "run/files/recorded_frames.h"
 #include "run/files/trajectory.h"
 #include "run/recorded/tracks.h"
 #include "scene/canonical.h"

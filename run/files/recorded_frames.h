@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "run/files/provenance.h"
 #include "run/files/recorded_frame.h"
@@ -37,6 +39,20 @@ class RecordedFrames {
   virtual std::size_t n_frames() const = 0;
   /// Fails if the frame is damaged. `index` < n_frames().
   virtual Result<RecordedFrame> frame(std::size_t index) const = 0;
+};
+
+/// Frames that come from no file, or are not there yet.
+class FramesInMemory final : public RecordedFrames {
+ public:
+  FramesInMemory(TrajectoryHeader header, std::vector<RecordedFrame> frames)
+      : header_(std::move(header)), frames_(std::move(frames)) {}
+  const TrajectoryHeader& header() const override { return header_; }
+  std::size_t n_frames() const override { return frames_.size(); }
+  Result<RecordedFrame> frame(std::size_t index) const override { return frames_[index]; }
+
+ private:
+  TrajectoryHeader header_;
+  std::vector<RecordedFrame> frames_;
 };
 
 }  // namespace shaken::run

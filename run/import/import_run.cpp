@@ -13,11 +13,10 @@
 #include "base/text.h"
 #include "run/files/checkpoint_file.h"
 #include "run/files/directory.h"
-#include "run/files/frames_in_memory.h"
+#include "run/files/recorded_frames.h"
 #include "run/files/trajectory.h"
 #include "run/files/version.h"
 #include "run/import/place_rods.h"
-#include "run/import/refusal.h"
 #include "run/loop/import_id.h"
 #include "run/loop/open_run.h"
 #include "scene/canonical.h"
@@ -194,6 +193,16 @@ int import_command(int argc, char** argv) {
   declare(app, asked);
   app.add_option("--root", asked.root, "The daemon's root directory")->type_name("DIR");
   return app.run(argc, argv, [&] { return import_rods(asked); });
+}
+
+ExitCode refuse(const std::string& file, const std::vector<keys::Problem>& problems, bool json) {
+  if (json) {
+    std::cout << nlohmann::ordered_json{{"ok", false}, {"problems", keys::to_json(problems)}}.dump(2) << "\n";
+    return ExitCode::kBadInput;
+  }
+  std::string all = to_string(problems);
+  all.pop_back();  // the end of the last line
+  throw Failure(ExitCode::kBadInput, fmt::format("{} is refused:\n{}", file, all));
 }
 
 }  // namespace shaken::run

@@ -8,6 +8,9 @@ namespace CLI {
 class App;
 }
 
+#include "base/failure.h"
+#include "base/keys/problem.h"
+
 namespace shaken::run {
 
 struct ImportOptions {
@@ -25,5 +28,9 @@ void declare(CLI::App& app, ImportOptions& asked);
 /// `shaken-worker import FILE --scene SCENE`: makes a run directory of the rods in a file, with one frame at t = 0, in
 /// the daemon's folder of runs, so that runs can start from it. Exit codes: 0 done, 1 failed, 2 bad input.
 int import_command(int argc, char** argv);
+
+/// Says on stdout, as JSON, all that is wrong with a file and its scene; without `json` it throws a Failure that does,
+/// "FILE is refused:" and a line for each.
+ExitCode refuse(const std::string& file, const std::vector<keys::Problem>& problems, bool json);
 
 }  // namespace shaken::run

@@ -24,7 +24,7 @@
 #include "run/files/done.h"
 #include "run/files/foreign_file.h"
 #include "run/files/trajectory.h"
-#include "run/import/refusal.h"
+#include "run/import/import_run.h"
 #include "run/loop/summary.h"
 #include "run/recorded/measure_frames.h"
 #include "run/recorded/track_table.h"

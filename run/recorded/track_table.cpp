@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/text.h"
-#include "run/files/frames_in_memory.h"
+#include "run/files/recorded_frames.h"
 #include "run/import/place_rods.h"
 #include "run/loop/open_run.h"
 #include "run/recorded/sightings.h"

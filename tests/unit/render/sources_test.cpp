@@ -14,7 +14,7 @@
 #include "render/view.h"
 #include "run/files/directory.h"
 #include "run/files/frame_log.h"
-#include "run/files/frames_in_memory.h"
+#include "run/files/recorded_frames.h"
 #include "run/files/trajectory.h"
 #include "tests/support/good.h"
 #include "tests/unit/render/render_support.h"
