@@ -16,8 +16,8 @@
 #include "client/live/target.h"
 #include "client/verbs/verbs.h"
 #include "proto/bus.h"
+#include "proto/codec.h"
 #include "proto/log_file.h"
-#include "proto/message_job.h"
 
 namespace shaken::client {
 namespace {

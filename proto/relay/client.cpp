@@ -1,5 +1,6 @@
 #include "proto/relay/client.h"
 
+#include <re2/re2.h>
 #include <sys/socket.h>
 
 #include <algorithm>
@@ -17,9 +18,35 @@ constexpr std::size_t kPiece = 64 << 10;
 /// Channels of which is remembered whether they are wanted.
 constexpr std::size_t kRemembered = 256;
 
+/// For a compiled pattern and for what is remembered while matching; a pattern that needs more is refused.
+constexpr std::int64_t kMemory = 64 << 10;
+
 bool is_to_be_tried_again() { return errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR; }
 
 }  // namespace
+
+Result<ChannelPattern> ChannelPattern::compile(std::string_view pattern) {
+  re2::RE2::Options options;
+  options.set_log_errors(false);
+  options.set_max_mem(kMemory);
+  options.set_never_capture(true);
+  std::string text(pattern);
+  auto expression = std::make_unique<re2::RE2>("^" + text + "$", options);
+  if (!expression->ok()) return Error{expression->error()};
+  return ChannelPattern(std::move(text), std::move(expression));
+}
+
+ChannelPattern::ChannelPattern(std::string text, std::unique_ptr<re2::RE2> expression)
+    : text_(std::move(text)), expression_(std::move(expression)) {}
+ChannelPattern::ChannelPattern(ChannelPattern&&) noexcept = default;
+ChannelPattern& ChannelPattern::operator=(ChannelPattern&&) noexcept = default;
+ChannelPattern::~ChannelPattern() = default;
+
+std::size_t ChannelPattern::size() const { return static_cast<std::size_t>(expression_->ProgramSize()); }
+
+bool ChannelPattern::matches(std::string_view channel) const {
+  return re2::RE2::PartialMatch(re2::StringPiece(channel.data(), channel.size()), *expression_);
+}
 
 Client::Client(Descriptor socket, const Limits& limits, Clock::time_point now)
     : socket_(std::move(socket)),

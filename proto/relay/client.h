@@ -1,21 +1,94 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
+#include "base/core/result.h"
 #include "base/descriptor.h"
-#include "proto/relay/channel_pattern.h"
 #include "proto/relay/limits.h"
-#include "proto/relay/send_queue.h"
 #include "proto/relay/tcpq.h"
 
+namespace re2 {
+class RE2;
+}
+
 namespace shaken::relay {
+
+/// What waits to be sent to one client. Messages are shared with the queues of others. Where there are too many, or too
+/// many bytes of them, the oldest go; only the one of which a part has been sent already stays, for it must be whole.
+class SendQueue {
+ public:
+  using Message = std::shared_ptr<const std::string>;
+
+  SendQueue(std::size_t most_messages, std::size_t most_bytes)
+      : most_messages_(most_messages), most_bytes_(most_bytes) {}
+
+  void push(Message message) {
+    bytes_ += message->size();
+    messages_.push_back(std::move(message));
+    const std::size_t kept = sent_ > 0 ? 1 : 0;
+    while (messages_.size() > kept && (messages_.size() - kept > most_messages_ || bytes_ > most_bytes_)) {
+      const auto oldest = messages_.begin() + static_cast<std::ptrdiff_t>(kept);
+      bytes_ -= (*oldest)->size();
+      messages_.erase(oldest);
+      ++dropped_;
+    }
+  }
+  bool empty() const { return messages_.empty(); }
+  std::size_t size() const { return messages_.size(); }
+  /// The bytes to be sent next: what is left of the first message.
+  std::string_view next() const { return std::string_view(*messages_.front()).substr(sent_); }
+  /// So many of these have been sent.
+  void sent(std::size_t bytes) {
+    sent_ += bytes;
+    if (sent_ < messages_.front()->size()) return;
+    bytes_ -= messages_.front()->size();
+    messages_.pop_front();
+    sent_ = 0;
+  }
+  std::int64_t dropped() const { return dropped_; }
+
+ private:
+  std::size_t most_messages_, most_bytes_;
+  std::deque<Message> messages_;
+  std::size_t bytes_ = 0;  ///< of all messages, whether sent in part or not
+  std::size_t sent_ = 0;   ///< of the first message
+  std::int64_t dropped_ = 0;
+};
+
+/// What a client subscribes to: a regular expression that fits a channel as LCM itself has it, that is `^PATTERN$`.
+///
+/// LCM matches with PCRE, whose time can grow as fast as 2 to the channel's length, and the pattern is a stranger's.
+/// RE2 takes time in proportion to both lengths, and a bounded memory; it knows no back-references and no assertions
+/// about what stands around, so patterns with these are refused, and its classes such as \w are ASCII.
+class ChannelPattern {
+ public:
+  /// An error says what is wrong with the pattern.
+  static Result<ChannelPattern> compile(std::string_view pattern);
+  ChannelPattern(ChannelPattern&&) noexcept;
+  ChannelPattern& operator=(ChannelPattern&&) noexcept;
+  ~ChannelPattern();
+
+  bool matches(std::string_view channel) const;
+  const std::string& text() const { return text_; }
+  /// Instructions of the compiled pattern: a match takes time in proportion to that and to the channel's length.
+  std::size_t size() const;
+
+ private:
+  ChannelPattern(std::string text, std::unique_ptr<re2::RE2> expression);
+  std::string text_;
+  std::unique_ptr<re2::RE2> expression_;
+};
 
 /// One connected program: its socket, what it has subscribed to and what waits for it. Nothing here waits.
 class Client {

@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "proto/channels.h"
-#include "proto/message_job.h"
+#include "proto/codec.h"
 #include "tests/contract/samples.h"
 #include "tests/support/good.h"
 

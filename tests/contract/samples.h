@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "proto/codec.h"
-#include "proto/message_layout.h"
 
 namespace shaken::proto::samples {
 

@@ -7,9 +7,7 @@
 #include <optional>
 
 #include "proto/relay/address.h"
-#include "proto/relay/channel_pattern.h"
 #include "proto/relay/client.h"
-#include "proto/relay/send_queue.h"
 #include "proto/relay/tcpq.h"
 #include "tests/support/good.h"
 

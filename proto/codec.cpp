@@ -1,6 +1,8 @@
-#include "proto/message_layout.h"
+#include "proto/codec.h"
 
 #include <algorithm>
+
+#include "proto/channels.h"
 
 namespace shaken::proto {
 namespace {
@@ -47,6 +49,17 @@ class Walker {
   std::size_t at_ = 0;
 };
 
+template <class T>
+std::optional<std::string> job_in(std::span<const std::uint8_t> payload) {
+  const std::optional<T> message = decode<T>(payload);
+  if (!message) return std::nullopt;
+  if constexpr (requires { message->job_id; }) {
+    return message->job_id;
+  } else {
+    return std::string();
+  }
+}
+
 }  // namespace
 
 std::optional<std::size_t> message_size(std::string_view layout, std::span<const std::uint8_t> payload) {
@@ -67,6 +80,18 @@ std::optional<std::size_t> message_size(std::string_view layout, std::span<const
   }
   if (!fits) return std::nullopt;
   return walker.position();
+}
+
+std::optional<std::string> job_of(std::string_view channel, std::span<const std::uint8_t> payload) {
+  if (channel == kStatusChannel) return job_in<status_t>(payload);
+  if (channel == kJobChannel) return job_in<job_t>(payload);
+  if (channel == kObservablesChannel) return job_in<observables_t>(payload);
+  if (channel == kFrameStaticChannel) return job_in<frame_static_t>(payload);
+  if (channel == kFrameChannel) return job_in<frame_t>(payload);
+  if (channel == kDefectsChannel) return job_in<defects_t>(payload);
+  if (channel == kPostsChannel) return job_in<posts_t>(payload);
+  if (channel == kSizesChannel) return job_in<sizes_t>(payload);
+  return std::nullopt;
 }
 
 }  // namespace shaken::proto
