@@ -20,7 +20,7 @@
 #include "base/failure.h"
 #include "base/files.h"
 #include "base/http/http_server.h"
-#include "base/memory_reserve.h"
+#include "base/memory.h"
 #include "base/process.h"
 #include "base/slurm_conf.h"
 #include "base/standard_streams.h"

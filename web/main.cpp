@@ -13,7 +13,7 @@
 
 #include "base/failure.h"
 #include "base/interrupt.h"
-#include "base/memory_reserve.h"
+#include "base/memory.h"
 #include "base/paths.h"
 #include "base/program.h"
 #include "run/files/version.h"

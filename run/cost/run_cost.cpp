@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/clock.h"
-#include "base/peak_memory.h"
+#include "base/memory.h"
 #include "base/scratch_folder.h"
 #include "proto/frame_codec.h"
 #include "run/live/messages.h"

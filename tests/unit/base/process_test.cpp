@@ -16,7 +16,7 @@
 
 #include "base/core/cgroup.h"
 #include "base/descriptor.h"
-#include "base/peak_memory.h"
+#include "base/memory.h"
 #include "base/processor.h"
 
 namespace shaken {
