@@ -151,6 +151,11 @@ std::string number_text(double value) {
   return fmt::format("{:.4g}", value);
 }
 
+double round_length(double length) {
+  const double power = std::pow(10.0, std::floor(std::log10(length)));
+  return length >= 5 * power ? 5 * power : length >= 2 * power ? 2 * power : power;
+}
+
 std::string counted(std::size_t n, std::string_view noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); }
 
 std::string bytes_text(double bytes) {

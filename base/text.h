@@ -34,6 +34,8 @@ std::string clock_text(double seconds, std::int64_t now_utime);
 std::string utc_now();
 /// Up to four significant digits: "0.9134", "2109", "1.2e+06".
 std::string number_text(double value);
+/// The longest of 1, 2, 5 times a power of ten that is at most `length`, for the bar of a scale.
+double round_length(double length);
 /// "1 run", "3 runs"
 std::string counted(std::size_t n, std::string_view noun);
 /// "3.2 MB"

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "analysis/order.h"
+#include "base/text.h"
 #include "render/camera.h"
 #include "render/colourings.h"
 #include "render/curve.h"
@@ -255,14 +256,6 @@ std::string species_text(const Cell& cell, const Frame& frame, std::size_t speci
   if (!cell.mean_of_species(species).has_axis()) return fmt::format("{} {}", n, n == 1 ? "sphere" : "spheres");
   const double order = analysis::nematic_order(std::span<const Vec3>(of_it)).order;
   return fmt::format("{} {}, S = {:.3f}", n, n == 1 ? "rod" : "rods", order);
-}
-
-double round_length(double length) {
-  const double power = std::pow(10.0, std::floor(std::log10(length)));
-  for (const double digit : {5.0, 2.0}) {
-    if (digit * power <= length) return digit * power;
-  }
-  return power;
 }
 
 std::string playback_text(double playback) {

@@ -30,7 +30,4 @@ void draw_time_bar(const Canvas& canvas, const Captions& captions, const Picture
 /// How fast a film plays, "1/10 speed", "6× speed", from simulated seconds per second; nothing if it is not known.
 std::string playback_text(double playback);
 
-/// The longest of 1, 2, 5 times a power of ten that is at most `length`.
-double round_length(double length);
-
 }  // namespace shaken::render

@@ -89,15 +89,6 @@ RodStyle rod_style(const WatchContent& content) {
           .shows_defects = content.steering.shows_defects};
 }
 
-/// A length of 1, 2 or 5 times a power of ten, not above `most`.
-double round_length(double most) {
-  const double power = std::pow(10, std::floor(std::log10(most)));
-  for (const double step : {5.0, 2.0}) {
-    if (step * power <= most) return step * power;
-  }
-  return power;
-}
-
 /// "├────┤ 5 mm", with a bar of at most so many columns.
 std::string scale_bar(double columns_per_mm, double columns) {
   const double length = round_length(columns / columns_per_mm);

@@ -214,5 +214,15 @@ TEST(ProgressLine, LogsGetALineNowAndThenOrNone) {
   EXPECT_EQ(never.str(), "done\n");
 }
 
+TEST(RoundLength, IsTheLongestOneTwoFive) {
+  EXPECT_DOUBLE_EQ(round_length(1), 1);
+  EXPECT_DOUBLE_EQ(round_length(1.99), 1);
+  EXPECT_DOUBLE_EQ(round_length(2), 2);
+  EXPECT_DOUBLE_EQ(round_length(4.9), 2);
+  EXPECT_DOUBLE_EQ(round_length(7), 5);
+  EXPECT_DOUBLE_EQ(round_length(37), 20);
+  EXPECT_DOUBLE_EQ(round_length(0.3), 0.2);
+}
+
 }  // namespace
 }  // namespace shaken

@@ -193,16 +193,6 @@ TEST(Overlay, EveryStyleCanBeDrawnWithoutRods) {
   }
 }
 
-TEST(RoundLength, IsTheLongestOneTwoFive) {
-  EXPECT_DOUBLE_EQ(round_length(1), 1);
-  EXPECT_DOUBLE_EQ(round_length(1.99), 1);
-  EXPECT_DOUBLE_EQ(round_length(2), 2);
-  EXPECT_DOUBLE_EQ(round_length(4.9), 2);
-  EXPECT_DOUBLE_EQ(round_length(7), 5);
-  EXPECT_DOUBLE_EQ(round_length(37), 20);
-  EXPECT_DOUBLE_EQ(round_length(0.3), 0.2);
-}
-
 TEST(Overlay, EachSpeciesIsShownWithItsNumberAndItsOrder) {
   RodPicture picture = empty_picture(kBox);
   picture.cell.shapes.push_back({{0}, {0.8}});
