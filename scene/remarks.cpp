@@ -85,8 +85,7 @@ std::optional<std::string> remark_on_posts(const System& system) {
   const double gap = apart - system.posts->diameter;
   if (gap > 2 * thinnest) return std::nullopt;
   return fmt::format(
-      "the posts leave gaps of at most {}, through which no rod gets: each stays between the posts where "
-      "it starts",
+      "the posts leave gaps of at most {}, through which no rod gets: each stays between the posts where it starts",
       format_quantity(gap, Dimension::kLength));
 }
 

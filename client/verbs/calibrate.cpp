@@ -9,8 +9,8 @@
 #include "client/verbs/verbs.h"
 #include "scene/canonical.h"
 #include "scene/keys/derived.h"
+#include "scene/keys/measured_species.h"
 #include "scene/load.h"
-#include "scene/rods_of_species.h"
 
 namespace shaken::client {
 namespace {

@@ -198,9 +198,8 @@ Field start_run() {
                 .expected = "the id of a run, 16 hex digits",
                 .fallback_note = "must be given",
                 .doc = "Id of the run whose rods are taken over, or that `shaken import` prints. It must have the same "
-                       "rods, shape of the box, "
-                       "plates, walls and posts; side and gap (without walls and posts), shaking, gravity, contacts, "
-                       "step and seed may differ."},
+                       "rods, shape of the box, plates, walls and posts; side and gap (without walls and posts), "
+                       "shaking, gravity, contacts, step and seed may differ."},
                at<&RunPlan::start, &StartState::run>);
 }
 

@@ -28,4 +28,7 @@ std::vector<Node> read_values(const Field& field, const Node& node, Room& room, 
 std::optional<int> read_count(std::string_view path, const Node& node, int low, int high,
                               std::vector<Problem>& problems);
 
+/// from (to / from)^share, with the same bits on every machine; both ends positive, `share` in [0, 1].
+double between_on_log_scale(double from, double to, double share);
+
 }  // namespace shaken::scene

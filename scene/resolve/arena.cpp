@@ -6,7 +6,7 @@
 #include <string>
 
 #include "scene/keys/derived.h"
-#include "scene/resolve/steps.h"
+#include "scene/resolve/resolution.h"
 #include "sim/rod/sizes.h"
 #include "sim/rod/species.h"
 

@@ -3,7 +3,7 @@
 #include <initializer_list>
 #include <optional>
 
-#include "scene/resolve/steps.h"
+#include "scene/resolve/resolution.h"
 
 namespace shaken::scene {
 

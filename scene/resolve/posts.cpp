@@ -8,7 +8,7 @@
 #include <string>
 
 #include "scene/keys/derived.h"
-#include "scene/resolve/steps.h"
+#include "scene/resolve/resolution.h"
 #include "sim/rod/species.h"
 
 namespace shaken::scene {

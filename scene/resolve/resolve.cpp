@@ -1,6 +1,6 @@
 #include "scene/resolve/resolve.h"
 
-#include "scene/resolve/steps.h"
+#include "scene/resolve/resolution.h"
 
 namespace shaken::scene {
 

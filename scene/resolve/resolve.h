@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/keys/draft.h"
+#include "scene/keys/keys.h"
 #include "scene/keys/run_plan.h"
 
 namespace shaken::scene {

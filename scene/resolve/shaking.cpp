@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "scene/keys/derived.h"
-#include "scene/resolve/steps.h"
+#include "scene/resolve/resolution.h"
 
 namespace shaken::scene {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/resolve/steps.h"
+#include "scene/resolve/resolution.h"
 #include "sim/rod/sizes.h"
 
 namespace shaken::scene {
@@ -56,8 +56,7 @@ void resolve_start_pattern(Resolution& scene) {
   const bool has_domains = system.start == Start::kPolydomain, has_defects = system.start == Start::kDefectPair;
   if (system.start_domains != System{}.start_domains && !has_domains) {
     scene.report({"rods.start_domains"},
-                 "only a polydomain start has domains: remove rods.start_domains, or set rods.start to "
-                 "\"polydomain\"");
+                 "only a polydomain start has domains: remove rods.start_domains, or set rods.start to \"polydomain\"");
   }
   if (scene.given("rods.start_separation") && !has_defects) {
     scene.report({"rods.start_separation"},

@@ -5,7 +5,7 @@
 
 #include "scene/keys/accuracy_levels.h"
 #include "scene/keys/derived.h"
-#include "scene/resolve/steps.h"
+#include "scene/resolve/resolution.h"
 #include "sim/rod/species.h"
 
 namespace shaken::scene {

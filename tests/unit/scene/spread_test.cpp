@@ -5,7 +5,7 @@
 
 #include "scene/canonical.h"
 #include "scene/keys/derived.h"
-#include "scene/rods_of_species.h"
+#include "scene/keys/measured_species.h"
 #include "sim/rod/sizes.h"
 #include "sim/rod/species.h"
 #include "sim/world.h"

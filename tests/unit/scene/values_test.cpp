@@ -6,7 +6,6 @@
 
 #include <cmath>
 
-#include "scene/keys/log_scale.h"
 #include "tests/unit/scene/scene_support.h"
 
 namespace shaken::scene {
