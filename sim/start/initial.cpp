@@ -15,8 +15,7 @@
 #include "sim/overlaps.h"
 #include "sim/start/director_patterns.h"
 #include "sim/start/placement.h"
-#include "sim/start/rows_along_x.h"
-#include "sim/start/turned_rows.h"
+#include "sim/start/rows.h"
 
 namespace shaken {
 namespace {

@@ -19,7 +19,7 @@ namespace shaken {
 ///           rods of l = 2.5 mm do not fit beyond area fraction 0.7, with it they fit to 0.9. Of all lattices with room
 ///           for n_rods the roomiest is taken; sites left over are vacancies at random places. Where none has, rows
 ///           shifted by other parts of a rod are tried, which wind around the periodic box several times. At an angle
-///           to x, any lattice that tiles the box will do (sim/start/turned_rows.h).
+///           to x, any lattice that tiles the box will do (TurnedRows).
 /// kRandom:  random places and directions one after the other (random sequential insertion); along `directors` if they
 ///           are given, with the head at either end.
 /// Compressed starts are not for this function, nor for make_world(): sim/start/compression.h makes them.

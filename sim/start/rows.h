@@ -2,12 +2,44 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "base/core/box.h"
+#include "base/core/types.h"
 #include "sim/rod/species.h"
-#include "sim/start/lattice.h"
+#include "sim/start/placement.h"
 
 namespace shaken {
+
+/// A lattice that tiles the periodic box: `columns` sites to a row along x, each row shifted against the one
+/// before by `turns` / `rows` of a column, so that the rows close in themselves. Each lattice of columns * rows sites
+/// that the box can have is one of these, with 0 <= turns < rows (Hermite's normal form of its basis).
+struct Lattice {
+  int columns = 0;
+  int rows = 0;
+  int turns = 0;
+  double clearance = 0;  ///< smallest of the gaps between rods [mm]
+  int sites() const { return columns * rows; }
+
+  /// Place of a site, 0 <= site < sites(), row by row [mm]; x may be beyond the box by less than its side.
+  Vec3 position(int site, const Box& box) const {
+    const int row = site / columns;
+    const int column = site % columns;
+    const auto shift = static_cast<double>(static_cast<long>(row) * turns % rows) / rows;
+    return {(column + 0.25 + shift) * (box.x() / columns), (row + 0.5) * (box.y() / rows), 0};
+  }
+};
+
+/// The roomiest lattice of rods along x with a usable site for every rod: rows of which every other one is shifted by
+/// half a column; where none has room, rows that are shifted by another part of a column, which wind around the
+/// periodic box several times. None if the rods do not fit.
+std::optional<Lattice> rows_along_x(const Placement& rods);
+
+/// The most rods for which rows_along_x() finds a lattice.
+int most_in_rows_along_x(const Placement& rods);
+
+/// Sites at which any rod is clear of side walls and posts, whichever way it lies along x.
+std::vector<int> usable_sites(const Lattice& lattice, const Placement& rods);
 
 /// Parallel rods at an angle to the sides of a periodic box. The box has to be tiled by the lattice of their
 /// centres alone: the rods may point anywhere, as long as those at neighbouring sites are apart. So the angle is met
