@@ -47,7 +47,6 @@ ALLOWED = {
     # drawing knows rods and fields; only the program's sources of frames know files and the bus
     "render/main.cpp": ["render", "base", "run/files"],
     "render/program": ["render", "base", "proto/bus.h"],
-    "render/interpolation.h": ["sim/cell.h", "sim/snapshot.h"],
     # plates are drawn where they are
     "render/sources.h": ["render", "run/files", "scene/keys/run_plan.h", "sim/motion/plates.h"],
     # what comes from the bus is held against what a scene allows

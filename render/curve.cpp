@@ -1,9 +1,12 @@
 #include "render/curve.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 namespace shaken::render {
+
 void draw_curve(const Canvas& canvas, const Rect& place, double unit, const Curve& curve, const PageColours& colours) {
   canvas.colour(colours.ink);
   const double size = 13 * unit;
@@ -83,6 +86,32 @@ void draw_curve(const Canvas& canvas, const Rect& place, double unit, const Curv
   canvas.colour(ink);
   cairo_arc(cr, x_of(curve.dot->x()), y_of(curve.dot->y()), 4 * unit, 0, 2 * kPi);
   cairo_fill(cr);
+}
+
+double tick_step(double span, int most, bool degrees) {
+  const double least = span / most;
+  if (degrees) {
+    for (const double step : {15.0, 30.0, 45.0}) {
+      if (step >= least) return step;
+    }
+    return 90;
+  }
+  const double power = std::pow(10.0, std::floor(std::log10(least)));
+  for (const double digit : {1.0, 2.0, 5.0}) {
+    if (digit * power >= least * (1 - 1e-9)) return digit * power;
+  }
+  return 10 * power;
+}
+
+std::vector<double> ticks(double low, double high, double step) {
+  std::vector<double> all;
+  const double first = std::ceil(low / step - 1e-9), last = std::floor(high / step + 1e-9);
+  for (double k = first; k <= last; ++k) all.push_back(k == 0 ? 0.0 : k * step);
+  return all;
+}
+
+std::string tick_text(double value, std::string_view unit) {
+  return fmt::format("{}{:.6g}{}", value < 0 ? "\u2212" : "", std::abs(value), unit);
 }
 
 }  // namespace shaken::render

@@ -7,7 +7,7 @@
 
 #include "analysis/angles.h"
 #include "render/colourings.h"
-#include "render/ticks.h"
+#include "render/curve.h"
 
 namespace shaken::render {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "render/colourings.h"
 #include "render/colours.h"
-#include "render/ticks.h"
+#include "render/curve.h"
 
 namespace shaken::render {
 namespace {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <condition_variable>
 #include <cstdio>
@@ -13,6 +14,8 @@
 #include <utility>
 #include <vector>
 
+#include "render/inset.h"
+#include "render/legend.h"
 #include "render/movie.h"
 #include "render/painter.h"
 #include "render/png.h"
@@ -143,6 +146,16 @@ class Output {
   bool is_raw_ = false;
 };
 
+constexpr std::size_t kLooks = 16;
+
+void reach(FilmAxes& axes, const RodPicture& picture, const PictureStyle& style) {
+  axes.share = std::max(axes.share, highest_bar(picture, style));
+  if (style.inset == Inset::kAngles) {
+    const Curve curve = angle_curve(picture);
+    axes.density = std::max(axes.density, *std::max_element(curve.y.begin(), curve.y.end()));
+  }
+}
+
 }  // namespace
 
 Result<void> check_movie_name(const std::string& out) {
@@ -179,6 +192,19 @@ Result<void> make_movie(const std::string& out, const PictureStyle& style, const
     SHAKEN_TRY(write_next());
   }
   return output.finish();
+}
+
+Result<FilmAxes> film_axes(std::size_t n_frames, const std::function<Result<RodPicture>(std::size_t)>& picture,
+                           const PictureStyle& style) {
+  FilmAxes axes;
+  if (!style.legend && style.inset != Inset::kAngles) return axes;
+  const std::size_t first = n_frames / 2, n_later = n_frames - first, n_looks = std::min(kLooks, n_later);
+  for (std::size_t k = 0; k < n_looks; ++k) {
+    const RodPicture rods = SHAKEN_TRY(picture(first + k * n_later / n_looks));
+    reach(axes, rods, style);
+    for (const RodPicture& beside : rods.beside) reach(axes, beside, style);
+  }
+  return axes;
 }
 
 }  // namespace shaken::render

@@ -1,10 +1,14 @@
 #include "render/painter.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "base/files.h"
 #include "render/canvas.h"
+#include "render/image.h"
 #include "render/legend.h"
 #include "render/notes.h"
 #include "render/overlay.h"
@@ -56,6 +60,102 @@ Result<void> check(const PictureStyle& style, const RodPicture& picture) {
   return {};
 }
 
+/// What a picture is made on: the ground, then rods pasted in, then what lies over them.
+template <class Channel>
+class Sheet;
+
+/// A sheet of 8 bits a colour: one canvas, drawn on in that order.
+template <>
+class Sheet<std::uint8_t> {
+ public:
+  Sheet(int width, int height, const Colour& page) : canvas_(width, height, page) {}
+  Canvas& under() { return canvas_; }
+  Canvas& over() { return canvas_; }
+  void paste(const Image& image, int x, int y, double opacity) { canvas_.paste(image, x, y, opacity); }
+  Result<void> check() const { return canvas_.check(); }
+  Image image() const { return canvas_.image(); }
+
+ private:
+  Canvas canvas_;
+};
+
+/// A sheet of 16 bits a colour. Cairo has 8: what it draws is put together with the rods in the end.
+template <>
+class Sheet<std::uint16_t> {
+ public:
+  Sheet(int width, int height, const Colour& page)
+      : under_(width, height, page), over_(Canvas::transparent(width, height)) {}
+  Canvas& under() { return under_; }
+  Canvas& over() { return over_; }
+  void paste(DeepImage image, int x, int y, double opacity) { pasted_.push_back({std::move(image), x, y, opacity}); }
+  Result<void> check() const {
+    auto done = under_.check();
+    return done ? over_.check() : done;
+  }
+  DeepImage image() const {
+    const Image ground = under_.image();
+    DeepImage image(ground.width, ground.height);
+    std::transform(ground.rgb.begin(), ground.rgb.end(), image.rgb.begin(),
+                   [](std::uint8_t value) { return static_cast<std::uint16_t>(value * 257); });
+    for (const Pasted& pasted : pasted_) {
+      const auto n = static_cast<std::size_t>(pasted.image.width) * 3;
+      for (int y = 0; y < pasted.image.height; ++y) {
+        const std::uint16_t* in = pasted.image.pixel(0, y);
+        std::uint16_t* out = image.pixel(pasted.x, pasted.y + y);
+        for (std::size_t i = 0; i < n; ++i) {
+          out[i] = static_cast<std::uint16_t>(std::lround(out[i] + pasted.opacity * (in[i] - out[i])));
+        }
+      }
+    }
+    over_.lay_over(image);
+    return image;
+  }
+
+ private:
+  struct Pasted {
+    DeepImage image;
+    int x, y;
+    double opacity;
+  };
+  Canvas under_, over_;
+  std::vector<Pasted> pasted_;
+};
+
+/// Ground and rods.
+template <class Channel>
+Result<void> paint_box(RodsPass& pass, Sheet<Channel>& sheet, const Layout& layout, const RodPicture& picture,
+                       const PictureStyle& style) {
+  if (style.rods < 1) draw_ground(sheet.under(), layout, picture, style);
+  if (style.rods <= 0) return {};
+  ImageOf<Channel> rods = SHAKEN_TRY(pass.draw<Channel>(picture, style, layout.box_side, layout.box_side));
+  sheet.paste(std::move(rods), layout.box_x, layout.box_y, style.rods);
+  return {};
+}
+
+template <class Channel>
+Result<void> paint_one(RodsPass& pass, Sheet<Channel>& sheet, const RodPicture& picture, const PictureStyle& style) {
+  const Layout layout = layout_for(picture, style);
+  if (style.view != ViewPoint::kTop) {
+    sheet.paste(SHAKEN_TRY(pass.draw<Channel>(picture, style, layout.stage_width, layout.stage_height)), 0, 0, 1);
+  } else if (auto done = paint_box(pass, sheet, layout, picture, style); !done) {
+    return done.error();
+  }
+  draw_overlay(sheet.over(), layout, picture, style);
+  return {};
+}
+
+template <class Channel>
+Result<void> paint_panels(RodsPass& pass, Sheet<Channel>& sheet, const RodPicture& picture, const PictureStyle& style) {
+  const PanelGrid grid = panel_grid(style, 1 + picture.beside.size());
+  for (std::size_t i = 0; i < grid.panels.size(); ++i) {
+    const RodPicture& one = panel_of(picture, i);
+    SHAKEN_TRY(paint_box(pass, sheet, grid.panels[i], one, style));
+    draw_panel_words(sheet.over(), grid.panels[i], one, style, !have_one_time(picture));
+  }
+  draw_footer(sheet.over(), grid, picture, style);
+  return {};
+}
+
 }  // namespace
 
 Result<Painter> Painter::create() { return Painter(SHAKEN_TRY(RodsPass::create())); }
@@ -66,7 +166,7 @@ Result<ImageOf<Channel>> Painter::paint(const RodPicture& picture, const Picture
   const PictureStyle drawn = drawable(style, picture);
   Sheet<Channel> sheet(drawn.width, drawn.height, ground_colours(drawn).page);
   const Result<void> done =
-      picture.beside.empty() ? paint_one(sheet, picture, drawn) : paint_panels(sheet, picture, drawn);
+      picture.beside.empty() ? paint_one(rods_, sheet, picture, drawn) : paint_panels(rods_, sheet, picture, drawn);
   if (!done) return done.error();
   draw_time_bar(sheet.over(), picture.captions, drawn);
   SHAKEN_TRY(sheet.check());
@@ -94,40 +194,6 @@ Result<ClearImage> Painter::paint_clear(const RodPicture& picture, PictureStyle 
     clear.rgba.push_back(static_cast<std::uint8_t>(opacity));
   }
   return clear;
-}
-
-template <class Channel>
-Result<void> Painter::paint_one(Sheet<Channel>& sheet, const RodPicture& picture, const PictureStyle& style) {
-  const Layout layout = layout_for(picture, style);
-  if (style.view != ViewPoint::kTop) {
-    sheet.paste(SHAKEN_TRY(rods_.draw<Channel>(picture, style, layout.stage_width, layout.stage_height)), 0, 0, 1);
-  } else if (auto done = paint_box(sheet, layout, picture, style); !done) {
-    return done.error();
-  }
-  draw_overlay(sheet.over(), layout, picture, style);
-  return {};
-}
-
-template <class Channel>
-Result<void> Painter::paint_box(Sheet<Channel>& sheet, const Layout& layout, const RodPicture& picture,
-                                const PictureStyle& style) {
-  if (style.rods < 1) draw_ground(sheet.under(), layout, picture, style);
-  if (style.rods <= 0) return {};
-  ImageOf<Channel> rods = SHAKEN_TRY(rods_.draw<Channel>(picture, style, layout.box_side, layout.box_side));
-  sheet.paste(std::move(rods), layout.box_x, layout.box_y, style.rods);
-  return {};
-}
-
-template <class Channel>
-Result<void> Painter::paint_panels(Sheet<Channel>& sheet, const RodPicture& picture, const PictureStyle& style) {
-  const PanelGrid grid = panel_grid(style, 1 + picture.beside.size());
-  for (std::size_t i = 0; i < grid.panels.size(); ++i) {
-    const RodPicture& one = panel_of(picture, i);
-    SHAKEN_TRY(paint_box(sheet, grid.panels[i], one, style));
-    draw_panel_words(sheet.over(), grid.panels[i], one, style, !have_one_time(picture));
-  }
-  draw_footer(sheet.over(), grid, picture, style);
-  return {};
 }
 
 Result<void> write_vector(const std::filesystem::path& file, const RodPicture& picture, const PictureStyle& asked) {

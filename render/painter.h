@@ -4,12 +4,9 @@
 #include <utility>
 
 #include "base/core/result.h"
-#include "render/canvas.h"
 #include "render/image.h"
 #include "render/picture.h"
-#include "render/picture_layout.h"
 #include "render/rods_pass.h"
-#include "render/sheet.h"
 #include "render/style.h"
 
 namespace shaken::render {
@@ -28,14 +25,6 @@ class Painter {
 
  private:
   explicit Painter(RodsPass rods) : rods_(std::move(rods)) {}
-  template <class Channel>
-  Result<void> paint_one(Sheet<Channel>& sheet, const RodPicture& picture, const PictureStyle& style);
-  template <class Channel>
-  Result<void> paint_panels(Sheet<Channel>& sheet, const RodPicture& picture, const PictureStyle& style);
-  /// Ground and rods.
-  template <class Channel>
-  Result<void> paint_box(Sheet<Channel>& sheet, const Layout& layout, const RodPicture& picture,
-                         const PictureStyle& style);
   RodsPass rods_;
 };
 

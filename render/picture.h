@@ -47,7 +47,7 @@ struct SweepMap {
 /// Key and value of what a file says of itself: "Run id", "Seed".
 using Notes = std::vector<std::pair<std::string, std::string>>;
 
-/// How high plots reach in a film, so that their axes stand still (render/film_axes.h); 0: as this picture needs.
+/// How high plots reach in a film, so that their axes stand still (film_axes); 0: as this picture needs.
 struct FilmAxes {
   double share = 0;    ///< of rods, the highest bar of the legend
   double density = 0;  ///< P(theta) [1/degree]

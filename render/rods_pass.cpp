@@ -10,7 +10,6 @@
 #include "render/colourings.h"
 #include "render/colours.h"
 #include "render/gl.h"
-#include "render/gl_program.h"
 #include "render/rod_batch.h"
 #include "render/rods_shaders.h"
 #include "render/view.h"
@@ -156,6 +155,9 @@ void set_scene(GLuint program, const Cell& cell, const Frame& frame, const Pictu
 }  // namespace
 
 struct RodsPass::Programs {
+  explicit Programs(GlContext made) : context(std::move(made)) {}
+
+  GlContext context;  // in which the others are made
   ProgramVariants plates{{shaders::kCamera, shaders::kStage}, {shaders::kFloor, shaders::kPlates}};
   ProgramVariants shadow{{shaders::kCamera, shaders::kShadowQuad}, {shaders::kFloor, shaders::kShadow}};
   ProgramVariants post{{shaders::kCamera, shaders::kPostQuad}, {shaders::kFloor, shaders::kPost}};
@@ -163,23 +165,22 @@ struct RodsPass::Programs {
   RodBuffer rods;
 };
 
-RodsPass::RodsPass(GlContext context, std::unique_ptr<Programs> programs)
-    : context_(std::move(context)), programs_(std::move(programs)) {}
+RodsPass::RodsPass(std::unique_ptr<Programs> programs) : programs_(std::move(programs)) {}
 RodsPass::RodsPass(RodsPass&&) noexcept = default;
 RodsPass& RodsPass::operator=(RodsPass&&) noexcept = default;
-RodsPass::~RodsPass() = default;  // the GL objects go with their context
+RodsPass::~RodsPass() = default;
 
 Result<RodsPass> RodsPass::create() {
   GlContext context = SHAKEN_TRY(GlContext::create());
   SHAKEN_TRY(context.bind(1, 1));
-  return RodsPass(std::move(context), std::make_unique<Programs>());
+  return RodsPass(std::make_unique<Programs>(std::move(context)));
 }
 
 template <class Channel>
 Result<ImageOf<Channel>> RodsPass::draw(const RodPicture& picture, const PictureStyle& style, int width, int height) {
   SHAKEN_TRY(check_drawable(picture, style, width, height));
   const Light& light = style.light;
-  SHAKEN_TRY(context_.bind<Channel>(width * light.samples, height * light.samples));
+  SHAKEN_TRY(programs_->context.bind<Channel>(width * light.samples, height * light.samples));
   const Camera camera = camera_of(picture, style, static_cast<double>(width) / height);
   std::string seen, lit;  // what has to be worked out of it
   if (camera.fades) seen += "#define FADES\n";
@@ -239,7 +240,7 @@ Result<ImageOf<Channel>> RodsPass::draw(const RodPicture& picture, const Picture
     draw_quads(seen_ones);
   }
 
-  const std::vector<Channel>& pixels = context_.finished_pixels<Channel>();
+  const std::vector<Channel>& pixels = programs_->context.finished_pixels<Channel>();
   if (const GLenum code = glGetError(); code != GL_NO_ERROR) {
     return Error{"OpenGL error " + std::to_string(code) + " while drawing " + std::to_string(picture.n_rods()) +
                  " rods"};

@@ -4,7 +4,6 @@
 
 #include "base/core/result.h"
 #include "render/camera.h"
-#include "render/gl_context.h"
 #include "render/image.h"
 #include "render/picture.h"
 #include "render/style.h"
@@ -35,8 +34,7 @@ class RodsPass {
 
  private:
   struct Programs;
-  RodsPass(GlContext context, std::unique_ptr<Programs> programs);
-  GlContext context_;
+  explicit RodsPass(std::unique_ptr<Programs> programs);
   std::unique_ptr<Programs> programs_;
 };
 

@@ -21,7 +21,6 @@
 #include "proto/frame_codec.h"
 #include "render/colourings.h"
 #include "render/headline.h"
-#include "render/interpolation.h"
 #include "run/files/directory.h"
 #include "run/files/foreign_file.h"
 #include "run/files/order_curve.h"
@@ -32,7 +31,6 @@
 #include "scene/load.h"
 
 namespace shaken::render {
-
 namespace {
 
 using Json = nlohmann::json;
@@ -75,6 +73,32 @@ Result<Notes> notes_of(const std::filesystem::path& file, const run::Provenance&
 }
 
 }  // namespace
+
+Snapshot between(const Snapshot& before, const Snapshot& after, double time, const Cell& cell) {
+  constexpr double kLeastCosine = 0.5;  // of a turn
+  const double share = (time - before.time) / (after.time - before.time);
+  Snapshot now = share < 0.5 ? before : after;
+  now.time = time;
+  for (std::size_t i = 0; i < now.n_rods(); ++i) {
+    const BeadRow& beads = cell.beads_of(i);
+    const Vec3 from = before.unwrapped(i), way = after.unwrapped(i) - from;
+    const Vec3& n = before.director[i];
+    Vec3 turned = after.director[i];
+    if (!beads.is_polar() && turned.dot(n) < 0) turned = -turned;
+    if (way.norm() > beads.length() || turned.dot(n) < kLeastCosine) continue;
+    Vec3 at = from + share * way;
+    for (int axis = 0; axis < 2; ++axis) {
+      if (!(cell.period()[axis] > 0)) continue;
+      const double image = std::floor(at[axis] / cell.box[axis]);
+      now.image[i][static_cast<std::size_t>(axis)] = static_cast<std::int32_t>(image);
+      at[axis] -= image * cell.box[axis];
+    }
+    now.position[i] = at;
+    now.director[i] = ((1 - share) * n + share * turned).normalized();
+    now.velocity[i] = (1 - share) * before.velocity[i] + share * after.velocity[i];
+  }
+  return now;
+}
 
 Result<TrajectorySource> TrajectorySource::open(const std::filesystem::path& run_or_file) {
   std::error_code ignored;
@@ -219,14 +243,10 @@ Result<std::vector<Vec2>> TrajectorySource::displacements(const Snapshot& now, s
         fmt::format("no displacements over {:g} s: frames are recorded every {:g} s", span, recorded - previous)};
   }
   const Snapshot before = SHAKEN_TRY(reader_.frame(past));
-  const auto unwrapped = [&](const Snapshot& frame, std::size_t i) -> Vec2 {
-    return frame.position[i].head<2>() +
-           reader_.header().cell.box.sides().cwiseProduct(Vec2(frame.image[i][0], frame.image[i][1]));
-  };
   std::vector<Vec2> ways(now.n_rods(), Vec2::Constant(std::numeric_limits<double>::quiet_NaN()));
   for (std::size_t i = 0; i < now.n_rods(); ++i) {
     const std::optional<std::size_t> then = before.rod_of(now.track_of(i));
-    if (then) ways[i] = unwrapped(now, i) - unwrapped(before, *then);
+    if (then) ways[i] = (now.unwrapped(i) - before.unwrapped(*then)).head<2>();
   }
   return ways;
 }

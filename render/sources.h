@@ -19,6 +19,12 @@
 
 namespace shaken::render {
 
+/// The rods at a time between two recorded frames of one run, for films that are slower than the recording: centres go
+/// straight from one place to the other, across borders too, and axes turn the shorter way; rods that are the same fore
+/// and aft by less than a right angle. A rod that comes farther than its length in between, or turns by more than 60
+/// degrees, has been hit too often for that: it stays as the nearer frame has it.
+Snapshot between(const Snapshot& before, const Snapshot& after, double time, const Cell& cell);
+
 /// The frames of a recorded run. For one thread at a time.
 class TrajectorySource {
  public:
@@ -51,8 +57,8 @@ class TrajectorySource {
   Result<void> follow(const FollowedDefect& defect, std::size_t first, std::size_t last);
   /// A frame with order, director and what the style asks for; with S up to its time if the history has been read.
   Result<RodPicture> picture(std::size_t index, const PictureStyle& style);
-  /// The same at any time [s]: of the nearest frame or, if the style interpolates, between two
-  /// (render/interpolation.h). Before the first frame and after the last one it is that frame's.
+  /// The same at any time [s]: of the nearest frame or, if the style interpolates, between() two. Before the first
+  /// frame and after the last one it is that frame's.
   Result<RodPicture> picture_at(double time, const PictureStyle& style);
 
  private:

@@ -15,7 +15,6 @@
 #include "base/stopwatch.h"
 #include "base/text.h"
 #include "render/colourings.h"
-#include "render/film_axes.h"
 #include "render/headline.h"
 #include "render/make_movie.h"
 #include "render/movie.h"

@@ -58,8 +58,7 @@ std::size_t frame_in(const Options& options, const Runs& runs, std::size_t n_fra
                       options.frame.find_first_not_of("0123456789") == std::string::npos;
   if (runs.are_several()) {
     throw Failure(ExitCode::kBadInput,
-                  "--frame takes a number for one run only: runs have frames at different times; "
-                  "use --time");
+                  "--frame takes a number for one run only: runs have frames at different times; use --time");
   }
   if (!digits || std::stoul(options.frame) >= n_frames) {
     throw Failure(ExitCode::kBadInput,

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "render/headline.h"
 #include "render/program/options.h"
 #include "render/sources.h"
-#include "render/sweep_map.h"
 
 namespace shaken::render {
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "render/colours.h"
 #include "render/rods_pass.h"
 #include "tests/unit/render/render_support.h"
 

@@ -4,9 +4,10 @@
 
 #include <algorithm>
 
-#include "render/film_axes.h"
+#include "render/headline.h"
 #include "render/legend.h"
-#include "render/sweep_map.h"
+#include "render/make_movie.h"
+#include "render/picture_layout.h"
 #include "tests/unit/render/render_support.h"
 
 namespace shaken::render {

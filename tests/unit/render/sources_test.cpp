@@ -10,7 +10,6 @@
 #include "proto/cell_codec.h"
 #include "proto/frame_codec.h"
 #include "render/headline.h"
-#include "render/interpolation.h"
 #include "render/view.h"
 #include "run/files/directory.h"
 #include "run/files/frame_log.h"
@@ -157,6 +156,7 @@ TEST(Headlines, OfRunsSideBySideSayWhatDiffers) {
 TEST(Interpolation, GoesAcrossTheBorderAndHitsEitherFrame) {
   const RodPicture rods = empty_picture(10);
   Snapshot before, after;
+  before.box = after.box = rods.cell.box;
   before.position = {Vec3(9.8, 5, 0.6)};
   after.position = {Vec3(0.2, 4.6, 0.7)};
   before.image = {{0, 3}};
