@@ -59,7 +59,7 @@ ALLOWED = {
     # films are encoded by the program ffmpeg
     "render/movie.cpp": ["render", "base"],
     "render": ["base/files.h", "base/keys", "base/palettes.h", "base/picture_limits.h", "base/text.h", "sim/cell.h",
-               "analysis"],
+               "sim/snapshot.h", "analysis"],
     "proto/relay": ["proto", "base"],
     "server": ["proto", "proto/relay", "base/http", "base", "scene", "run/files"],
     # the options of pictures are the keys of styles

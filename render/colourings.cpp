@@ -63,9 +63,7 @@ double density(const RodPicture& picture, std::size_t rod) {
 
 double species(const RodPicture& picture, std::size_t rod) { return static_cast<double>(picture.cell.species_of(rod)); }
 
-double number(const RodPicture& picture, std::size_t rod) {
-  return static_cast<double>(picture.frame.number.empty() ? rod : picture.frame.number[rod]);
-}
+double number(const RodPicture& picture, std::size_t rod) { return static_cast<double>(picture.frame.track_of(rod)); }
 
 // The colours.
 

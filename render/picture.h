@@ -13,6 +13,7 @@
 #include "base/core/result.h"
 #include "base/core/types.h"
 #include "sim/cell.h"
+#include "sim/snapshot.h"
 
 namespace shaken::render {
 
@@ -53,18 +54,12 @@ struct FilmAxes {
   double density = 0;  ///< P(theta) [1/degree]
 };
 
-/// Rods and plates at one instant.
-struct Frame {
-  double time = 0;  ///< [s]
+/// Rods and plates at one instant: of the rods at least where they are and where they point; the velocities are empty
+/// where they are not known.
+struct Frame : Snapshot {
   double base = 0;  ///< height of the base [mm]; rods' heights are counted as it is, from its lowest point
   bool has_lid = true;
   std::optional<double> lid{};  ///< height of the lid, where it is not the gap above the base [mm]
-  std::vector<Vec3> position;   ///< (n_rods) centres [mm]
-  std::vector<Vec3> director;   ///< (n_rods) unit vectors, to the head
-  std::vector<Vec3> velocity;   ///< (n_rods) [mm/s]; empty where it is not known
-  /// (n_rods) the number of each rod, rising, of rods that were tracked and may be missed; else empty: 0, 1, ...
-  std::vector<std::uint32_t> number{};
-
   /// (n_rods) how far each rod's centre has come within some time, across borders too [mm]; empty unless asked for.
   std::vector<Vec2> displacement;
 };

@@ -176,7 +176,7 @@ std::vector<double> TrajectorySource::orders(double first, double last) const {
 Result<RodPicture> TrajectorySource::bare_picture(const Snapshot& frame, Asked asked) const {
   RodPicture picture;
   picture.cell = reader_.header().cell;
-  picture.frame.time = frame.time;
+  static_cast<Snapshot&>(picture.frame) = frame;
   if (plan_) {
     const System& system = plan_->system;
     const PlateState plates = plates_->at(frame.tick);
@@ -187,10 +187,6 @@ Result<RodPicture> TrajectorySource::bare_picture(const Snapshot& frame, Asked a
     asked.smoothing = defects.smoothing;
     asked.grid = defects.grid;
   }
-  picture.frame.position = frame.position;
-  picture.frame.director = frame.director;
-  picture.frame.velocity = frame.velocity;
-  picture.frame.number = frame.track;
   SHAKEN_TRY(check_sizes(file_.string() + " has", picture, asked));
   const bool was_tracked = !reader_.header().lacking.empty();  // whose scene has other plates than the experiment
   const std::optional<double> gamma = plan_ && !was_tracked ? scene::gamma_of(plan_->system) : std::nullopt;

@@ -41,13 +41,7 @@ View view_of(const RodPicture& picture, const PictureStyle& style) {
 
 std::optional<std::size_t> followed_rod(const Frame& frame, const PictureStyle& style) {
   if (!style.followed) return std::nullopt;
-  auto rod = static_cast<std::size_t>(*style.followed);
-  if (!frame.number.empty()) {
-    const auto place = std::ranges::lower_bound(frame.number, rod);
-    if (place == frame.number.end() || *place != rod) return std::nullopt;  // it is missed
-    rod = static_cast<std::size_t>(place - frame.number.begin());
-  }
-  return rod < frame.position.size() ? std::optional(rod) : std::nullopt;
+  return frame.rod_of(static_cast<std::size_t>(*style.followed));
 }
 
 bool is_in_view(const RodPicture& picture, const PictureStyle& style, const Vec2& point) {
