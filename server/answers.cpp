@@ -68,6 +68,19 @@ Json parameters(const Job& job) {
   return json.is_object() ? json : Json::object();
 }
 
+/// Bytes at the end of `text` that begin a UTF-8 character without ending it.
+std::size_t torn_tail(const std::string& text) {
+  for (std::size_t back = 1; back <= 3 && back <= text.size(); ++back) {
+    const auto byte = static_cast<unsigned char>(text[text.size() - back]);
+    if (byte < 0x80) return 0;
+    if (byte < 0xC0) continue;   // inside a character
+    if (byte >= 0xF8) return 0;  // no UTF-8 at all
+    const std::size_t length = byte >= 0xF0 ? 4 : byte >= 0xE0 ? 3 : 2;
+    return length > back ? back : 0;
+  }
+  return 0;
+}
+
 }  // namespace
 
 std::string reason_of(const Job& job, const std::filesystem::path& runs) {
@@ -197,5 +210,13 @@ Json counts_report(const JobCounts& counts) {
 }
 
 std::string to_text(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+LogSlice read_slice(const std::filesystem::path& file, std::int64_t offset, std::int64_t limit) {
+  const Result<std::string> part = read_part(file, offset, static_cast<std::size_t>(limit));
+  std::string text = part ? *part : "";
+  const std::size_t torn = torn_tail(text);
+  if (torn < text.size()) text.erase(text.size() - torn);  // a tail alone is not UTF-8 and would never grow whole
+  return {text, offset + static_cast<std::int64_t>(text.size())};
+}
 
 }  // namespace shaken::server

@@ -44,4 +44,14 @@ Json counts_report(const JobCounts& counts);
 /// Text for an answer: what is not UTF-8 in it (the end of a log, say) is replaced.
 std::string to_text(const Json& json);
 
+/// A piece of a growing text file.
+struct LogSlice {
+  std::string text;
+  std::int64_t next = 0;  ///< the offset to ask for next [bytes]
+};
+
+/// At most `limit` bytes from `offset` on, ending between two UTF-8 characters. Empty if the file cannot be read
+/// or ends before `offset`.
+LogSlice read_slice(const std::filesystem::path& file, std::int64_t offset, std::int64_t limit);
+
 }  // namespace shaken::server

@@ -10,8 +10,8 @@
 #include "base/keys/nearest.h"
 #include "base/text.h"
 #include "run/files/directory.h"
+#include "server/answers.h"
 #include "server/cleaning.h"
-#include "server/log_slice.h"
 #include "server/submission.h"
 
 namespace shaken::server {

@@ -7,7 +7,7 @@
 #include <csignal>
 
 #include "run/files/progress.h"
-#include "server/log_slice.h"
+#include "server/answers.h"
 #include "tests/unit/server/server_support.h"
 
 namespace shaken::server {

@@ -9,7 +9,7 @@
 
 #include "base/slurm_conf.h"
 #include "server/slurm/batch.h"
-#include "server/slurm/command.h"
+#include "server/slurm/slurm_call.h"
 #include "server/slurm/squeue.h"
 #include "tests/support/good.h"
 #include "tests/unit/server/server_support.h"
