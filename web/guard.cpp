@@ -3,6 +3,8 @@
 #include <sys/random.h>
 
 #include <array>
+#include <stdexcept>
+#include <utility>
 
 #include "base/descriptor.h"
 
@@ -12,6 +14,8 @@ namespace {
 bool is_open(const std::string& path) {
   return path == "/" || path == "/chart.js" || path.starts_with("/page/") || path.starts_with("/tickets/");
 }
+
+constexpr std::chrono::minutes kTicketLasts{1};
 
 }  // namespace
 
@@ -71,6 +75,23 @@ std::optional<http::TurnedAway> Guard::stop(const http::Request& head) const {
   return http::TurnedAway{401,
                           "open the address that `shaken web` prints: it ends in #token=... and changes whenever "
                           "the page's program is started"};
+}
+
+std::string Tickets::give(const std::string& path, const std::multimap<std::string, std::string>& query) {
+  Result<std::string> ticket = make_token();
+  if (!ticket) throw std::runtime_error(ticket.error().message);
+  const std::lock_guard lock(mutex_);
+  const Clock::time_point now = now_();
+  std::erase_if(given_, [&](const auto& entry) { return entry.second.end < now; });
+  given_[*ticket] = {{.method = "GET", .path = path, .query = query, .body = ""}, now + kTicketLasts};
+  return *ticket;
+}
+
+std::optional<http::Request> Tickets::take(const std::string& ticket) {
+  const std::lock_guard lock(mutex_);
+  auto node = given_.extract(ticket);
+  if (node.empty() || node.mapped().end < now_()) return std::nullopt;
+  return std::move(node.mapped().request);
 }
 
 }  // namespace shaken::web

@@ -1,8 +1,13 @@
 #pragma once
 
+#include <chrono>
+#include <functional>
+#include <map>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "base/core/result.h"
 #include "base/http/http_server.h"
@@ -27,7 +32,7 @@ class Guard {
   ///   for localhost browsers may ask [::1] first, where another user can listen;
   /// - come from this page, or from no page, if it changes something (403);
   /// - carry "Authorization: Bearer TOKEN" (401), but for the page's own files, which anybody may read, and for what a
-  ///   ticket (web/tickets.h) has been given for.
+  ///   ticket has been given for.
   std::optional<http::TurnedAway> stop(const http::Request& head) const;
 
   /// The headers of every answer, refusals too: nothing but what is served here is loaded, run or asked; text that came
@@ -42,6 +47,28 @@ class Guard {
 
   std::string token_;
   int port_;
+};
+
+/// Leave to fetch one thing once, within a minute, without the token: a browser that saves a file sends no header of
+/// the page's. May be asked from many threads at once.
+class Tickets {
+ public:
+  using Clock = std::chrono::steady_clock;
+  explicit Tickets(std::function<Clock::time_point()> now = Clock::now) : now_(std::move(now)) {}
+
+  /// The ticket for GET of `path` with `query`. Throws std::runtime_error if the system has no random numbers.
+  std::string give(const std::string& path, const std::multimap<std::string, std::string>& query);
+  /// What a ticket is for, the first time within its minute.
+  std::optional<http::Request> take(const std::string& ticket);
+
+ private:
+  struct Given {
+    http::Request request;
+    Clock::time_point end;
+  };
+  std::function<Clock::time_point()> now_;
+  std::mutex mutex_;
+  std::map<std::string, Given> given_;
 };
 
 }  // namespace shaken::web

@@ -18,7 +18,7 @@
 #include "base/program.h"
 #include "run/files/version.h"
 #include "web/guard.h"
-#include "web/read_run.h"
+#include "web/run_reader.h"
 #include "web/served_page.h"
 #include "web/site.h"
 

@@ -14,9 +14,9 @@
 
 namespace shaken::web {
 
-/// Has recorded runs read by other processes (`shaken-web read`, web/read_run.h), one for each question: HDF5 does not
-/// survive every damaged file, and with some it comes to no end. A run whose file does that is read no more for a
-/// minute, and keeps nobody who asks for another run. May be asked from many threads at once.
+/// Has recorded runs read by other processes (`shaken-web read`), one for each question: HDF5 does not survive every
+/// damaged file, and with some it comes to no end. A run whose file does that is read no more for a minute, and keeps
+/// nobody who asks for another run. May be asked from many threads at once.
 class RunReader {
  public:
   static constexpr std::chrono::seconds kLimit{20};
@@ -48,5 +48,13 @@ class RunReader {
   std::set<std::string> busy_;  ///< runs that are being read
   std::map<std::filesystem::path, Bad> bad_;
 };
+
+/// `shaken-web read DIR QUESTION...`: what one run directory holds, for RunReader. DIR is the run's; its files are
+/// taken for whole. The question is one of
+/// - `frames`: {"n", "first_s", "last_s"}
+/// - `frame K`: the bytes of web/packed_frame.h
+/// - `curves NAME...`: {"names", "curves"} of observables.h5, with the values of those that are named
+/// The answer goes to stdout. Returns the exit code: 0, or 1 with the reason on stdout in place of the answer.
+int read_run_command(int argc, char** argv);
 
 }  // namespace shaken::web

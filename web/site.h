@@ -12,10 +12,10 @@
 #include "base/http/http_server.h"
 #include "base/process.h"
 #include "web/daemon_link.h"
+#include "web/guard.h"
 #include "web/live_feed.h"
 #include "web/queue_feed.h"
 #include "web/run_reader.h"
-#include "web/tickets.h"
 
 namespace shaken::web {
 

@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "web/tickets.h"
-
 namespace shaken::web {
 namespace {
 
