@@ -11,7 +11,7 @@
 
 #include "base/job_state.h"
 #include "client/live/json.h"
-#include "client/live/mean_order.h"
+#include "client/live/target.h"
 
 namespace shaken::client {
 

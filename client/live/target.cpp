@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/failure.h"
+#include "base/files.h"
 #include "base/text.h"
 #include "run/files/directory.h"
 
@@ -66,9 +67,8 @@ Json find_job(ApiClient& session, const std::string& id) {
   const std::vector<Json> jobs = jobs_of(find_target(session, id));
   if (jobs.size() == 1) return jobs.front();  // a sweep of one job is as clear as the job itself
   throw Failure(ExitCode::kBadInput,
-                fmt::format("'{}' is a sweep of {} jobs, and this needs one job: `shaken status {}` "
-                            "lists them",
-                            id, jobs.size(), id));
+                fmt::format("'{}' is a sweep of {} jobs, and this needs one job: `shaken status {}` lists them", id,
+                            jobs.size(), id));
 }
 
 void refresh(ApiClient& session, Target& target) { target.answer = session.get(target.path); }
@@ -124,6 +124,17 @@ std::string limits_text(const Json& job) {
         fmt::format("{}{} of {} used", text.empty() ? "" : "; ", duration_text(seconds("wall_s")), duration_text(hard));
   }
   return text;
+}
+
+std::optional<MeanOrder> mean_order(const Json& job) {
+  if (text_of(job, "state") != "done") return std::nullopt;
+  const auto text = read_file(run::RunDirectory{text_of(job, "directory")}.summary());
+  const Json summary = text ? Json::parse(*text, nullptr, false) : Json();
+  const Json::json_pointer mean("/order/mean");
+  if (!summary.is_object() || !summary.contains(mean) || !summary.at(mean).is_number()) return std::nullopt;
+  const Json steady = summary.value("steady", Json(true));  // a summary that does not say is of no present version
+  return MeanOrder{summary.at(mean).get<double>(),
+                   steadiness_of(steady.is_boolean() ? std::optional(steady.get<bool>()) : std::nullopt)};
 }
 
 int count_of(const Json& counts, bool (*are_so)(JobState)) {

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/job_state.h"
+#include "base/steadiness.h"
 #include "client/live/api_client.h"
 #include "client/live/json.h"
 
@@ -58,6 +60,16 @@ int number_of(const Json& object, const char* key);
 /// The time limits of a job, and how much of them is used: "gives way after 10 min; 12 min of 2 h 00 min used"; empty
 /// if it has none.
 std::string limits_text(const Json& job);
+
+/// Mean S of a run that is done, and of what kind of time it is.
+struct MeanOrder {
+  double value = 0;
+  Steadiness steadiness = Steadiness::kSteady;
+};
+
+/// That of a JOB object of the API, from the summary in its directory; none if the job is not done or its summary has
+/// no mean S.
+std::optional<MeanOrder> mean_order(const Json& job);
 
 /// Jobs in the states that are so, of {state: n}.
 int count_of(const Json& counts, bool (*are_so)(JobState));

@@ -54,9 +54,7 @@ class Init : public Verb {
     }
     done_or_fail(write_file_atomically(file_, starter_scene()));
     context.console.out << fmt::format(
-        "{0}: next `shaken validate {0}`, then `shaken run {0} --out runs/first` or "
-        "`shaken submit {0}`\n",
-        file_);
+        "{0}: next `shaken validate {0}`, then `shaken run {0} --out runs/first` or `shaken submit {0}`\n", file_);
     return ExitCode::kOk;
   }
 

@@ -16,14 +16,11 @@ std::unique_ptr<Verb> make_results() {
        "  shaken results s3 --columns job,order.mean,theta_m_deg\n"
        "  shaken results s3 --csv > order.csv          every field of every summary: the names for --columns\n"
        "Quote conditions, so that the shell does not interpret < > ( ). --where takes and, or, not, ( ), and = != < "
-       "<= > "
-       ">= with\n"
+       "<= > >= with\n"
        "any key of the scene or number of the summary to their left: `--csv` shows their names. A comparison is "
-       "false\n"
-       "for runs that lack the name.\n"
+       "false\nfor runs that lack the name.\n"
        "A value marked ~ is of a run that is still relaxing, one marked ? of a run that is not known to be steady:\n"
-       "run them longer. With --aggregate, (2) behind a mean says that only 2 runs have a "
-       "value."},
+       "run them longer. With --aggregate, (2) behind a mean says that only 2 runs have a value."},
       [](Arguments& arguments) {
         arguments.optional("ID", "A sweep (id or name), a job, or a folder of runs; the newest sweep if left out",
                            Names::kRun);

@@ -21,8 +21,7 @@ class Run : public Verb {
             "  shaken run scene.json --out runs/first        goes on from the last checkpoint\n"
             "  shaken plot runs/first && shaken movie runs/first",
             "0 done, 1 failed, 2 bad input, 97 no room on the disk, 98 an error of the system that may "
-            "pass, 99 stopped by Ctrl-C or a signal; after these the same "
-            "command goes on from a checkpoint"};
+            "pass, 99 stopped by Ctrl-C or a signal; after these the same command goes on from a checkpoint"};
   }
 
   void declare(Arguments& arguments) override {

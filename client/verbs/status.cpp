@@ -9,7 +9,6 @@
 #include "base/steadiness.h"
 #include "base/table.h"
 #include "base/text.h"
-#include "client/live/mean_order.h"
 #include "client/live/target.h"
 #include "client/verbs/verbs.h"
 

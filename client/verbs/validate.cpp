@@ -25,8 +25,7 @@ class Validate : public Verb {
             "  shaken validate scene.json --json         problems, or what follows, for programs\n"
             "\nMEMORY is that of the measurements at their peak; more than the machine has is refused.\n"
             "The rods are placed, to see whether they fit. A remark is of what is allowed but hardly meant; the exit "
-            "code is "
-            "0 all the same."};
+            "code is 0 all the same."};
   }
 
   void declare(Arguments& arguments) override {
