@@ -4,7 +4,7 @@
 
 #include "base/clock.h"
 #include "base/scratch_folder.h"
-#include "bench/work.h"
+#include "bench/rates.h"
 
 namespace shaken::bench {
 namespace {
