@@ -20,13 +20,13 @@ constexpr int kPartKept = 8;
 /// 1: 0.5 and 0.2 % more; 8: 0.3 % more, and 0.1 % less.
 constexpr int kLeastKept = 3;
 
-/// A pair whose bound lasts less than this is searched when it comes up [ticks].
-/// 1: 0.2 and 0.1 % more; 8: 0.3 % less at both, with 1 % more searches and bounds.
-constexpr int kWorthDeferring = 3;
-
 /// A shortened bound of this many ticks is worth keeping, and so is one half as long as before.
 /// 5: 0.1 and 0.0 % more; 60: 0.2 and 0.0 % more.
 constexpr int kFewTicks = 20;
+
+/// When a bound is shortened, the rod that has spent more gets this part of the budget. It is likely to spend more
+/// again, as a rod at rest does, which the base hits at every tick.
+constexpr float kPartOfSpender = 0.85F;
 
 void count(std::vector<std::int16_t>& counts, const PairRods& rods, bool up) {
   for (const int i : rods) counts[i] = static_cast<std::int16_t>(counts[i] + (up ? 1 : -1));
@@ -73,9 +73,10 @@ void PairSchedule::remove(int p) {
 
 /// What remains of a bound.
 struct PairSchedule::Remaining {
-  int ticks;   ///< for which it holds
-  float gap;   ///< now [mm]
-  float rate;  ///< at which it closes [mm/s]
+  int ticks;                   ///< for which it holds
+  float gap;                   ///< now [mm]
+  float rate;                  ///< at which it closes [mm/s]
+  float part_of_first = 0.5F;  ///< of what hits may spend, that of the pair's first rod
 };
 
 void PairSchedule::set_bound(int p, Tick now, int ticks, const Direction& direction, const GapBound& gap) {
@@ -110,26 +111,30 @@ void PairSchedule::set_budgets(int p, Tick now, const Remaining& bound) {
       bound.gap - bound.rate * (static_cast<float>(waits) * dt_) - margins::rounding_of_gap(bound.gap);
   pair.end = static_cast<std::int32_t>(now + bound.ticks);
   pair.until = static_cast<std::int32_t>(until);
-  for (std::size_t r = 0; r < 2; ++r)
-    budgets_.set(pair.rods[r], pair.lanes[r], 0.5F * std::max(0.0F, gap_at_until), 0.5F * bound.rate, until);
+  for (std::size_t r = 0; r < 2; ++r) {
+    const float part = r == 0 ? bound.part_of_first : 1.0F - bound.part_of_first;
+    budgets_.set(pair.rods[r], pair.lanes[r], part * std::max(0.0F, gap_at_until), 0.5F * bound.rate, until);
+  }
   set_due(p, until + 1);
 }
 
 PairSchedule::Remaining PairSchedule::remaining(int p, Tick now) const {
   const Pair& pair = pairs_[p];
-  if ((pair.marks & kSurvivesHits) == 0) return {0, 0, 0};
+  const int most = ticks_to(pair.end, now);
+  if ((pair.marks & kSurvivesHits) == 0 || most < 0) return {0, 0, 0};
   float rate = 0;
-  float budgets = 0;
+  std::array<float, 2> budgets;
   for (std::size_t r = 0; r < 2; ++r) {
     rate += budgets_.rate(pair.rods[r], pair.lanes[r]);
-    budgets += budgets_.remaining(pair.rods[r], pair.lanes[r]);
+    budgets[r] = budgets_.remaining(pair.rods[r], pair.lanes[r]);
   }
+  const float budget = budgets[0] + budgets[1];
   const float more_now = rate * (static_cast<float>(ticks_to(pair.until, now)) * dt_);
-  const float gap = budgets + more_now - margins::kCancelled * (std::abs(budgets) + std::abs(more_now));
-  const int most = std::max(0, ticks_to(pair.end, now));
+  const float gap = budget + more_now - margins::kCancelled * (std::abs(budget) + std::abs(more_now));
   if (!(gap > 0.0F)) return {0, 0, 0};
-  if (rate * (static_cast<float>(most) * dt_) <= gap) return {most, gap, rate};
-  return {static_cast<int>(gap / (rate * dt_) * (1.0F - margins::kTime)), gap, rate};
+  const float part = budgets[0] < budgets[1] ? kPartOfSpender : 1.0F - kPartOfSpender;
+  if (rate * (static_cast<float>(most) * dt_) <= gap) return {most, gap, rate, part};
+  return {static_cast<int>(gap / (rate * dt_) * (1.0F - margins::kTime)), gap, rate, part};
 }
 
 bool PairSchedule::shorten_bound(int p, Tick now) {
@@ -140,13 +145,7 @@ bool PairSchedule::shorten_bound(int p, Tick now) {
   return true;
 }
 
-bool PairSchedule::defer(int p, Tick now) {
-  if ((pairs_[p].marks & kSurvivesHits) == 0 || ticks_to(pairs_[p].end, now) < kWorthDeferring) return false;  // most
-  const Remaining bound = remaining(p, now);
-  if (bound.ticks < kWorthDeferring) return false;
-  set_budgets(p, now, bound);
-  return true;
-}
+bool PairSchedule::is_apart(int p, Tick now) const { return !is_touching(p) && remaining(p, now).gap > 0.0F; }
 
 void PairSchedule::toggle_touching(int p) {
   pairs_[p].marks ^= kTouching;

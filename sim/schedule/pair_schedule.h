@@ -16,8 +16,8 @@ using PairRods = std::array<int, 2>;
 /// When each pair of the neighbour list is to be searched for contacts, under the numbers that the list gives them.
 ///
 /// A pair comes up somewhat before its bound ends, so that a part of its gap becomes a budget for the hits on its
-/// rods (GapBudgets). If much of the bound's time remains by then, the pair is deferred; if hits overspend the budget
-/// before, its bound is shortened. Neither needs more than a few operations.
+/// rods (GapBudgets). If the bound holds by then, the pair needs a new one, but no search; if hits overspend the budget
+/// before, the bound is shortened, which needs few operations.
 class PairSchedule {
  public:
   /// For rods that move in ticks of `dt` [s].
@@ -46,8 +46,8 @@ class PairSchedule {
   }
   /// Makes the bound of an overspent pair as much shorter as the hits since require. False where a new bound is better.
   bool shorten_bound(int p, Tick now);
-  /// Puts a pair that has come up at `now` off, if enough of its bound's time remains. False if it is to be searched.
-  bool defer(int p, Tick now);
+  /// Whether the bound of a pair that has come up at `now` still holds: the rods cannot touch in this tick.
+  bool is_apart(int p, Tick now) const;
 
   /// Beads overlapped at the last search for contacts.
   bool is_touching(int p) const { return (pairs_[p].marks & kTouching) != 0; }

@@ -90,7 +90,7 @@ class DetectionPhase {
   std::size_t bytes() const { return heap_bytes(contacts_, may_change_); }
 
  private:
-  /// Lists the pairs that come up and are not deferred, behind those that the first tick has gained.
+  /// Lists the pairs that come up and may touch, behind those that the first tick has gained.
   void list_due(Tick now, Share& share) {
     std::vector<int>& pairs = share.searched;
     const std::ptrdiff_t n_gained = std::ssize(pairs);
@@ -98,9 +98,14 @@ class DetectionPhase {
     const auto up = pairs.begin() + n_gained;
     for (auto p = up; p != pairs.end(); ++p) pairs_.prefetch(*p);
     for (auto p = up; p != pairs.end(); ++p) pairs_.prefetch_bound(*p);
-    const auto due = std::remove_if(up, pairs.end(), [&](int p) { return pairs_.defer(p, now); });
-    share.counts.count(WorkKind::kPairsDeferred, pairs.end() - due);
-    pairs.erase(due, pairs.end());
+    share.apart.clear();
+    const auto cannot_touch = [&](int p) {
+      const bool is_apart = pairs_.is_apart(p, now);
+      if (is_apart) share.apart.push_back(p);
+      return is_apart;
+    };
+    pairs.erase(std::remove_if(up, pairs.end(), cannot_touch), pairs.end());
+    share.counts.count(WorkKind::kPairsApart, std::ssize(share.apart));
     for (const int p : pairs) {
       pairs_.set_searched(p, now);
       for (const int i : pairs_.rods(p)) prefetch(rods_.marks[i]);

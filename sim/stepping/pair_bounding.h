@@ -16,19 +16,25 @@ class PairBounding {
   PairBounding(const PairSearch& search, PairSchedule& pairs, RodStates& rods, SharedLoops<Share>& loops)
       : search_(search), pairs_(pairs), rods_(rods), loops_(loops), flight_bounds_(rods.marks.size()) {}
 
-  /// Lists the share's pairs that were searched, and shortens the bounds of, or lists, those that are overspent. Not in
+  /// Lists the share's pairs that came up, and shortens the bounds of, or lists, those that are overspent. Not in
   /// the loop that spends budgets, which writes those of one rod, where this one writes those of both rods of a pair.
   void shorten(Tick now, Share& share) {
     share.polled_pairs.clear();
+    // one that has been lost, or is another's by now, is not listed
+    const auto is_own = [&](int p) {
+      return pairs_.is_used(p) && static_cast<std::size_t>(pairs_.owner(p)) == share.number;
+    };
     for (const int p : share.searched) {
-      // one that has been lost, or is another's by now, is not listed
-      if (!pairs_.is_used(p) || static_cast<std::size_t>(pairs_.owner(p)) != share.number) continue;
+      if (!is_own(p)) continue;
       if (rods_.rules.rest.matters() && pairs_.keeps_touching(p)) {
         pairs_.poll(p, now);  // rods at rest touch in every tick: a bound would be of no use
         pairs_.list(p, share.polled_pairs);
       } else {
         pairs_.list(p, share.to_bound);
       }
+    }
+    for (const int p : share.apart) {
+      if (is_own(p)) pairs_.list(p, share.to_bound);
     }
     share.counts.count(WorkKind::kBoundsWhenDue, std::ssize(share.to_bound));
     std::int64_t n_shortened = 0;

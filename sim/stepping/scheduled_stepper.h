@@ -29,13 +29,13 @@ namespace shaken {
 ///          |      tick:  now                 until       end
 ///          |              |--------------------|----------|
 ///          |              sleeps               the last part is kept back: what the gap still is at `until`
-///          v                                   is shared by the two rods as their BUDGETS, half each (GapBudgets)
+///          v                                   is shared by the two rods as their BUDGETS (GapBudgets)
 ///        ASLEEP -- a hit on one of its rods spends a part of that rod's budget
 ///          |   '-- budget overspent --> SHORTEN: the time that remains follows from the gap, the rate and all hits
 ///          v                            since; if it is too short to be worth it, a new BOUND is made
 ///        COMES UP at `until` + 1
-///          |-- some ticks of the bound remain --> DEFER: back to sleep, with new budgets
-///          '-- none worth it                  --> SEARCH
+///          |-- the bound holds still --> BOUND: the rods cannot touch yet, so nothing is searched
+///          '-- it has ended          --> SEARCH
 ///
 /// A tick. Every rod and every pair belongs to a share (Share), and each share may have a thread of its own. Loops
 /// marked || run on all shares at once, each on what belongs to it; the first thread alone does those marked 1, which
@@ -47,7 +47,7 @@ namespace shaken {
 ///                   1  gather                          visited                      counters of the world, trouble
 ///     2 detection   1  NeighborUpkeep::place_rods      to_place                     places in the neighbour list
 ///                   || find_near                       to_place                     near
-///                      DetectionPhase::search_due      pairs' wheel, hit            searched, contacts, toggled
+///                      DetectionPhase::search_due      pairs' wheel, hit            searched, apart, contacts, toggled
 ///                   1  gather                          contacts, toggled            contacts of all
 ///                      NeighborUpkeep::replace_pairs   to_place, near               pairs gained and lost
 ///                      search_gained, search_touching  hit                          contacts in the order of response
@@ -56,7 +56,7 @@ namespace shaken {
 ///                   || begin_flights                   hit                          new flights, jumps
 ///                      spend_budgets                   hit, jumps                   overspent, by the pairs' owners
 ///       bounds         SurfacesPhase::schedule         visited, to_schedule         rods' wheel, polled
-///                   || PairBounding::shorten           searched, overspent          pairs' wheel, to_bound
+///                   || PairBounding::shorten           searched, apart, overspent   pairs' wheel, to_bound
 ///                      bound_flights                   to_bound                     flight bounds (each once: claim)
 ///                   || schedule                        to_bound                     pairs' wheel, new budgets
 class ScheduledStepper final : public Stepper {

@@ -22,6 +22,7 @@ struct alignas(64) Share {
   std::vector<int> to_place;                ///< rods whose skin budget is used up: their pairs are to be found anew
   std::vector<int> failed;                  ///< rods whose motion after the surfaces is numerical trouble
   std::vector<int> searched;                ///< pairs searched for contacts, and those gained: all need a bound
+  std::vector<int> apart;                   ///< pairs that came up but cannot touch yet: they need a bound only
   std::vector<int> to_schedule;             ///< rods that need a bound on the time to the next surface
   std::vector<std::vector<int>> overspent;  ///< (n_shares) pairs of each share whose budgets hits overspent
   std::vector<int> to_bound;                ///< pairs that need a bound
@@ -45,11 +46,13 @@ struct alignas(64) Share {
   std::vector<int> to_pose;  ///< rods, for detection too
 
   bool has_pairs() const {
-    return !searched.empty() || std::ranges::any_of(overspent, [](const auto& pairs) { return !pairs.empty(); });
+    return !searched.empty() || !apart.empty() ||
+           std::ranges::any_of(overspent, [](const auto& pairs) { return !pairs.empty(); });
   }
   std::size_t bytes() const {
-    std::size_t bytes = heap_bytes(visited, hit, to_place, failed, searched, to_schedule, overspent, to_bound, polled,
-                                   near, near_end, contacts, toggled, beads, polled_pairs, to_bound_flight, to_pose);
+    std::size_t bytes =
+        heap_bytes(visited, hit, to_place, failed, searched, apart, to_schedule, overspent, to_bound, polled, near,
+                   near_end, contacts, toggled, beads, polled_pairs, to_bound_flight, to_pose);
     for (const std::vector<int>& pairs : overspent) bytes += heap_bytes(pairs);
     return bytes;
   }

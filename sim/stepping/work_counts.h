@@ -17,16 +17,16 @@ enum class WorkKind {
   kPairsTouching,    ///< of these, with overlapping beads
   kVelocityJumps,    ///< hits on rods, spent from the budgets of their pairs
   kBoundsShortened,  ///< bounds that were kept, shorter, although hits had used up what they were allowed
-  kPairsDeferred,    ///< came up with much of the bound's time to come, and were not searched
+  kPairsApart,       ///< came up while their bounds held, and were not searched
   kPairsBounded,     ///< new bounds on the time to contact
-  kBoundsWhenDue,    ///< of these, after a search; the others because a rod was hit
+  kBoundsWhenDue,    ///< of these, of pairs that came up; the others because a rod was hit
   kBoundsByBeads,    ///< of these, for which beads were looked at
   kBoundsOfNoTick,   ///< of these, too short to save a visit at the next tick
 };
 inline constexpr std::size_t kWorkKinds = 14;
 inline constexpr std::array<const char*, kWorkKinds> kWorkNames{
     "rods_visited",   "rods_hit",        "rods_polled",     "rods_bounded",     "rods_placed",
-    "pairs_searched", "pairs_touching",  "velocity_jumps",  "bounds_shortened", "pairs_deferred",
+    "pairs_searched", "pairs_touching",  "velocity_jumps",  "bounds_shortened", "pairs_apart",
     "pairs_bounded",  "bounds_when_due", "bounds_by_beads", "bounds_of_no_tick"};
 
 /// How often a stepper has done each since it was made.

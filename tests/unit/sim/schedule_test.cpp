@@ -24,7 +24,6 @@ struct Approach {
   static constexpr float kClosing = kGap / (kTicks * static_cast<float>(kDt));  ///< 10 mm/s
 
   PairSchedule table{2, kDt};
-  int n_looks = 0;
 
   Approach() {
     table.make_room(1);
@@ -39,26 +38,52 @@ struct Approach {
     table.spend(rod, change, kStart + after, [&](int p) { holds = table.shorten_bound(p, kStart + after); });
     return holds;
   }
-  /// Ticks after the start at which the pair comes up and does not wait on.
-  Tick wait(Tick from = 0) {
+  /// Ticks after the start at which the pair comes up,
+  Tick comes_up(Tick from = 0) {
     std::vector<int> up;
-    for (Tick now = kStart + from + 1; now < kStart + 2 * kTicks; ++now) {
-      up.clear();
-      table.wheel().pop(now, up);
-      if (up.empty()) continue;
-      ++n_looks;
-      if (!table.defer(0, now)) return now - kStart;
-    }
-    return -1;
+    Tick now = kStart + from;
+    while (up.empty() && now < kStart + 2 * kTicks) table.wheel().pop(++now, up);
+    return now - kStart;
+  }
+  /// and at which its bound does not hold any more.
+  Tick ends(Tick from = 0) {
+    Tick now = kStart + comes_up(from);
+    while (table.is_apart(0, now)) ++now;
+    return now - kStart;
   }
 };
 
-TEST(PairSchedule, APairWaitsUpToTheEndOfItsBoundInFewLooks) {
+TEST(PairSchedule, APairComesUpWhileABudgetRemainsAndIsApartUntilItsBoundEnds) {
   Approach approach;
-  const Tick searched = approach.wait();
-  EXPECT_LE(searched, Approach::kTicks + 1);
-  EXPECT_GE(searched, Approach::kTicks - 8);
-  EXPECT_LE(approach.n_looks, 8);
+  const Tick end = approach.ends();
+  EXPECT_LE(end, Approach::kTicks + 1);
+  EXPECT_GE(end, Approach::kTicks - 8);
+  EXPECT_EQ(Approach().comes_up(), Approach::kTicks - GapBudgets::kMostBeyond + 1);
+}
+
+TEST(PairSchedule, ATouchingPairIsNotApart) {
+  Approach approach;
+  const Tick up = Approach::kStart + approach.comes_up();
+  EXPECT_TRUE(approach.table.is_apart(0, up));
+  approach.table.toggle_touching(0);
+  EXPECT_FALSE(approach.table.is_apart(0, up));
+}
+
+// A rod at rest is hit at every tick: of the budget it gets the larger part once its bound has been shortened.
+TEST(PairSchedule, TheRodThatSpendsGetsTheBudget) {
+  const auto hits_until_overspent = [](int first, int then) {
+    Approach approach;
+    int overspent = 0, n_hits = 0;
+    const auto hit = [&](int rod) {
+      const VelocityJump change({rod == 0 ? 0.05 : -0.05, 0, 0}, Vec3::Zero(), 0, 0, 1);
+      approach.table.spend(rod, change, Approach::kStart + 100, [&](int) { ++overspent; });
+    };
+    while (overspent == 0) hit(first);
+    EXPECT_TRUE(approach.table.shorten_bound(0, Approach::kStart + 100));
+    while (overspent == 1) hit(then), ++n_hits;
+    return n_hits;
+  };
+  for (const int rod : {0, 1}) EXPECT_GT(hits_until_overspent(rod, rod), 3 * hits_until_overspent(rod, 1 - rod));
 }
 
 TEST(PairSchedule, AHitThatClosesTheGapFasterEndsTheBoundInTime) {
@@ -66,9 +91,9 @@ TEST(PairSchedule, AHitThatClosesTheGapFasterEndsTheBoundInTime) {
     Approach approach;
     // 0.08 mm are left, which close at 40 mm/s
     EXPECT_TRUE(approach.hit(rod, rod == 0 ? 30 : -30, 500));
-    const Tick searched = approach.wait(500);
-    EXPECT_LE(searched, 500 + 500 + 1);
-    EXPECT_GE(searched, 500 + 500 - 10);
+    const Tick end = approach.ends(500);
+    EXPECT_LE(end, 500 + 500 + 1);
+    EXPECT_GE(end, 500 + 500 - 10);
   }
 }
 
@@ -76,19 +101,19 @@ TEST(PairSchedule, ManySmallHitsTakeTheirTime) {
   Approach approach;
   for (Tick after = 1; after <= 400; ++after) EXPECT_TRUE(approach.hit(0, 0.01, after));
   // on average the gap closed at 12 mm/s for 1.6 ms, and closes at 14 mm/s from then on
-  const Tick searched = approach.wait(400);
   const double end = 400 + (0.1 - 12 * 400 * kDt) / (14 * kDt);
-  EXPECT_LE(static_cast<double>(searched), end + 1);
-  EXPECT_GE(static_cast<double>(searched), 0.98 * end);
+  const auto found = static_cast<double>(approach.ends(400));
+  EXPECT_LE(found, end + 1);
+  EXPECT_GE(found, 0.98 * end);
 }
 
 TEST(PairSchedule, WhatOpensTheGapMakesNoBoundLonger) {
   Approach approach;
   EXPECT_TRUE(approach.hit(0, -8, 500));
   EXPECT_TRUE(approach.hit(1, 5, 600));
-  const Tick searched = approach.wait(600);
-  EXPECT_LE(searched, Approach::kTicks + 1);
-  EXPECT_GE(searched, Approach::kTicks - 8);
+  const Tick end = approach.ends(600);
+  EXPECT_LE(end, Approach::kTicks + 1);
+  EXPECT_GE(end, Approach::kTicks - 8);
 }
 
 TEST(PairSchedule, AHitThatLeavesLittleTimeAsksForANewBound) {
@@ -100,14 +125,14 @@ TEST(PairSchedule, ABoundWithoutALineEndsWithTheFirstHit) {
   Approach approach;
   approach.table.set_bound(0, Approach::kStart, 100, kAlongX, {});
   EXPECT_FALSE(approach.hit(1, -1e-6, 50));
-  EXPECT_EQ(approach.wait(), 101);
+  EXPECT_EQ(approach.ends(), 101);
 }
 
 TEST(PairSchedule, APairThatIsSearchedAgainAsksForNothing) {
   Approach approach;
   approach.table.poll(0, Approach::kStart + 7);
   EXPECT_TRUE(approach.hit(0, 1000, 7));
-  EXPECT_EQ(approach.wait(7), 8);
+  EXPECT_EQ(approach.ends(7), 8);
 }
 
 /// Who owns an item may change while it is not in.
@@ -184,7 +209,7 @@ TEST(WorkCounts, AddUp) {
   EXPECT_GE(of(WorkKind::kVelocityJumps), of(WorkKind::kRodsHit));
   EXPECT_GT(of(WorkKind::kBoundsShortened), 0);
   EXPECT_LT(of(WorkKind::kBoundsShortened), 3 * of(WorkKind::kVelocityJumps));
-  EXPECT_GT(of(WorkKind::kPairsDeferred), 0);
+  EXPECT_GT(of(WorkKind::kPairsApart), 0);
 }
 
 TEST(WorkCounts, OfThreadsAreAdded) {
