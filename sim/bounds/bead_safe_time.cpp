@@ -1,6 +1,7 @@
 #include "sim/bounds/bead_safe_time.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "sim/bounds/margins.h"
 
@@ -126,7 +127,7 @@ struct OverlapKernel {
     const F foot = -(x.x * in.n_j[0] + x.y * in.n_j[1] + x.z * in.n_j[2]);
     const F radius = lanes::load<W>(i.radius.data() + bead) + in.gap_margin;
     const F across2 = across_squared(x, foot);
-    if (lanes::least(gap_to_hull(j, radius, foot, across2)) > 0.0F) return {};
+    if (lanes::not_above_zero(gap_to_hull(j, radius, foot, across2)) == 0) return {};
     const F before = bead_before(j, foot);
     const Untried<F> untried(j, foot);
     const F cut = lanes::not_below_zero(radius + untried.radius);
@@ -137,11 +138,9 @@ struct OverlapKernel {
       const F touch = lanes::not_below_zero(radius + hull_radius(j, s_j));
       clear = lanes::smaller(clear, lanes::dot(r, r) - touch * touch);
     }
-    if (lanes::least(clear) > 0.0F) return {};
-    BeadRange beads{bead, bead + W};
-    while (clear[beads.from - bead] > 0.0F) ++beads.from;
-    while (clear[beads.to - 1 - bead] > 0.0F) --beads.to;
-    return beads;
+    const std::uint32_t meet = lanes::not_above_zero(clear);
+    if (meet == 0) return {};
+    return {bead + std::countr_zero(meet), bead + 32 - std::countl_zero(meet)};
   }
 };
 
@@ -245,7 +244,7 @@ struct SafeTimeKernel {
       const F gap_times_distance = gap * distance;
       const F closing = lanes::not_below_zero(curvature * horizon * distance - rate);
       least_gap = lanes::smaller(least_gap, gap);
-      if (lanes::least(gap) > 0.0F) {
+      if (lanes::not_above_zero(gap) == 0) {
         safe.take_smaller(gap_times_distance, closing);
       } else {
         const auto apart = gap > 0.0F;

@@ -2,6 +2,12 @@
 
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
+
+#if defined(__x86_64__) && !defined(__clang__)
+#include <immintrin.h>
+#define SHAKEN_X86_BUILTINS 1
+#endif
 
 /// Floats that are computed with several at a time, in the compiler's own vectors, and the choice of how many: one
 /// program runs on any x86-64 and uses what the machine has. For bounds and filters, whose results decide where to look
@@ -51,12 +57,27 @@ SHAKEN_INLINE void store(float* to, const F& x) {
 template <class F>
 inline constexpr int width = sizeof(F) / sizeof(float);
 
+template <class F, int W>
+inline constexpr bool are_floats = std::is_same_v<F, Floats<W>>;
+
+// g++ 12 compares and blends, or joins lanes one by one, where the machine has an instruction that gives the same.
+
 template <class F>
 SHAKEN_INLINE F larger(const F& a, const F& b) {
+#ifdef SHAKEN_X86_BUILTINS
+  if constexpr (are_floats<F, 16>) return __builtin_ia32_maxps512_mask(a, b, F{}, -1, 4);
+  if constexpr (are_floats<F, 8>) return __builtin_ia32_maxps256(a, b);
+  if constexpr (are_floats<F, 4>) return __builtin_ia32_maxps(a, b);
+#endif
   return a > b ? a : b;
 }
 template <class F>
 SHAKEN_INLINE F smaller(const F& a, const F& b) {
+#ifdef SHAKEN_X86_BUILTINS
+  if constexpr (are_floats<F, 16>) return __builtin_ia32_minps512_mask(a, b, F{}, -1, 4);
+  if constexpr (are_floats<F, 8>) return __builtin_ia32_minps256(a, b);
+  if constexpr (are_floats<F, 4>) return __builtin_ia32_minps(a, b);
+#endif
   return a < b ? a : b;
 }
 template <class F>
@@ -115,14 +136,6 @@ struct Smaller {
     return smaller(a, b);
   }
 };
-struct Sum {
-  template <class F>
-  SHAKEN_INLINE static F of(const F& a, const F& b) {
-    return a + b;
-  }
-};
-alignas(64) inline constexpr float kBits[kLanes] = {0x1p0, 0x1p1, 0x1p2,  0x1p3,  0x1p4,  0x1p5,  0x1p6,  0x1p7,
-                                                    0x1p8, 0x1p9, 0x1p10, 0x1p11, 0x1p12, 0x1p13, 0x1p14, 0x1p15};
 }  // namespace detail
 /// The least of all lanes.
 template <class F>
@@ -132,8 +145,22 @@ SHAKEN_INLINE float least(const F& x) {
 /// A bit for each lane, the first one lowest: whether it is below zero.
 template <class F>
 SHAKEN_INLINE std::uint32_t below_zero(const F& x) {
-  const F bits = load<width<F>>(detail::kBits);
-  return static_cast<std::uint32_t>(static_cast<std::int32_t>(detail::joined<detail::Sum>(x < 0.0F ? bits : F{})));
+#ifdef SHAKEN_X86_BUILTINS
+  constexpr int kLess = 17;  // false for NaN
+  if constexpr (are_floats<F, 16>) {
+    return static_cast<std::uint16_t>(__builtin_ia32_cmpps512_mask(x, F{}, kLess, -1, 4));
+  }
+  if constexpr (are_floats<F, 8>) return __builtin_ia32_movmskps256(reinterpret_cast<F>(x < 0.0F));
+  if constexpr (are_floats<F, 4>) return __builtin_ia32_movmskps(reinterpret_cast<F>(x < 0.0F));
+#endif
+  std::uint32_t bits = 0;
+  for (int l = 0; l < width<F>; ++l) bits |= (x[l] < 0.0F ? 1U : 0U) << l;
+  return bits;
+}
+/// The same, whether it is not above zero.
+template <class F>
+SHAKEN_INLINE std::uint32_t not_above_zero(const F& x) {
+  return below_zero(F(-x)) ^ ((1U << width<F>)-1U);
 }
 
 /// Three components.
