@@ -107,6 +107,19 @@ std::filesystem::path sibling_program(const std::string& name) {
   return error ? std::filesystem::path(name) : self.parent_path() / name;
 }
 
+void go_on_as_wide_build([[maybe_unused]] char** argv) {
+#if defined(__x86_64__)
+  __builtin_cpu_init();
+  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma") || !__builtin_cpu_supports("bmi") ||
+      !__builtin_cpu_supports("bmi2")) {
+    return;
+  }
+  std::error_code error;
+  const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (!error) execv((self.string() + "-wide").c_str(), argv);  // of which there is no wide build
+#endif
+}
+
 std::string ProcessEnd::text() const {
   return signal != 0 ? "was ended by signal " + std::to_string(signal)
                      : "failed with exit code " + std::to_string(exit_code);

@@ -20,6 +20,10 @@ namespace shaken {
 /// The program `name` that was installed beside this one; `name` alone where this one cannot tell its own place.
 std::filesystem::path sibling_program(const std::string& name);
 
+/// Goes on as the program NAME-wide beside this one, NAME, if it is there and this processor has what it needs
+/// (packaging/cmake/Options.cmake); returns otherwise. The first thing that `main` does.
+void go_on_as_wide_build(char** argv);
+
 /// How a child process ended.
 struct ProcessEnd {
   int exit_code = 0;  ///< 0 if a signal ended it

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "base/keys/nearest.h"
+#include "base/process.h"
 #include "base/program.h"
 #include "bench/bench.h"
 #include "run/files/version.h"
@@ -30,6 +31,7 @@ std::string problem_text(const CLI::App& app, const CLI::ParseError& problem) {
 int main(int argc, char** argv) {
   using namespace shaken;
   using namespace shaken::bench;
+  go_on_as_wide_build(argv);
   Program app("shaken-bench", "Measures Shaken.", kFooter);
   app.set_version_flag("--version", std::string("shaken-bench ") + run::version());
   app.require_subcommand(1);

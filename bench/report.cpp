@@ -92,8 +92,19 @@ std::string csv(const Json& rows) {
   return text;
 }
 
+namespace {
+
+/// What this program was compiled with; the wide build's simulator has more (packaging/cmake/Options.cmake).
+std::string flags() {
+  std::error_code error;
+  const bool is_wide = std::filesystem::read_symlink("/proc/self/exe", error).string().ends_with("-wide");
+  return is_wide ? SHAKEN_BENCH_FLAGS "; simulator: " SHAKEN_WIDE_FLAGS : SHAKEN_BENCH_FLAGS;
+}
+
+}  // namespace
+
 std::string this_machine() {
-  return fmt::format("{}, {} cores; {}; {}", cpu_name(), allowed_cores(), run::compiler(), SHAKEN_BENCH_FLAGS);
+  return fmt::format("{}, {} cores; {}; {}", cpu_name(), allowed_cores(), run::compiler(), flags());
 }
 
 Report::Report(std::string file_name, const std::string& bench)
@@ -101,10 +112,7 @@ Report::Report(std::string file_name, const std::string& bench)
       json{{"bench", bench},
            {"version", run::version()},
            {"machine",
-            {{"cpu", cpu_name()},
-             {"cores", allowed_cores()},
-             {"compiler", run::compiler()},
-             {"flags", SHAKEN_BENCH_FLAGS}}},
+            {{"cpu", cpu_name()}, {"cores", allowed_cores()}, {"compiler", run::compiler()}, {"flags", flags()}}},
            {"rows", Json::array()}},
       text(fmt::format("shaken {} on {}\n", run::version(), this_machine())) {}
 

@@ -16,6 +16,7 @@
 
 #include "base/failure.h"
 #include "base/files.h"
+#include "base/process.h"
 #include "base/program.h"
 #include "base/progress_line.h"
 #include "base/terminal.h"
@@ -288,6 +289,7 @@ void describe(CLI::App& app, WorkerOptions& options) {
 
 int main(int argc, char** argv) {
   using namespace shaken;
+  go_on_as_wide_build(argv);
   // A frame's buffers come and go. Given back to the system each time, they cost a short run half of its CPU time. With
   // a threshold for the heap's end that for blocks of their own is 128 kB for ever, unless it is said, too.
   mallopt(M_TRIM_THRESHOLD, 64 << 20);

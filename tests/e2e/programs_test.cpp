@@ -32,6 +32,15 @@ TEST(EveryProgram, EndsWithItsOwnCodeWhereNobodyCanBeToldWhy) {
   for (const auto& [command, code] : commands) EXPECT_EQ(shell(command + " 2>/dev/full").code, code) << command;
 }
 
+// /bin/echo says what it was started with.
+TEST(Worker, GoesOnAsTheWideBuildBesideItWhereTheProcessorCan) {
+  const ScratchFolder folder;
+  const std::string copy = "cd " + folder.path().string() + "; cp $(command -v shaken-worker) .; ";
+  EXPECT_THAT(shell(copy + "./shaken-worker --version").output, HasSubstr("shaken-worker "));
+  const bool can = shell("grep -qw avx2 /proc/cpuinfo && grep -qw bmi2 /proc/cpuinfo").code == 0;
+  EXPECT_THAT(shell(copy + "ln -s /bin/echo shaken-worker-wide; ./shaken-worker wide 2>&1").output == "wide\n", can);
+}
+
 // Its log takes the last words of a worker, too; a run that is done is done without them.
 TEST(Worker, DoesNotFailForALastWordThatItsLogHasNoRoomFor) {
   const ScratchFolder folder;
