@@ -81,8 +81,8 @@ def nearest(word: str, known: Iterable[str], otherwise: Sequence[str] = ()) -> s
 class UnknownName(ShakenError, KeyError):
     """A name that nothing has, with the nearest that there is."""
 
-    def __init__(self, said: str, name: str, known: Iterable[str], of: str = "there are") -> None:
+    def __init__(self, said: str, name: object, known: Iterable[str], of: str = "there are") -> None:
         names = list(known)
-        super().__init__(f"{said}{nearest(name, names)} ({of} {', '.join(names) or 'none'})")
+        super().__init__(f"{said}{nearest(str(name), names)} ({of} {', '.join(names) or 'none'})")
 
     __str__ = Exception.__str__  # a KeyError's is that of its repr

@@ -119,7 +119,7 @@ class Arrays(Mapping[str, Array]):
         self._known: dict[str, Array] = {}
 
     def __getitem__(self, name: str) -> Array:
-        path = name if name.startswith("/") else "/" + name
+        path = "/" + str(name).removeprefix("/")
         if path not in self._names:
             raise UnknownName(f"{path} was not measured", path, self._names, "the run has")
         return self._fetch(path)
@@ -242,7 +242,7 @@ class Run:
         return value
 
     def __getitem__(self, name: str) -> Any:
-        return self.arrays[name] if "/" in name else self.numbers[name]
+        return self.arrays[name] if "/" in str(name) else self.numbers[name]
 
     def __contains__(self, name: str) -> bool:
         return ("/" + name.lstrip("/") in self.arrays) if "/" in name else name in self.numbers

@@ -67,6 +67,8 @@ def test_what_nothing_has_is_an_error_with_what_there_is(tmp_path):
                       (lambda: sweep.compared(sweep, "rods.length"), "'rods.length' was measured at no point"),
                       (lambda: sweep.pivot("length", "fraction"), "'fraction' is no key"),
                       (lambda: sweep[0]["T"], "'T' was not measured at"),
+                      (lambda: list(sweep[0]), "'0' was not measured at"),  # a point is no list of runs
+                      (lambda: sweep[0].runs[0][0], "/?0'? was not measured"),
                       (lambda: sweep[0].key("rod.length"), "no 'rod.length'; did you mean rods"),
                       (lambda: sweep[0].runs[0]["/order/oder"], "/order/oder was not measured")):
         with pytest.raises(shaken.ShakenError, match=said):
