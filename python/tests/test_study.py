@@ -26,7 +26,7 @@ from shaken.study.app import main
 from shaken.study.evidence import Evidence
 from shaken.study.figures import FIGURES
 from shaken.study.material import defects_of
-from shaken.study.report import phases, sections, with_sections
+from shaken.study.report import sections, with_sections
 from shaken.study.statements import STATEMENTS, of_figures
 
 SOURCE = Path(__file__).resolve().parents[2]
@@ -341,16 +341,10 @@ def test_sections_are_replaced_between_their_marks():
 def test_every_mark_of_the_pages_is_a_section():
     known = sections(Evidence([]))
     pages = [str(path.relative_to(SOURCE)) for path in (SOURCE / "docs" / "validation").iterdir()]
-    for page in ("README.md", "docs/validation.md", "docs/accuracy.md", "docs/findings.md", *pages):
+    for page in ("docs/validation.md", "docs/accuracy.md", "docs/findings.md", *pages):
         text = (SOURCE / page).read_text()
         again = with_sections(text, {name: lambda: "" for name in known}, page)
         assert again != text, f"{page} has sections that are drawn"
-
-
-def test_the_phase_diagram_stands_beside_the_papers_words():
-    lines = phases(Evidence([])).splitlines()
-    said = {statement.id: statement.says for statement in STATEMENTS}
-    assert lines[2:] == [f"| {said[name]} | – | no data |" for name in ("ordered", "disordered", "short", "transition")]
 
 
 def _timed_run(step: float, numbers: dict[str, Estimate], cpu: float = 3600.0, time: float = 100.0) -> SimpleNamespace:

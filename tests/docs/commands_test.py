@@ -6,7 +6,8 @@
 SOURCE is the source tree, BIN the folder of the programs. The commands are those of the pages' indented blocks that
 begin with a program of Shaken. They are typed as they stand, but for what SHORTENED says: lengths of runs, and names
 that stand for something ("JOB"). A command of the docs is either typed or listed in LEFT_OUT with the reason; one that
-is neither, and an entry that fits none, fails the test. Without SHAKEN_NIGHT, those of README.md are typed and no others.
+is neither, and an entry that fits none, fails the test. Without SHAKEN_NIGHT, those of README.md and docs/commands.md
+are typed and no others.
 """
 import os
 import re
@@ -22,8 +23,8 @@ SOURCE, BIN = Path(sys.argv[1]), Path(sys.argv[2])
 HAS_NETWORK = os.environ.get("SHAKEN_OWN_NETWORK") == "1"
 PROGRAM = re.compile(r"(shaken|shakend|shaken-[a-z]+) ")
 
-# Of README's block: each must fit once.
-README_SHORTENED = [
+# Of the block of docs/commands.md: each must fit once.
+BLOCK_SHORTENED = [
     ("build/release/bin/shakend &", "true"),  # the test has started it
     ("export PATH=$PWD/build/release/bin:$PATH", "true"),
     ("--measure 10min", "--measure 300ms"),
@@ -37,15 +38,15 @@ LEFT_OUT = [
     (r"shaken bench (?!effects)", "minutes to hours; bench/ has tests of its own"),
     (r"shaken bench effects", "minutes"),
     (r"shaken(d)? .*slurm|shaken --root /shared", "needs Slurm; tests/cluster types it"),
-    (r"shaken (--root ~/desk )?figures ", "minutes to hours; README's figure is typed"),
+    (r"shaken (--root ~/desk )?figures ", "minutes to hours; the block's figure is typed"),
     (r"shakend --(relay|web|root ~/desk)", "another daemon: tests/e2e start these"),
     (r"shaken (watch|record) --lcm-url tcpq", "needs that relay"),
     (r"shaken record -o night", "eight hours"),
     (r"shaken run t\.json", "a table of several scenes"),
-    (r"shaken submit tour\.json", "minutes; README's sweep, of the same points, is typed"),
+    (r"shaken submit tour\.json", "minutes; the block's sweep, of the same points, is typed"),
     (r"shaken clean --older", "asks for an answer"),
     (r"shaken picture RUN --time 35", "of that run, which takes an hour"),
-    (r"shaken watch", "typed from README"),
+    (r"shaken watch", "typed from the block"),
     (r"shaken web", "typed below"),
 ]
 if not HAS_NETWORK:
@@ -113,11 +114,11 @@ def commands_of(page):
             yield re.sub(r"\s+", " ", command).removesuffix(" &")
 
 
-def type_readme(shell):
-    block = (SOURCE / "README.md").read_text().split("## Use it", 1)[1].split("\n\n")[1]
-    for before, after in README_SHORTENED:
+def type_block(shell):
+    block = next(part for part in (SOURCE / "docs/commands.md").read_text().split("\n\n") if part.startswith("    "))
+    for before, after in BLOCK_SHORTENED:
         if block.count(before) != 1:
-            fail(f"README: '{before}' is not there once")
+            fail(f"commands.md: '{before}' is not there once")
         block = block.replace(before, after)
     job = "JOB"
     for line in block.splitlines():
@@ -131,16 +132,30 @@ def type_readme(shell):
             assert '"measure": "100 s"' in text
             scene.write_text(text.replace('"measure": "100 s"', '"measure": "200 ms"').replace("100 ms", "20 ms"))
         if "submit" in command and "30 points: 30 new" not in output:
-            fail(f"README's sweep: {output}")
+            fail(f"the block's sweep: {output}")
         if "aggregate" in command and len(re.findall(r"^ +0\.[4-8]5 +[24]\.5 ", output, re.M)) != 10:
             fail(f"a table of ten points: {output}")
         if "extend" in command:
             shell.type("shaken wait")
     for file in ["t.pdf", f"{job}.mp4", "f.pdf", f"{job}.gsd", "here/summary.json", "figures-tiny"]:
         if not (shell.folder / file).exists():
-            fail(f"README's commands make no {file}")
+            fail(f"the block's commands make no {file}")
     shell.serves_a_page()
     return job
+
+
+def type_readme(shell):
+    """Its scene, in no time, and what follows it."""
+    text = (SOURCE / "README.md").read_text().split("```json\n")[1]
+    scene, after = text.split("```", 1)
+    (shell.folder / "scene.json").write_text(scene.replace('"auto"', "0").replace('"60 s"', '"100 ms"'))
+    submit, plot = (line.strip() for line in after.split("\n\n")[1].splitlines()[-2:])
+    sweep = re.search(r"sweep (s\d+) .*: 5 points: 5 new", shell.type(submit))
+    if not sweep:
+        return fail(f"README's sweep: {submit}")
+    shell.type(plot.replace("s1", sweep[1]))
+    if not (shell.folder / "order.png").exists():
+        fail(f"no plot by README's {plot}")
 
 
 def shortened(command, job):
@@ -191,7 +206,7 @@ def type_docs(shell, job):
     for run in RUNS:
         shell.type(shortened(f"shaken run configs/quickstart.json --out {run}", job))
     lay_out(shell, job)
-    for page in sorted(path.relative_to(SOURCE) for path in (SOURCE / "docs").glob("*.md")):
+    for page in sorted(path.relative_to(SOURCE) for path in (SOURCE / "docs").glob("*.md") if path.stem != "commands"):
         for command in commands_of(page):
             reasons = [pattern for pattern, _ in LEFT_OUT if re.match(pattern, command)]
             used.update(reasons)
@@ -234,7 +249,8 @@ def record_live(shell):
 with tempfile.TemporaryDirectory(prefix="shaken docs ") as name:
     shell = Shell(Path(name))
     try:
-        a_job = type_readme(shell)
+        a_job = type_block(shell)
+        type_readme(shell)
         cites_as_the_file_says(shell)
         if os.environ.get("SHAKEN_NIGHT"):
             record_live(shell)

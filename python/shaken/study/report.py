@@ -131,17 +131,6 @@ def questions(found: list[Verdict]) -> str:
     return _wrapped(f"The statements ask {len(answers)} questions, of which {open_} are open.")
 
 
-#: Statements about the phase diagram, figure 3.
-_PHASES = ("ordered", "disordered", "short", "transition")
-
-
-def phases(evidence: Evidence) -> str:
-    """The paper's words on the phase diagram and what was found, for a page that shows the figure; in Markdown."""
-    found = judged(evidence, [s for s in STATEMENTS if s.id in _PHASES])
-    return markdown(["the paper says", "found here", "verdict"],
-                    [[verdict.statement.says, verdict.finding.found or "–", verdict.words] for verdict in found])
-
-
 def other_program(path: Path) -> str:
     """What another program finds for the same rods: the numbers of the file that `./dev validate other-program` wrote,
     for each kind of rod; tables of Markdown."""
@@ -222,7 +211,7 @@ def sections(evidence: Evidence, folder: str = "figures", pages: str = "validati
 
     return {"origin": lambda: origin(evidence), "tally": lambda: tally(found()),
             "questions": lambda: questions(found()),
-            "claims": lambda: as_table(found(), link), "phases": lambda: phases(evidence),
+            "claims": lambda: as_table(found(), link),
             "sweeps": lambda: sets_table(evidence), "index": lambda: index(found(), pages),
             "figures beyond": lambda: "\n".join(images(evidence, beyond, folder)),
             **{page.name: functools.partial(page_of_statements, page) for page in PAGES},
