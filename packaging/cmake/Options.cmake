@@ -53,14 +53,18 @@ file(GLOB former ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/*-wide)
 if(former AND NOT SHAKEN_WIDE)
   file(REMOVE ${former})  # of another simulator by now
 endif()
-# shaken_wide(NAME FROM) after NAME's target_link_libraries: the program NAME of FROM's sources and libraries.
-function(shaken_wide name from)
+# shaken_steps_for_long(NAME source LIBRARY ...): such a program, of one file that both builds link.
+function(shaken_steps_for_long name source)
+  add_library(${name}-main OBJECT ${source})
+  target_precompile_headers(${name}-main REUSE_FROM shaken_headers_words)
+  target_link_libraries(${name}-main PRIVATE ${ARGN})
+  add_executable(${name} $<TARGET_OBJECTS:${name}-main>)
+  target_link_libraries(${name} PRIVATE ${ARGN})
   if(SHAKEN_WIDE)
-    get_target_property(sources ${from} SOURCES)
-    add_executable(${name} ${sources} $<TARGET_OBJECTS:shaken_sim_wide>)
-    set_target_properties(${name} PROPERTIES UNITY_BUILD OFF LINK_OPTIONS -flto=auto)
-    target_link_libraries(${name} PRIVATE $<TARGET_PROPERTY:${from},LINK_LIBRARIES>)
-    add_dependencies(${from} ${name})  # that no other simulator's is beside it
+    add_executable(${name}-wide $<TARGET_OBJECTS:${name}-main> $<TARGET_OBJECTS:shaken_sim_wide>)
+    set_target_properties(${name}-wide PROPERTIES LINK_OPTIONS -flto=auto)
+    target_link_libraries(${name}-wide PRIVATE ${ARGN})
+    add_dependencies(${name} ${name}-wide)  # that no other simulator's is beside it
   endif()
 endfunction()
 # LLVM's linker, where there is one, takes a quarter of the CPU time: for what is not shipped.
