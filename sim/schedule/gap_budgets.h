@@ -19,7 +19,7 @@ using Direction = std::array<float, 3>;
 
 /// How much of the gap to each neighbour the hits on a rod may still use up.
 ///
-/// Model:  a bound says that the gap of a pair is still open at tick `until`, by `gap_at_until`. Half of that is the
+/// Model:  a bound says that the gap of a pair is still open at tick `until`, by `gap_at_until`. A part of that is the
 ///         budget of each of the two rods. A hit at `now` that makes the gap close faster by f spends
 ///         f (until - now) of the budget of the rod that was hit, or returns it if f < 0. While neither budget is
 ///         overspent, the bound holds, and the pair need not be looked at. With half of the rate at which the gap
