@@ -105,8 +105,8 @@ def points(file: str, text: str) -> list[Point]:
             (begin, 0, f" shaken_mutants::{call}({{k}}, "), (end, 0, ")"))
     for match in re.finditer(r"^[ ]+((?:[\w.]|->|::|\[[^\]\n]*\])+)(\(| [-+*/|&]?= )", code, re.M):
         before = code[:match.start()].rstrip()
-        if not before or before[-1] not in ";{})" or match.group(1).split("::")[0] in (
-                "return", "if", "for", "while", "switch", "else", "throw", "delete", "do"):
+        if not before or before[-1] not in ";{})" or match.group(1).startswith(("->", ".")) or match.group(1).split(
+                "::")[0] in ("return", "if", "for", "while", "switch", "else", "throw", "delete", "do"):
             continue
         end = code.find(";", match.end())
         depth = code[match.end():end].count("(") - code[match.end():end].count(")")

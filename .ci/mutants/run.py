@@ -100,7 +100,7 @@ def put(path: Path, content: bytes) -> None:
         path.write_bytes(content)
 
 
-def build(mutants: dict, programs: list[str]) -> None:
+def build(mutants: dict, programs: list[str], jobs: int) -> None:
     """Builds programs of the copy, or all, without mutants that do not compile: these are taken out of `mutants`."""
     BUILT.unlink(missing_ok=True)
     lines = write_sources(mutants)
@@ -110,14 +110,15 @@ def build(mutants: dict, programs: list[str]) -> None:
                     "-DCMAKE_CXX_FLAGS_MUTANTS=-O1 -w", "-DSHAKEN_WERROR=OFF", "-DCMAKE_UNITY_BUILD=ON",
                     "-DCMAKE_UNITY_BUILD_BATCH_SIZE=8"], check=True, stdout=subprocess.DEVNULL)
     while True:
-        done = subprocess.run(["cmake", "--build", BUILD, "--target", *(programs or ["all"]), "--", "-k", "0"],
-                              capture_output=True, text=True)  # all that do not compile at once
+        done = subprocess.run(["cmake", "--build", BUILD, "-j", str(jobs), "--target", *(programs or ["all"]), "--",
+                               "-k", "0"], capture_output=True, text=True)  # all that do not compile at once
         if done.returncode == 0:
             BUILT.touch()
             return
         wrong = set()
         for name, line in re.findall(rf"{re.escape(str(COPY))}/([\w/]+\.cpp):(\d+):", done.stdout + done.stderr):
-            wrong |= lines.get(name, {}).get(int(line), set())
+            here = lines.get(name, {})  # a word too much is an error of the line before it, too
+            wrong |= here.get(int(line)) or here.get(int(line) + 1, set())
         wrong &= mutants.keys()
         if not wrong:
             sys.exit("the mutants cannot be built:\n" + done.stdout[-5000:])
@@ -289,7 +290,7 @@ def main() -> int:
         sys.exit("no file there in which a mutant could be made")
     mutants = dict(enumerate(chosen))
     print(f"== {len(mutants)} mutants of {sum(map(len, of_folder.values()))} possible ones", flush=True)
-    build(mutants, options.tests)
+    build(mutants, options.tests, options.jobs)
     costs = {}
     for log in (ROOT / "build").glob("*/Testing/Temporary/CTestCostData.txt"):
         costs.update({line.split()[0]: float(line.split()[2]) for line in log.read_text().split("\n")
