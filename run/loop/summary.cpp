@@ -142,9 +142,9 @@ std::string_view why_null(const std::string& path, const Summary& summary) {
   return "a sum became too large, or was no number";
 }
 
-/// The path of every null in `json`, with its reason.
+/// The path of every null in `json`, as which numbers that are none are written too, with its reason.
 void explain_nulls(const OrderedJson& json, const std::string& path, const Summary& summary, OrderedJson& reasons) {
-  if (json.is_null()) reasons[path] = why_null(path, summary);
+  if (json.is_null() || (json.is_number() && json.dump() == "null")) reasons[path] = why_null(path, summary);
   if (!json.is_structured()) return;
   for (const auto& [key, value] : json.items())
     explain_nulls(value, path.empty() ? key : fmt::format("{}.{}", path, key), summary, reasons);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -110,16 +111,37 @@ TEST(Summary, SaysOfEveryNumberWhatItIsWorth) {
   EXPECT_TRUE(written(summary)["steady"].is_null()) << "what was not measured is not known";
 }
 
+TEST(Summary, SaysOfEveryNullWhy) {
+  Summary summary = example();
+  summary.scalars["dip"] = {{NAN, NAN, 3, std::nullopt}, "no dip was found"};
+  summary.balance.energy_start = INFINITY;
+  const auto json = written(summary), why = json["why_null"], flat = json.flatten();
+  EXPECT_EQ(why["defects"], "the scene does not measure them (measure.defects)");
+  EXPECT_EQ(why["energy_pJ.start"], "a sum became too large, or was no number");
+  EXPECT_EQ(why["measured.dip.value"], "no dip was found");
+  EXPECT_EQ(why["measured.dip.sem"], "no average over time, or of too few independent samples");
+  std::size_t n_nulls = 0;
+  for (const auto& [pointer, value] : flat.items()) {
+    if (!json.at(nlohmann::json::json_pointer(pointer)).is_null()) continue;  // but empty
+    std::string path = pointer.substr(1);
+    std::ranges::replace(path, '/', '.');
+    EXPECT_TRUE(why.contains(path)) << path;
+    ++n_nulls;
+  }
+  EXPECT_EQ(why.size(), n_nulls);
+}
+
 TEST(Summary, SaysWhyItIsNotSteady) {
   analysis::SteadySummary order{0.9, 0.02, 0.001, 0.5, 8, 400, true, {}};
   EXPECT_EQ(why_not_steady(order, 10), "");
   order.steady = false;
   order.drift = {-0.02, 0.004, 40};
   EXPECT_NE(why_not_steady(order, 10).find("still relaxing: S changes by -0.020 +- 0.004"), std::string::npos);
-  order.drift = {-0.002, 0.004, 40};
-  EXPECT_NE(why_not_steady(order, 10).find("until 8 s of 10 s"), std::string::npos);
-  order.drift = {-0.002, 0.004, 6};
-  EXPECT_NE(why_not_steady(order, 10).find("until 8 s of 10 s"), std::string::npos) << "what is known is the reason";
+  for (const auto& [drift, n] : {std::pair(-0.002, 40), {analysis::kDriftErrors * 0.004, 40}, {-0.002, 6}}) {
+    order.drift = {drift, 0.004, 1.0 * n};
+    EXPECT_NE(why_not_steady(order, 10).find("until 8 s of 10 s"), std::string::npos)
+        << drift << ": what is known is the reason";
+  }
   order.steady = std::nullopt;
   order.n_effective = 7.2;
   EXPECT_NE(why_not_steady(order, 10).find("about 7 independent samples"), std::string::npos);
