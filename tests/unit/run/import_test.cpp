@@ -165,8 +165,8 @@ TEST(CsvRods, TellEverythingThatIsWrongWithTheFirstLine) {
   EXPECT_THAT(problems_in("x,y\n"), ElementsAre(HasSubstr("column angle (or nx and ny) is missing")));
   EXPECT_THAT(problems_in("x,y,tilt\n"), ElementsAre(HasSubstr("column angle is missing")));
   EXPECT_THAT(problems_in("x,y,nx,ny,angle\n"), ElementsAre(HasSubstr("directors are given twice")));
-  EXPECT_THAT(problems_in("x,y,angle\n", kTwo), ElementsAre(HasSubstr("column species is missing: the scene has rods "
-                                                                      "and rods_2")));
+  EXPECT_THAT(problems_in("x,y,angle\n", kTwo),
+              ElementsAre(HasSubstr("rods.csv:1:1: column species is missing: the scene has rods and rods_2")));
   EXPECT_THAT(problems_in("x,y,angle,species\n0,0,0,rods_9\n", {}), ElementsAre()) << "the scene is not known";
   EXPECT_THAT(problems_in("# nothing\n"), ElementsAre(HasSubstr("rods.csv: the file is empty")));
 }

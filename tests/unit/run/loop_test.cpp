@@ -20,6 +20,7 @@
 #include "run/files/done.h"
 #include "run/files/observables_file.h"
 #include "run/files/trajectory.h"
+#include "run/loop/replay.h"
 #include "run/loop/saved_run.h"
 #include "scene/canonical.h"
 #include "scene/length.h"
@@ -515,6 +516,10 @@ TEST(Run, NumericalTroubleIsReportedAndNeverRepaired) {
   EXPECT_GT(exit["tick"].get<Tick>(), 0);
   EXPECT_EQ(read_progress(RunDirectory{folder.path()}.progress())->state, "failed");
   EXPECT_EQ(run_in(folder.path(), violent).message, outcome.message) << "it happens again, in the same place";
+  auto again = test::good(replay(folder.path()));
+  EXPECT_TRUE(as_text(*again, violent.system.dt).ends_with("\nthe same trouble at the same tick\n"));
+  again->met.reset();
+  EXPECT_NE(as_text(*again, violent.system.dt).find("no trouble at this tick\nNOT the same: "), std::string::npos);
 }
 
 TEST(Run, EmptyPlanLeavesNoTrajectoryAndNoObservables) {

@@ -71,6 +71,17 @@ TEST(MeasuredFrames, GiveTheNumbersOfTheRun) {
     }
   }
   EXPECT_NEAR(found->last, 0.3, 1e-12);
+
+  const auto words = nlohmann::json::parse(summary_text(summary_of(*made, *found, "frames"))),
+             of_the_run = nlohmann::json::parse(*read_file(files.summary()));
+  EXPECT_EQ(words["frames"], (nlohmann::json{{"file", "frames"},
+                                             {"n", 31},
+                                             {"first_s", 0.0},
+                                             {"last_s", found->last},
+                                             {"remarks", nlohmann::json::array()}}));
+  EXPECT_EQ(words["exit"]["tick"], of_the_run["exit"]["tick"]);
+  EXPECT_EQ(words["n_rods"], of_the_run["n_rods"]);
+  EXPECT_NEAR(words["order"]["mean"].get<double>(), of_the_run["order"]["mean"].get<double>(), 1e-5);
 }
 
 TEST(MeasuredFrames, AreSampledAtWholeNumbersOfFramesAndSoItIsSaid) {

@@ -302,6 +302,12 @@ TEST(Measurements, WhatCannotBeToldSaysWhy) {
   EXPECT_TRUE(std::isnan(scalars.at("diffusion_mm2_s").value)) << "eleven samples";
   EXPECT_NE(scalars.at("diffusion_mm2_s").reason.find("too short"), std::string::npos);
   EXPECT_TRUE(scalars.at("velocity_rms_mm_s").reason.empty());
+  for (const int n_rods : {1, 2}) {
+    scene::RunPlan few = plan();
+    few.system.n_rods = n_rods;
+    const std::string why = Measurements(few).reduce(0.1).scalars.at("pressure_pJ_mm2").reason;
+    EXPECT_EQ(why.starts_with("a single rod"), n_rods == 1) << why;
+  }
 }
 
 // What is measured of single rods, and where it is to be found.
@@ -729,9 +735,12 @@ TEST(Measurements, OfEachSpeciesAreThoseOfItsRodsAlone) {
     const Scalar S = species == 0 ? Scalar{{both.order->mean, both.order->sem}} : both.scalars.at("rods_3.S");
     expect_same(S.value, order.mean, "S");
     expect_same(S.sem, order.sem, "its error");
+    EXPECT_EQ(S.reason, "");
   }
   EXPECT_EQ(both.arrays.size(), n_arrays) << "nothing else is there";
   EXPECT_EQ(both.scalars.size(), n_scalars + 1) << "but S of the other species";
+  EXPECT_EQ(Measurements(mixture.plan, mixture.cell).reduce(0.2).scalars.at("rods_3.S").reason,
+            "no sample of the steady state");
 }
 
 TEST(Measurements, CollisionsAreThoseOfAllRods) {

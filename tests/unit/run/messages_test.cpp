@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "proto/cell_codec.h"
@@ -65,11 +66,24 @@ TEST(Messages, SpheresHaveNoOrder) {
 }
 
 TEST(Messages, ObservablesAreRootMeanSquaresInTheirUnits) {
-  const World world = small_world();
+  World world = small_world();
+  world.counters.impulses_rod_rod = 3;
+  world.counters.impulses_rod_base = 4;
+  world.counters.impulses_rod_lid = 5;
+  world.counters.max_overlap_rod_surface = 0.125;
   Progress progress;
   progress.sim_time_total = 9;
+  progress.sim_rate = 8;
   progress.eta = 7;
+  progress.order_running_mean = 0.25;
   const observables_t m = make_observables(world, two_rods(), progress);
+  EXPECT_EQ(m.sim_time_s, 0.5);
+  EXPECT_NEAR(m.order, 1, 1e-12);
+  EXPECT_EQ(m.order_running_mean, 0.25);
+  EXPECT_NEAR(m.director_rad, 0, 1e-12);
+  EXPECT_EQ(m.max_overlap_mm, 0.125);
+  EXPECT_EQ((std::array{m.collisions_rod_rod, m.collisions_rod_base, m.collisions_rod_lid}), (std::array{3L, 4L, 5L}));
+  EXPECT_EQ(m.sim_rate, 8);
   EXPECT_EQ(m.n_rods, 2);
   EXPECT_NEAR(m.rms_speed_xy_mm_s, std::sqrt((9 + 16) / 2.0), 1e-12);
   EXPECT_NEAR(m.rms_speed_z_mm_s, 1, 1e-12);
@@ -87,7 +101,11 @@ TEST(Messages, DefectsCanBeSent) {
   sample.defects = {{Vec2(1, 2), 0.5, 0.1}, {Vec2(3, 4), -0.5, 0.2}};
   const auto defects = test::good(proto::decode<defects_t>(proto::encode(make_defects(sample))));
   EXPECT_EQ(defects->x_mm, (std::vector<double>{1, 3}));
+  EXPECT_EQ(defects->y_mm, (std::vector<double>{2, 4}));
   EXPECT_EQ(defects->charge, (std::vector<double>{0.5, -0.5}));
+  EXPECT_EQ(defects->direction_rad, (std::vector<double>{0.1, 0.2}));
+  EXPECT_EQ(defects->sim_time_s, 1.5);
+  EXPECT_EQ(defects->smoothing_mm, 2.25);
 }
 
 /// A disc with rods, rods with a head, and spheres.

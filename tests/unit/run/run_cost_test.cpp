@@ -67,6 +67,25 @@ TEST(RunCost, FindsWhatARunThenTakes) {
 
 // What is kept of a long run is bounded: S(t) and the numbers of defects at 65,536 points, single rods' ways by their
 // duration; but for the list of defects. It follows from the plan.
+TEST(RunCost, OfOneFrameIsItsFile) {
+  scene::RunPlan plan = small_plan(60, 14);
+  plan.measure_time = 0.01;
+  plan.trajectory = scene::Trajectory{0.1};
+  const ScratchFolder folder;
+  ASSERT_EQ(run(plan, options_in(folder.path())).state, RunState::kDone);
+  const double bytes = bytes_of(RunDirectory{folder.path()}.trajectory());
+  EXPECT_NEAR(probed_from_start(plan, 0.01).value().disk.trajectory / bytes, 1, 0.02);
+}
+
+TEST(RunCost, OfAMovieIsThatOfItsFrames) {
+  scene::RunPlan plan = small_plan();
+  plan.movie = scene::Movie{0.01, 320, 240};
+  const RunCost cost = probed_from_start(plan, 0.01).value();
+  EXPECT_EQ(cost.movie_trouble, "");
+  EXPECT_EQ(cost.parts.at("movie").count, std::llround(plan.total_time() / 0.01) + 1);
+  EXPECT_GT(cost.cpu_of("movie"), 0);
+}
+
 TEST(RunCost, KnowsWhatALongRunThenKeeps) {
   scene::RunPlan nothing = busy_plan();
   static_cast<scene::MeasurePlan&>(nothing) = {};
@@ -75,6 +94,7 @@ TEST(RunCost, KnowsWhatALongRunThenKeeps) {
 
   scene::RunPlan plan = nothing;
   plan.measure_time = 6000;
+  EXPECT_NEAR(disk(plan).checkpoints / disk(nothing).checkpoints, 2, 0.01) << "the last two";
   plan.order = scene::MeasureOrder{0.001};
   EXPECT_LT(disk(plan).observables, 3e6);
   EXPECT_GT(disk(plan).observables, 32768 * 24);

@@ -7,7 +7,11 @@
 
 #include <cmath>
 
+#include "base/files.h"
+#include "base/scratch_folder.h"
 #include "base/text.h"
+#include "run/files/done.h"
+#include "run/recorded/measure_command.h"
 #include "run/recorded/measure_frames.h"
 #include "sim/snapshot.h"
 #include "tests/support/good.h"
@@ -157,6 +161,19 @@ TEST(TrackTable, OfOtherNamesIsReadByThese) {
   EXPECT_THAT(refusal_of("frame,x,X,y,angle\n"), HasSubstr("x and X are both x"));
 }
 
+TEST(TrackTable, TheCommandTakesOtherNamesToo) {
+  const ScratchFolder folder;
+  const auto file = [&](const char* name) { return (folder / name).string(); };
+  ASSERT_TRUE(write_file(file("t.csv"), "frame,id,x,y,phi\n0,1,2,3,1\n1,1,2,3,1\n"));
+  ASSERT_TRUE(write_file(file("s.json"), R"({"box": {"side": 20}, "measure": {"order": {"every": "20 ms"}}})"));
+  std::vector<std::string> words{"measure", file("t.csv"), "--scene",   file("s.json"), "--interval",
+                                 "20ms",    "--columns",   "angle=phi", "--out",        file("out")};
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  EXPECT_EQ(measure_command(static_cast<int>(arguments.size()), arguments.data()), 0);
+  EXPECT_TRUE(is_done(RunDirectory{folder / "out"}));
+}
+
 /// Three rods in four frames; rod 2 is not seen in frame 1.
 const std::string kHoles =
     "frame,id,x,y,angle\n"
@@ -243,6 +260,10 @@ TEST(TrackTable, GapsAreFilledStraightOnByTheShorterWay) {
   EXPECT_EQ(frame_of(tracks, 2).image[0], (std::array<std::int32_t, 2>{1, 0}));
   conventions.filled = 1;
   EXPECT_TRUE(tracks_in(text, conventions).lacking.contains(Needs::kEveryRod)) << "the gap is longer";
+  scene::RunPlan walled = dish();
+  walled.system.walls = SideWalls{.size = 19};
+  const TrackedRods inside = tracks_in("frame,id,x,y,angle\n0,1,8,9,0\n1,2,9,5,0\n2,1,11,9,0\n", conventions, walled);
+  expect_rod(frame_of(inside, 1), 0, {10, 9.5}, 0);  // the arena's middle is that of the box
 }
 
 TEST(TrackTable, RodsThatCrossThePeriodicBorderGoOn) {

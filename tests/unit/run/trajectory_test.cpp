@@ -288,6 +288,9 @@ TEST(FrameLog, HalfAFrameIsLeftOutAndCut) {
       EXPECT_EQ(*read_file(file), three) << size;
     }
   }
+  ASSERT_TRUE(write_file_atomically(file, two.substr(0, 3)));
+  errno = EINTR;  // of a call long before
+  EXPECT_FALSE(is_trajectory(file));
 }
 
 /// Bits that rot must give an error, never another number.
@@ -321,6 +324,8 @@ TEST(FrameLog, ContinuesATrajectoryThatIsDone) {
   std::filesystem::remove(directory.frames());
   EXPECT_FALSE(reopen_frames(directory, 6)) << "more than there are";
   EXPECT_FALSE(std::filesystem::exists(directory.frames()));
+  ASSERT_TRUE(reopen_frames(directory, 5));
+  std::filesystem::remove(directory.frames());
   ASSERT_TRUE(reopen_frames(directory, 3));
   EXPECT_EQ(*read_file(directory.frames()), log);
   EXPECT_EQ(TrajectoryReader::open(directory.trajectory())->n_frames(), 5U) << "that stays as it is";
@@ -489,7 +494,6 @@ TEST_F(H5mdStructure, ValuesAndTimesHaveTheirUnits) {
   EXPECT_EQ(unit("/parameters/bead_offset_mm"), "mm");
   EXPECT_EQ(unit("/parameters/bead_radius_mm"), "mm");
   EXPECT_FALSE(has_attribute(group + "orientation/value", "unit"));
-  EXPECT_TRUE(has_attribute("/h5md/modules/units", "version"));
   EXPECT_TRUE(has_attribute("/h5md/modules/units", "system"));
 }
 
@@ -512,7 +516,13 @@ TEST_F(H5mdStructure, OneKindOfRodNeedsNoSpecies) {
 }
 
 TEST_F(H5mdStructure, NamesItsFormatAndBox) {
-  EXPECT_TRUE(has_attribute("/h5md", "version"));
+  for (const auto& [path, version] : {std::pair("/h5md", std::vector{1, 1}), {"/h5md/modules/units", {1, 0}}}) {
+    const hid_t attribute = H5Aopen_by_name(file_, path, "version", H5P_DEFAULT, H5P_DEFAULT);
+    std::vector<int> numbers(H5Aget_storage_size(attribute) / sizeof(int));
+    EXPECT_GE(H5Aread(attribute, H5T_NATIVE_INT, numbers.data()), 0);
+    H5Aclose(attribute);
+    EXPECT_EQ(numbers, version) << path;
+  }
   EXPECT_TRUE(has_attribute("/h5md/author", "name"));
   EXPECT_TRUE(has_attribute("/h5md/creator", "version"));
   EXPECT_TRUE(has_attribute("/particles/trajectory/box", "dimension"));
