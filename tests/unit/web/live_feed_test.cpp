@@ -147,47 +147,54 @@ client::RodFrame some_frame(std::size_t n_rods) {
   return frame;
 }
 
-TEST(PackedFrame, HoldsRodsInTheUnitsOfTheBus) {
-  const std::string bytes = packed(some_frame(3));
+/// A frame as it is sent: the head, and the numbers that follow.
+struct Sent {
+  nlohmann::json head;
+  std::string rods;
+};
+
+Sent sent(const client::RodFrame& frame) {
+  const std::string bytes = packed(frame);
   const std::size_t size = u16(bytes, 0) | static_cast<std::size_t>(u16(bytes, 2)) << 16;
   EXPECT_EQ(size % 4, 0u) << "numbers of two bytes follow at an even place";
-  const auto head = nlohmann::json::parse(bytes.substr(4, size));
+  return {nlohmann::json::parse(bytes.substr(4, size)), bytes.substr(4 + size)};
+}
+
+TEST(PackedFrame, HoldsRodsInTheUnitsOfTheBus) {
+  const auto [head, rods] = sent(some_frame(3));
   EXPECT_EQ(head["n_rods"], 3);
   EXPECT_EQ(head["time_s"], 1.5);
   EXPECT_EQ(head["outlines"], nlohmann::json({{2, 0.4, 0.2}}));
   EXPECT_TRUE(head["walls"].is_null());
-  const std::size_t begin = 4 + size;
-  ASSERT_EQ(bytes.size(), begin + 4 * 2 * 3);
-  EXPECT_EQ(i16(bytes, begin), -16384) << "x = 5 mm of 20 mm";
-  EXPECT_EQ(i16(bytes, begin + 2 * 3), 16384) << "y = 15 mm";
-  EXPECT_EQ(i16(bytes, begin + 2 * 6), 8192) << "an eighth of a turn";
-  EXPECT_NEAR(i16(bytes, begin + 2 * 9), -16384, 1) << "n_z = -1/2";
+  ASSERT_EQ(rods.size(), 4u * 2 * 3);
+  EXPECT_EQ(i16(rods, 0), -16384) << "x = 5 mm of 20 mm";
+  EXPECT_EQ(i16(rods, 2 * 3), 16384) << "y = 15 mm";
+  EXPECT_EQ(i16(rods, 2 * 6), 8192) << "an eighth of a turn";
+  EXPECT_NEAR(i16(rods, 2 * 9), -16384, 1) << "n_z = -1/2";
 }
 
 TEST(PackedFrame, HeightsAreThereWhereTheyAreKnown) {
   client::RodFrame frame = some_frame(4);
   frame.cell.gap = 2;
   frame.heights = {1, 2, 0, 99};
-  const std::string bytes = packed(frame);
-  const std::size_t begin = 4 + u16(bytes, 0) + 8 * 4;
-  ASSERT_EQ(bytes.size(), begin + 2 * 4);
-  const auto head = nlohmann::json::parse(bytes.substr(4, u16(bytes, 0)));
+  const auto [head, rods] = sent(frame);
+  const std::size_t begin = 8 * 4;
+  ASSERT_EQ(rods.size(), begin + 2 * 4);
   EXPECT_EQ(head["gap_mm"], 2);
   EXPECT_EQ(head["has_heights"], true);
-  EXPECT_EQ(i16(bytes, begin), 0) << "half way between the plates";
-  EXPECT_NEAR(i16(bytes, begin + 2), 16384, 1) << "at the lid";
-  EXPECT_NEAR(i16(bytes, begin + 4), -16384, 1) << "on the base";
-  EXPECT_EQ(i16(bytes, begin + 6), 32767) << "further than there is room for";
+  EXPECT_EQ(i16(rods, begin), 0) << "half way between the plates";
+  EXPECT_NEAR(i16(rods, begin + 2), 16384, 1) << "at the lid";
+  EXPECT_NEAR(i16(rods, begin + 4), -16384, 1) << "on the base";
+  EXPECT_EQ(i16(rods, begin + 6), 32767) << "further than there is room for";
 }
 
 TEST(PackedFrame, RodsOfManyMessagesFollowEachOther) {
   const std::size_t n = proto::kRodsPerChunk + 10;
-  const std::string bytes = packed(some_frame(n));
-  const std::size_t begin = 4 + (u16(bytes, 0) | static_cast<std::size_t>(u16(bytes, 2)) << 16);
-  ASSERT_EQ(bytes.size(), begin + 8 * n);
+  const std::string rods = sent(some_frame(n)).rods;
+  ASSERT_EQ(rods.size(), 8 * n);
   for (std::size_t i = 1; i < n; ++i) {
-    ASSERT_GE(i16(bytes, begin + 2 * i), i16(bytes, begin + 2 * (i - 1))) << "x grows with the rod's number, " << i;
-    ASSERT_EQ(i16(bytes, begin + 2 * (n + i)), 16384) << i;
+    ASSERT_GE(i16(rods, 2 * i), i16(rods, 2 * (i - 1))) << "x grows with the rod's number, " << i;
+    ASSERT_EQ(i16(rods, 2 * (n + i)), 16384) << i;
   }
 }
 
@@ -195,37 +202,29 @@ TEST(PackedFrame, SpeciesAndWallsAreThereWhereTheyAreInTheRun) {
   client::RodFrame frame = some_frame(2);
   frame.outlines.push_back({0, 0.5, 0.5});
   frame.cell.shape_of_rod = {1, 0};
-  frame.cell.walls.emplace();
-  frame.cell.walls->arena = Arena::kAnnulus;
-  frame.cell.walls->size = 18;
-  frame.cell.walls->inner = 6;
-  const std::string bytes = packed(frame);
-  const std::size_t size = u16(bytes, 0);
-  const auto head = nlohmann::json::parse(bytes.substr(4, size));
-  frame.cell.walls = SideWalls{.arena = Arena::kStadium, .size = 8, .length = 5};
-  const std::string other = packed(frame);
-  EXPECT_EQ(nlohmann::json::parse(other.substr(4, u16(other, 0)))["walls"]["length_mm"], 5);
-  frame.cell.walls = SideWalls{.arena = Arena::kWedge, .size = 8, .inner = 0, .length = 5, .narrow = 2};
-  const std::string wedge = packed(frame);
-  EXPECT_EQ(nlohmann::json::parse(wedge.substr(4, u16(wedge, 0)))["walls"],
+  const auto walls = [&](const SideWalls& of) {
+    frame.cell.walls = of;
+    return sent(frame).head["walls"];
+  };
+  EXPECT_EQ(walls({.arena = Arena::kStadium, .size = 8, .length = 5})["length_mm"], 5);
+  EXPECT_EQ(walls({.arena = Arena::kWedge, .size = 8, .inner = 0, .length = 5, .narrow = 2}),
             nlohmann::json({{"arena", "wedge"}, {"size_mm", 8}, {"inner_mm", 0}, {"length_mm", 5}, {"narrow_mm", 2}}));
-  EXPECT_EQ(head["walls"], nlohmann::json({{"arena", "annulus"}, {"size_mm", 18}, {"inner_mm", 6}}));
-  EXPECT_EQ(bytes.substr(4 + size + 16), std::string("\x01\x00", 2));
-  EXPECT_EQ(head["species_of_outline"], nlohmann::json::array());
+  EXPECT_EQ(walls({.arena = Arena::kAnnulus, .size = 18, .inner = 6}),
+            nlohmann::json({{"arena", "annulus"}, {"size_mm", 18}, {"inner_mm", 6}}));
+  EXPECT_EQ(sent(frame).rods.substr(16), std::string("\x01\x00", 2));
+  EXPECT_EQ(sent(frame).head["species_of_outline"], nlohmann::json::array());
   frame.cell.species_of_shape = {0, 0};
-  const std::string of_sizes = packed(frame);
-  EXPECT_EQ(nlohmann::json::parse(of_sizes.substr(4, u16(of_sizes, 0)))["species_of_outline"], nlohmann::json({0, 0}));
+  EXPECT_EQ(sent(frame).head["species_of_outline"], nlohmann::json({0, 0}));
 }
 
 TEST(PackedFrame, PostsAreThereWhereTheyAreInTheRun) {
   client::RodFrame frame = some_frame(1);
-  const auto head = [&] {
-    const std::string bytes = packed(frame);
-    return nlohmann::json::parse(bytes.substr(4, u16(bytes, 0)));
-  };
-  EXPECT_TRUE(head()["posts"].is_null());
+  EXPECT_TRUE(sent(frame).head["posts"].is_null());
   frame.cell.posts = {.diameter = 3, .centres = {{1, 2}, {5, 6}}};
-  EXPECT_EQ(head()["posts"], nlohmann::json({{"diameter_mm", 3.0}, {"centres_mm", {{1.0, 2.0}, {5.0, 6.0}}}}));
+  EXPECT_EQ(sent(frame).head["posts"],
+            nlohmann::json({{"diameter_mm", 3.0}, {"centres_mm", {{1.0, 2.0}, {5.0, 6.0}}}}));
+  frame.cell.posts.centres.resize(10'000, Vec2(1, 2));
+  EXPECT_EQ(sent(frame).head["posts"]["centres_mm"].size(), 10'000u) << "a head of more bytes than two can count";
 }
 
 }  // namespace live_feed_test

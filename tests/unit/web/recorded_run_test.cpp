@@ -9,6 +9,7 @@
 #include "base/scratch_folder.h"
 #include "run/files/directory.h"
 #include "tests/support/good.h"
+#include "tests/support/recorded_rods.h"
 
 namespace shaken::web {
 namespace {
@@ -21,22 +22,8 @@ class RecordedRunTest : public testing::Test {
  protected:
   RecordedRunTest() { fs::create_directories(folder_ / kRun); }
   run::RunDirectory directory() const { return {folder_ / kRun}; }
-  /// Two rods in a box of 10 mm, `n_frames` frames 0.1 s apart; the second rod turns by 90 degrees in the last one.
-  void record(int n_frames, const BeadRow& beads = {{-2, 0, 2}, {0.2, 0.4, 0.2}}) const {
-    const Cell cell{.box = 10, .gap = 1.2, .shapes = {beads}};
-    auto log = run::FrameLog::create(directory().frames(), {2, cell, 1e-5, "{}", {}}).value();
-    for (int k = 0; k < n_frames; ++k) {
-      Snapshot now;
-      now.tick = k;
-      now.time = 0.1 * k;
-      now.box = 10;
-      now.position = {{1, 2, 0.6}, {7, 8, 0.6}};
-      now.director = {{1, 0, 0}, k + 1 < n_frames ? Vec3(1, 0, 0) : Vec3(0, 1, 0)};
-      now.velocity = now.position;
-      now.image = {{0, 0}, {0, 0}};
-      ASSERT_TRUE(log.append(run::record(now)));
-    }
-    ASSERT_TRUE(log.sync());
+  void record(int n_frames, const BeadRow& beads = test::kRod) const {
+    test::record_rods(directory(), n_frames, beads);
   }
 
   ScratchFolder folder_;
@@ -57,6 +44,8 @@ TEST_F(RecordedRunTest, FramesAreThoseOfTheTrajectory) {
   EXPECT_NEAR(frames->last, 0.2, 1e-12);
   const auto first = run_.frame(0), last = run_.frame(2);
   ASSERT_TRUE(first && last);
+  EXPECT_NEAR(last->time, 0.2, 1e-12);
+  EXPECT_NEAR(first->director, 0, 1e-6);
   EXPECT_NEAR(first->order, 1, 1e-6);
   EXPECT_NEAR(last->order, 0, 1e-6) << "rods across each other";
   ASSERT_EQ(last->rods.size(), 2u);

@@ -54,6 +54,10 @@ TEST_F(RunReaderTest, TellsWhatTheRunHas) {
   EXPECT_THAT(reader.ask(kGood, {"frame", "1"}).value(), HasSubstr("\"n_rods\":1"));
   EXPECT_THAT(reader.ask(kGood, {"frame", "2"}).error().message, HasSubstr("has no frame 2"));
   EXPECT_THAT(reader.ask("ffffffffffffffff", {"frames"}).value(), HasSubstr("records no rods"));
+  std::vector<std::future<bool>> others;  // who wait for each other
+  for (int i = 0; i < 4; ++i)
+    others.push_back(std::async(std::launch::async, [&] { return bool(reader.ask(kGood, {"frames"})); }));
+  for (std::future<bool>& one : others) EXPECT_TRUE(one.get());
 }
 
 TEST_F(RunReaderTest, AFileThatHdf5ComesToNoEndWithKeepsOnlyThoseWhoAskForIt) {

@@ -12,9 +12,11 @@
 #include <fstream>
 #include <future>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <thread>
 
 #include "base/failure.h"
+#include "base/palettes.h"
 #include "base/paths.h"
 #include "base/scratch_folder.h"
 #include "tests/unit/client/fake_daemon.h"
@@ -43,7 +45,7 @@ class SiteTest : public testing::Test {
   /// A daemon that knows what to answer before anybody asks.
   struct Daemon : client::FakeDaemon {
     explicit Daemon(const fs::path& root) : FakeDaemon(root) {
-      on("GET /v1/status", R"({"version": "1", "host": "here", "slots": 2})");
+      on("GET /v1/status", R"({"version": "1", "host": "here", "slots": 2, "uptime_s": 7})");
       on("GET /v1/sweeps", R"({"sweeps": [{"id": "s1", "name": "<img src=x onerror=alert(1)>"}]})");
       on("GET /v1/jobs?state=running", std::string(R"({"jobs": [{"id": ")") + kRun + "\"}]}");
       on("GET /v1/jobs?state=stopping", R"({"jobs": []})");
@@ -148,11 +150,54 @@ TEST_F(SiteTest, TheQueueComesAsEvents) {
     });
     const std::size_t begin = seen.find("event: queue\ndata: ");
     ASSERT_NE(begin, std::string::npos) << seen;
+    EXPECT_THAT(seen, Not(HasSubstr("event: order"))) << "there is no bus";
     const std::size_t data = seen.find('{', begin);
     const auto queue = nlohmann::json::parse(seen.substr(data, seen.find("\n\n", data) - data));
+    EXPECT_EQ(queue["status"], nlohmann::json({{"version", "1"}, {"host", "here"}, {"slots", 2}}))
+        << "without what is another at each look";
     EXPECT_EQ(queue["sweeps"][0]["id"], "s1");
     EXPECT_EQ(queue["jobs"][0]["id"], kRun);
   }
+}
+
+TEST_F(SiteTest, WhatTheBusSaysOfARunComesAsEvents) {
+  const std::string log = "file://" + (root_ / "bus.log").string();
+  {
+    const auto bus = proto::Bus::open(log + "?mode=w").value();
+    observables_t order{};
+    order.job_id = kRun;
+    order.sim_time_s = 1.5;
+    order.order = 0.75;
+    defects_t defects{};
+    defects.job_id = kRun;
+    defects.sim_time_s = 1.5;
+    defects.n_defects = 2;
+    defects.x_mm = {1, 2};
+    defects.y_mm = {3, 4};
+    defects.charge = {0.5, -0.5};
+    defects.direction_rad = {0.25, 0};
+    for (int k = 0; k < 2; ++k) {  // and again once the site knows from the daemon that the run is there
+      if (k > 0) std::this_thread::sleep_for(std::chrono::milliseconds(600));
+      bus->publish(proto::kObservablesChannel, order);
+      bus->publish(proto::kDefectsChannel, defects);
+    }
+  }
+  Site site({.root = root_.path(), .page = shipped_page(), .bus = proto::Bus::open(log + "?mode=r").value()});
+  const auto reply = site.answer({.method = "GET", .path = "/live", .query = {{"run", kRun}}, .body = ""});
+  std::string seen;
+  const auto has = [&](const char* event) { return seen.find(std::string("event: ") + event) != std::string::npos; };
+  for (int k = 0; k < 200 && !(has("defects") && has("observables")); ++k) seen += reply.stream().value_or("");
+  const auto data = [&](const std::string& event) {
+    const std::size_t begin = seen.find("event: " + event + "\ndata: ");
+    if (begin == std::string::npos) return nlohmann::json();
+    const std::size_t at = seen.find("data: ", begin) + 6;
+    return nlohmann::json::parse(seen.substr(at, seen.find("\n\n", at) - at));
+  };
+  EXPECT_EQ(data("defects"),
+            nlohmann::json::parse(R"({"time_s": 1.5, "defects": [[1, 3, 0.5, 0.25], [2, 4, -0.5, 0]]})"));
+  EXPECT_EQ(data("observables")["order"], 0.75);
+  EXPECT_TRUE(data("order").contains("time_s")) << "what came before";
+  site.close();
 }
 
 TEST(Feed, AsksSeldomWhileNobodyLooks) {
@@ -203,6 +248,15 @@ TEST_F(SiteTest, FilesOfARunAreSavedAndNothingElseIs) {
   for (const char* name : {"/link", "/..%2f..%2fsecret", "/%2e%2e", "/nothing"}) {
     EXPECT_EQ(get(files + name)->status, 404) << name;
   }
+  for (const auto& [name, type] : {std::pair("a.svg", "image/svg+xml"),
+                                   {"a.png", "image/png"},
+                                   {"a.mp4", "video/mp4"},
+                                   {"a.webm", "video/webm"},
+                                   {"a.pdf", "application/pdf"},
+                                   {"a.h5", "application/octet-stream"}}) {
+    std::ofstream(root_ / "runs" / kRun / name) << "1";
+    EXPECT_EQ(get(files + "/" + name)->get_header_value("Content-Type"), type) << name;
+  }
   // By a ticket, as browsers save things: once, without the token.
   const auto given = client_.Post("/tickets?path=" + files + "/scene.json", kIn, "{}", "application/json");
   ASSERT_EQ(given->status, 200) << given->body;
@@ -243,6 +297,19 @@ TEST_F(SiteTest, WhatIsNotThereIsSaid) {
   EXPECT_EQ(client_.Post("/live", kIn, "", "text/plain")->status, 405);
 }
 
+TEST_F(SiteTest, PalettesReachFromEndToEnd) {
+  const auto palettes = nlohmann::json::parse(get("/palettes.json")->body);
+  const auto expect = [&](const char* name, std::size_t size, std::size_t at, const Colour& colour) {
+    EXPECT_EQ(palettes[name].size(), size) << name;
+    EXPECT_EQ(palettes[name][at], client::ink_of(colour)) << name << " " << at;
+  };
+  expect("tilt", 25, 0, diverging_colour(-1));
+  expect("tilt", 25, 24, diverging_colour(1));
+  expect("layers", 73, 0, layer_colour(-std::numbers::pi / 2));
+  expect("layers", 73, 36, layer_colour(0));
+  expect("wheel", 24, 12, wheel_colour(std::numbers::pi / 2));
+}
+
 // One picture is drawn at a time: a renderer that hangs must not be the last.
 TEST_F(SiteTest, ARendererThatHangsIsEnded) {
   record_two_frames({root_ / "runs" / kRun}, kRun);
@@ -251,16 +318,19 @@ TEST_F(SiteTest, ARendererThatHangsIsEnded) {
   fs::permissions(renderer, fs::perms::owner_all);
   Site site(SiteSetup{
       .root = root_.path(), .page = shipped_page(), .renderer = renderer, .drawing = std::chrono::milliseconds(200)});
-  const http::Request picture{
+  http::Request picture{
       .method = "GET", .path = std::string("/runs/") + kRun + "/picture", .query = {{"frame", "0"}}, .body = ""};
   for (int i = 0; i < 2; ++i) {
     const auto reply = site.answer(picture);
     EXPECT_EQ(reply.status, 504) << reply.body;
     EXPECT_THAT(reply.body, HasSubstr("shaken-render"));
   }
-  std::ofstream(renderer) << "#!/bin/sh\nwhile [ \"$1\" != -o ]; do shift; done; echo drawn > \"$2\"\n";
+  std::ofstream(renderer)
+      << "#!/bin/sh\nwhile [ \"$1\" != -o ]; do shift; done; f=$2; shift 2; echo drawn \"$@\" > $f\n";
   Site next(SiteSetup{.root = root_.path(), .page = shipped_page(), .renderer = renderer});
   EXPECT_EQ(next.answer(picture).body, "drawn\n");
+  picture.query.insert({{"style", "dark"}, {"size", "300"}});
+  EXPECT_EQ(next.answer(picture).body, "drawn --style=dark --size=300\n");
   site.close();
   next.close();
 }
