@@ -81,6 +81,7 @@ TEST_F(Explain, SaysTheSizesOfAnArena) {
   EXPECT_THAT(of(R"({"arena": "ellipse", "size": 20, "length": 50})"), HasSubstr("ellipse of 50 mm by 20 mm between"));
   EXPECT_THAT(of(R"({"arena": "wedge", "size": 20, "narrow": 5, "length": 50})"),
               HasSubstr("wedge of 20 mm to 5 mm over 50 mm between"));
+  EXPECT_THAT(of(R"({"arena": "channel", "size": 12})"), HasSubstr("channel of 12 mm, periodic after "));
   EXPECT_THAT(of(R"({"arena": "disc", "size": 20})"), HasSubstr("disc of 20 mm between"));
 }
 

@@ -12,6 +12,7 @@
 
 #include "base/failure.h"
 #include "client/live/target.h"
+#include "tests/support/in_child.h"
 #include "tests/unit/client/fake_daemon.h"
 
 namespace shaken::client {
@@ -146,6 +147,17 @@ TEST(ApiClient, SocketWithoutListenerIsNoDaemon) {
   const auto [code, message] = failure_of([&] { ApiClient(root.path()).get("/v1/status"); });
   EXPECT_EQ(code, ExitCode::kNoDaemon);
   EXPECT_THAT(message, HasSubstr("start one with"));
+}
+
+TEST(ApiClient, WhereAnothersDaemonListensItSaysSo) {
+  if (geteuid() != 0) GTEST_SKIP() << "only root can be another user";
+  const ScratchFolder root;  // for its owner alone
+  EXPECT_EQ(in_child([&] {
+              const bool is_nobody = setuid(65534) == 0;
+              const auto [code, message] = failure_of([&] { ApiClient(root.path()).get("/v1/status"); });
+              return is_nobody && code == ExitCode::kNoDaemon && message.ends_with("is another user's daemon");
+            }),
+            0);
 }
 
 TEST(FindTarget, SweepFirstThenJobThenNothing) {

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <fstream>
+#include <regex>
 #include <sstream>
 #include <string>
 
@@ -42,6 +43,16 @@ TEST(Help, OfEveryVerbEndsWithExamplesOfThatVerbAndExitCodes) {
     ASSERT_NE(examples, std::string::npos) << name;
     EXPECT_NE(help.out.find("shaken " + name, examples), std::string::npos) << name;
     EXPECT_NE(help.out.find("\n\nExit codes: 0 ", examples), std::string::npos) << name;
+    std::istringstream lines(help.out.substr(examples));
+    const std::regex option(" (--?[a-z-]+)"), others(R"(   .*|\||&&|\$\(.*)");  // words beside it, and other commands
+    for (std::string line; std::getline(lines, line) && name != "bench";) {     // whose options are of its benches
+      if (!line.starts_with("  shaken " + name)) continue;
+      line = line.substr(2);
+      std::smatch end;
+      if (std::regex_search(line, end, others)) line = end.prefix();
+      for (std::sregex_iterator found(line.begin(), line.end(), option); found != std::sregex_iterator(); ++found)
+        EXPECT_NE(help.out.substr(0, examples).find((*found)[1]), std::string::npos) << line;
+    }
     EXPECT_EQ(help.out.back(), '\n') << name;
   }
 }
@@ -84,7 +95,7 @@ TEST(Rest, GoesOnAsItStands) {
 }
 
 TEST(HandOn, GivesWhatHasNoVariable) {
-  const auto handed = [](const std::string& line) {
+  const auto handed = [](auto line) {
     CLI::App app;
     app.fallthrough();
     app.add_option("--root", "of the program");
@@ -104,6 +115,7 @@ TEST(HandOn, GivesWhatHasNoVariable) {
   EXPECT_THAT(handed("verb one --own x two -w a=1 --name=-5 --where b --root r -y three"),
               ElementsAre("--name=-5", "--where=a=1", "--where=b", "--yes", "--", "one", "two", "three"));
   EXPECT_THAT(handed("verb -y"), ElementsAre("--yes")) << "not every program takes words";
+  EXPECT_THAT(handed(std::vector<std::string>{"", "--name", "verb"}), ElementsAre()) << "what is empty was not given";
 }
 
 TEST(BadArguments, AreAllExitCodeTwo) {
@@ -353,11 +365,18 @@ TEST(Painted, ColoursOnlyWhereWanted) {
   EXPECT_EQ(console.painted(Colour::kPlain, "x"), "x");
 }
 
-TEST(PictureOptions, GoOnAsTheyWereGiven) {
+/// What `shaken picture` makes of a line.
+class PictureLine : public ::testing::Test {
+ protected:
+  PictureLine() { options.declare(arguments_, true); }
   CLI::App app;
-  Arguments arguments(app);
   PictureOptions options;
-  options.declare(arguments, true);
+
+ private:
+  Arguments arguments_{app};
+};
+
+TEST_F(PictureLine, GoesOnAsItWasGiven) {
   app.parse("1f0c --style mine.json --colour tilt --range=-0.2,0.2 --no-legend --defects --bare -o x.png");
   EXPECT_EQ(options.jobs, std::vector<std::string>{"1f0c"});
   EXPECT_EQ(options.out, "x.png");
@@ -366,20 +385,12 @@ TEST(PictureOptions, GoOnAsTheyWereGiven) {
                                       "--no-legend", "--label=rods.length=2.5", "--bare"}));
 }
 
-TEST(PictureOptions, TheLabelOfTheCommandLineComesFirst) {
-  CLI::App app;
-  Arguments arguments(app);
-  PictureOptions options;
-  options.declare(arguments, true);
+TEST_F(PictureLine, ItsLabelComesFirst) {
   app.parse("1f0c --label mine");
   EXPECT_EQ(options.words({"rods.length=2.5"}), (std::vector<std::string>{"--label=mine"}));
 }
 
-TEST(PictureOptions, EachOfSeveralRunsHasItsHeadline) {
-  CLI::App app;
-  Arguments arguments(app);
-  PictureOptions options;
-  options.declare(arguments, true);
+TEST_F(PictureLine, EachOfSeveralRunsHasItsHeadline) {
   app.parse("1f0c 22ab");
   EXPECT_EQ(options.jobs, (std::vector<std::string>{"1f0c", "22ab"}));
   EXPECT_EQ(options.words({"rods.length=2.5", ""}), (std::vector<std::string>{"--label=rods.length=2.5", "--label="}));

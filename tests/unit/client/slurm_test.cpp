@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 
@@ -60,6 +61,17 @@ TEST_F(SlurmCheckup, AControllerThatDoesNotAnswerIsThatOfWhichFile) {
   setenv("SLURM_CONF", (folder_ / "sinfo").c_str(), 1);
   EXPECT_EQ(slurm_checkup(folder_.path()).back().message,
             "Unable to contact slurm controller (SLURM_CONF=" + (folder_ / "sinfo").string() + ")");
+}
+
+TEST_F(SlurmCheckup, FilmsNeedAProgramThatWorks) {
+  for (const bool works : {true, false}) {
+    stand_in("ffmpeg", works ? "echo ffmpeg 7" : "echo broken; exit 1");
+    const std::vector<CheckResult> found = checkup(folder_.path());
+    const auto films = std::ranges::find(found, "films", &CheckResult::what);
+    ASSERT_NE(films, found.end());
+    EXPECT_EQ(films->level, works ? CheckResult::Level::kOk : CheckResult::Level::kWarn);
+    EXPECT_EQ(films->message, works ? "ffmpeg 7" : "broken");
+  }
 }
 
 TEST_F(SlurmCheckup, ARootThatDoesNotExistIsTheReason) {

@@ -19,6 +19,7 @@
 namespace shaken::client {
 namespace {
 
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
@@ -168,7 +169,7 @@ TEST_F(Verbs, SubmitSendsTheFileWithAllThatIsAskedAndShowsThePoints) {
   std::ofstream(file) << R"({"box": {"side": 30}})";
   Json answer = sweep({job("1f0c000000000000", "queued"), job("2a0c000000000000", "done")});
   answer["jobs"][1]["created_utime"] = 500;
-  answer["counts"] = {{"new", 1}, {"requeued", 0}, {"done", 1}, {"running", 0}, {"queued", 1}};
+  answer["counts"] = {{"new", 1}, {"requeued", 0}, {"done", 1}};
   daemon_.on("POST /v1/sweeps", {{201, text(answer)}});
   EXPECT_THAT(shown(run({"submit",       file,        "-s",           "rods.length=2.5,3.5",
                          "--replicas",   "2",         "--name",       "phases",
@@ -215,7 +216,12 @@ TEST_F(Verbs, StatusAndHistoryShowTerms) {
   EXPECT_THAT(of_sweep, HasSubstr("\nat most 4 at once; after s3, 1f0c\\u001b; stopped if failed>10%\n"));
   EXPECT_THAT(of_sweep, HasSubstr("1 timed out"));
   EXPECT_THAT(of_sweep, HasSubstr("took 2 h 00 min"));
-  EXPECT_THAT(run({"status", "1f0c"}).out, HasSubstr("gives way after 10 min 00 s; 2 h 00 min of 2 h 00 min used"));
+  EXPECT_THAT(run({"status", "1f0c"}).out,
+              AllOf(HasSubstr("gives way after 10 min 00 s; 2 h 00 min of 2 h 00 min used"),
+                    ContainsRegex("point +rods.length=2.5\n"), Not(HasSubstr("rods  "))));
+  limited["progress"] = {{"sim_time_s", 1.0}, {"sim_time_total_s", 4.0}, {"n_rods", 271}};
+  daemon_.on("GET /v1/jobs/1f0c", text({{"job", limited}}));
+  EXPECT_THAT(run({"status", "1f0c"}).out, ContainsRegex("rods +271\n"));
   EXPECT_THAT(run({"history", "1f0c"}).out, HasSubstr("gives way after 10 min 00 s"));
   EXPECT_THAT(run({"status", "s1", "--failed"}).out, HasSubstr("1f0c000000000000"));
   EXPECT_EQ(run({"wait", "s1"}).err, "1f0c0000 timed out (rods.length=2.5)\n") << "it has ended";
@@ -479,9 +485,12 @@ TEST_F(Verbs, WatchWithoutLiveStateAsksTheDaemonUntilTheEnd) {
   running["progress"] = {{"sim_time_s", 1.0}, {"sim_time_total_s", 4.0},   {"sim_rate", 0.5}, {"eta_s", 6.0},
                          {"order", 0.5},      {"order_running_mean", 0.4}, {"n_rods", 271},   {"max_overlap_mm", 0.01}};
   daemon_.on("GET /v1/status", R"({"lcm": {"url": "", "ok": false, "message": "no multicast route"}})");
-  daemon_.on("GET /v1/sweeps/s1",
-             {{200, text(sweep({running}))}, {200, text(sweep({job("1f0c000000000000", "done")}))}});
+  daemon_.on("GET /v1/sweeps/s1", {{200, text(sweep({running}))},
+                                   {200, text(sweep({running}))},
+                                   {200, text(sweep({job("1f0c000000000000", "done")}))}});
+  const auto begin = std::chrono::steady_clock::now();
   const Outcome outcome = run({"watch", "s1"});
+  EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(1900)) << "it asks once a second";
   EXPECT_EQ(outcome.code, ExitCode::kOk) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("no multicast route"));
   EXPECT_THAT(outcome.out, HasSubstr("1f0c0000 running  25.0 %  t 1.000/4.000 s  S 0.500 (mean 0.400)"));
@@ -506,6 +515,22 @@ TEST_F(Verbs, WatchAsksTheDaemonWhatHasEnded) {
                                    {200, text(sweep({job("1f0c000000000000", "failed")}))}});
   EXPECT_THAT(shown(run({"watch", "s1", "--lcm-url", "file://" + log + "?mode=r"})),
               AllOf(HasSubstr("1f0c0000 failed"), Not(HasSubstr("done")), Not(HasSubstr("forged"))));
+}
+
+TEST_F(Verbs, AReplayTakesAsLongAsItsLog) {
+  const std::string log = (root_.path() / "job.log").string();
+  const std::chrono::milliseconds apart(400);
+  {
+    const auto bus = proto::Bus::open("file://" + log + "?mode=w").value();
+    for (int k = 0; k < 2; ++k) {
+      if (k > 0) std::this_thread::sleep_for(apart);
+      ASSERT_TRUE(bus->publish(proto::kJobChannel, job_t{}));
+    }
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_THAT(run({"replay-log", log, "--lcm-url", "file://" + log + ".again?mode=w"}).err,
+              HasSubstr("2 messages sent"));
+  EXPECT_GE(std::chrono::steady_clock::now() - begin, apart);
 }
 
 TEST_F(Verbs, NothingThatATerminalObeysIsPrinted) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fstream>
 #include <limits>
 #include <sstream>
@@ -10,7 +11,7 @@
 #include "base/scratch_folder.h"
 #include "base/text.h"
 #include "client/watch/overview.h"
-#include "run/files/trajectory.h"
+#include "tests/support/recorded_rods.h"
 
 namespace shaken::client {
 namespace {
@@ -18,6 +19,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::StartsWith;
 
 Json api_job(const std::string& id, const std::string& state, double time) {
   Json job{{"id", id},       {"label", "rods.length=2.5"},
@@ -90,7 +92,10 @@ TEST(History, KeepsTheWholeCurveInBoundedMemory) {
 TEST(LiveJobs, MessagesWinOverOlderFilesAndStrangersAreIgnored) {
   LiveJobs jobs;
   jobs.note_api(api_job("aa", "running", 1.0));
-  EXPECT_EQ(jobs.jobs()[0].order, 0.25);
+  const LiveJob& first = jobs.jobs()[0];
+  EXPECT_EQ(first.order, 0.25);
+  EXPECT_EQ((std::array{first.sim_rate, first.eta, first.order_mean, first.max_overlap, 1.0 * first.n_rods}),
+            (std::array{0.5, 12.0, 0.2, 0.001, 271.0}));
   jobs.note(message("aa", 0, 2.0, 0.75));
   jobs.note(message("bb", 0, 2.0, 0.5));
   jobs.note_api(api_job("aa", "running", 1.5));
@@ -103,20 +108,9 @@ TEST(LiveJobs, MessagesWinOverOlderFilesAndStrangersAreIgnored) {
   EXPECT_EQ(jobs.jobs()[0].order, 0.25);
 }
 
-/// Frames of one rod at 0, 0.5, 1.0 ... in `directory`.
+/// Frames of rods at 0, 0.5, 1.0 ... in `directory`.
 void record_frames(const std::filesystem::path& directory, int n_frames) {
-  const Cell cell{.box = 10, .gap = 1.2, .shapes = {{{-2, 0, 2}, {0.2, 0.4, 0.2}}}};
-  auto log = run::FrameLog::create(run::RunDirectory{directory}.frames(), {1, cell, 1e-5, "{}", {}}).value();
-  for (int k = 0; k < n_frames; ++k) {
-    Snapshot now;
-    now.tick = k;
-    now.time = 0.5 * k;
-    now.box = 10;
-    now.position = now.velocity = {{1, 2, 0.6}};
-    now.director = {{1, 0, 0}};
-    now.image = {{0, 0}};
-    ASSERT_TRUE(log.append(run::record(now)));
-  }
+  test::record_rods({directory}, n_frames, test::kRod, 0.5);
 }
 
 TEST(LiveJobs, OrderFromBeforeTheyWereWatchedComesFromTheRunsFiles) {
@@ -147,6 +141,13 @@ TEST(LiveJobs, TheAxisBeginsWhereOrderDoesIfThereAreNoFiles) {
   jobs.note(message("aa", 0, 5.0, 0.75));
   const auto axis = [&] { return order_chart(jobs.jobs()[0], 40, 8).back(); };
   EXPECT_THAT(axis(), AllOf(HasSubstr(" 4 "), HasSubstr("5 s   S(t), live only")));
+  const auto lines = order_chart(jobs.jobs()[0], 40, 9);  // of which seven are between the axes
+  for (std::size_t k = 0; k < 7; ++k)
+    EXPECT_THAT(lines.at(k), StartsWith(k == 0 ? "1.00 ┤" : k == 3 ? "0.50 ┤" : k == 6 ? "0.00 ┤" : "     │")) << k;
+  LiveJobs soon;  // the first twentieth is not missed
+  soon.note_api(api_job("aa", "running", 0.49));
+  soon.note(message("aa", 0, 10.0, 0.75));
+  EXPECT_THAT(order_chart(soon.jobs()[0], 40, 8).back(), AllOf(HasSubstr(" 0 "), HasSubstr("10 s   S(t)")));
   record_frames(folder.path(), 2);
   LiveJobs others;
   others.note_api(job);

@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 #include <random>
 
+#include "base/palettes.h"
+#include "client/live/rod_colours.h"
 #include "client/watch/live_screen.h"
 #include "tests/support/good.h"
 
@@ -119,6 +122,7 @@ TEST_F(WatchCells, SaysWhatItNeedsWhereTheTerminalIsTooSmall) {
   const std::string text = shown(70, 10);
   EXPECT_THAT(text, HasSubstr("the rods need a terminal of 60x16 or 40x28; this one has 70x10"));
   EXPECT_THAT(text, HasSubstr("1f0c0000 running  20.0 %"));
+  EXPECT_THAT(shown(30, 10), HasSubstr("the rods need a terminal of\n60x16 or 40x28; this one has\n")) << "not cut";
   steering_.numbers = true;
   EXPECT_THAT(shown(70, 10), HasSubstr("271"));
 }
@@ -184,6 +188,26 @@ TEST_F(WatchCells, NumbersOfAllRuns) {
 TEST_F(WatchCells, HelpNamesEveryKey) {
   steering_.help = true;
   for (const char* line : kWatchKeys) EXPECT_THAT(shown(), HasSubstr(line));
+}
+
+TEST_F(WatchCells, TheLegendHasTheColoursOfItsScale) {
+  jobs_.note_api(job_json(kFirst, "running"));
+  const auto colours = [&](Colouring colouring, char32_t unit) {
+    steering_.colouring = colouring;
+    const CellGrid grid = cells(120, 40);
+    std::vector<Ink> inks;
+    for (int column = 0, is_past = 0; column < 74; ++column) {
+      const ScreenCell& cell = grid.at(column, 38);
+      if (is_past != 0 && cell.back != kOwnInk) inks.push_back(cell.back);
+      is_past += cell.glyph == unit ? 1 : 0;
+    }
+    return inks;
+  };
+  std::vector<Ink> wheel, tilt;
+  for (int k = 0; k < 6; ++k) wheel.push_back(ink_of(wheel_tone(k * std::numbers::pi / 6)));
+  for (int k = -2; k <= 2; ++k) tilt.push_back(ink_of(tilt_tone(k * kFullTilt / 2)));
+  EXPECT_EQ(colours(Colouring::kWheel, U'°'), wheel);
+  EXPECT_EQ(colours(Colouring::kTilt, U'−'), tilt);
 }
 
 TEST_F(WatchCells, WithoutColoursThereAreDotsAndNoInks) {
@@ -292,6 +316,7 @@ TEST_F(WatchCells, RodsThatAreTooThinAreDrawnAsTheirDirector) {
 TEST_F(WatchCells, KeysAreNotCut) {
   jobs_.note_api(job_json(kFirst, "running"));
   const auto last = [&](int columns) { return cells(columns, 40).text(39); };
+  for (int columns = 40; columns < 90; ++columns) EXPECT_THAT(last(columns), HasSubstr("? keys")) << columns;
   EXPECT_EQ(last(40), "q leave  Tab run  space hold  ? keys");
   EXPECT_EQ(last(60), "q leave  Tab run  space hold  +/- zoom  c colours  ? keys");
   EXPECT_EQ(last(90), "q leave  Tab run  space hold  +/- zoom  c colours  o numbers  ? keys  live over LCM");

@@ -77,7 +77,8 @@ class Terminal {
 // Ctrl-C throws away what has been typed, so that poll() may know of something that read() does not find any more.
 TEST(TerminalSession, GivesTheTerminalBackAfterNothingWasReadFromIt) {
   Terminal terminal;
-  EXPECT_TRUE(terminal.holds([](TerminalSession& session) { return session.read().empty() && session.has_keys(); }));
+  EXPECT_TRUE(terminal.holds(
+      [](TerminalSession& session) { return session.write("x") && session.read().empty() && session.has_keys(); }));
   EXPECT_TRUE(terminal.is_as_before());
 }
 
