@@ -28,6 +28,7 @@ namespace shaken::server {
 namespace {
 
 using testing::ElementsAre;
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -542,15 +543,19 @@ TEST_F(ApiTest, AJobIsFoundByAnyPrefixThatFitsOnlyOne) {
   EXPECT_EQ(get("/v1/jobs/abc").error(), "'abc' fits several jobs: abcd000000000000, abce000000000000");
   EXPECT_EQ(get("/v1/jobs/abcx000").status, 404);
   EXPECT_THAT(get("/v1/jobs/abdc00000000000").error(), HasSubstr("did you mean abcd000000000000?"));
+  std::vector<NewJob> many(12, new_job('0'));
+  for (std::size_t k = 0; k < many.size(); ++k) many[k].id = fmt::format("e{:015x}", k);
+  queue_.submit("many", 0, many);
+  EXPECT_THAT(get("/v1/jobs/e").error(), EndsWith("e000000000000008, e000000000000009, ..."));
 }
 
-/// The progress of a run that is half done, with 10 s to go.
-void write_progress(const std::filesystem::path& file) {
+/// The progress of a run that is half done, with `eta` seconds to go.
+void write_progress(const std::filesystem::path& file, double eta = 10) {
   std::filesystem::create_directories(file.parent_path());
-  write_text(file,
-             R"({"state": "running", "message": "", "pid": 1, "n_rods": 9, "fraction": 0.5, "sim_time_s": 1,
-                 "sim_time_total_s": 2, "sim_rate": 0.1, "eta_s": 10, "order": 0.25, "order_running_mean": 0.2,
-                 "max_overlap_mm": 0})");
+  write_text(file, fmt::format(R"({{"state": "running", "message": "", "pid": 1, "n_rods": 9, "fraction": 0.5,
+                                    "sim_time_s": 1, "sim_time_total_s": 2, "sim_rate": 0.1, "eta_s": {}, "order": 0.25,
+                                    "order_running_mean": 0.2, "max_overlap_mm": 0}})",
+                               eta));
 }
 
 TEST_F(ApiTest, ARunningJobShowsItsProgress) {
@@ -573,6 +578,8 @@ TEST_F(ApiTest, ARunningJobShowsItsProgress) {
   EXPECT_DOUBLE_EQ(sweep["progress"].get<double>(), 0.5 * part({ids[0]}) + part({ids[1]}))
       << "one done, one half, two that came to nothing";
   EXPECT_EQ(sweep["eta_s"], 10.0);
+  write_progress(file, 0.5);
+  EXPECT_EQ(get("/v1/sweeps/s1").json["sweep"]["eta_s"], 0.5);
 
   write_text(file, "{torn");
   EXPECT_TRUE(get("/v1/jobs/" + ids[0]).json["job"]["progress"].is_null());

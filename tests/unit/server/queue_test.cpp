@@ -343,6 +343,19 @@ TEST(QueueFileTest, AWriteAheadLogCutAnywhereGivesWholeSweepsOnly) {
   EXPECT_EQ(sizes_seen.front(), 0U);
 }
 
+TEST(QueueFileTest, AnotherThatWritesIsWaitedFor) {
+  const ScratchFolder directory;
+  Queue queue(directory / "queue.db");
+  Database other(directory / "queue.db");
+  other.execute("BEGIN IMMEDIATE");
+  const std::jthread later([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    other.execute("COMMIT");
+  });
+  queue.submit("s", 0, std::vector{new_job('a')});
+  EXPECT_EQ(queue.sweeps().size(), 1U);
+}
+
 TEST(QueueFileTest, ADamagedFileIsRefusedInWords) {
   const ScratchFolder directory;
   write_text(directory / "queue.db", std::string(8192, 'x'));

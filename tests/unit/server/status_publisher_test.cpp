@@ -10,6 +10,7 @@
 #include <shaken/job_t.hpp>
 #include <shaken/status_t.hpp>
 
+#include "base/clock.h"
 #include "tests/unit/server/server_support.h"
 
 namespace shaken::server {
@@ -110,12 +111,19 @@ TEST_F(PublisherTest, ARunningJobIsSentAgainAndAgainWithItsProgress) {
              R"({"state": "running", "message": "", "pid": 1, "n_rods": 9, "fraction": 0.5, "sim_time_s": 1,
                  "sim_time_total_s": 2, "sim_rate": 0.1, "eta_s": 10, "order": 0.25, "order_running_mean": 0.2,
                  "max_overlap_mm": 0})");
+  const std::int64_t begun = utime_now();
   start();
   std::this_thread::sleep_for(10 * kPeriod);  // LCM keeps the file's end in memory: no use to look
   const Recording recording = stop();
   EXPECT_GE(recording.statuses.size(), 2U);
+  std::int64_t sequence = 0;
+  for (const auto& status : recording.statuses) {
+    EXPECT_EQ(status.sequence, sequence++);
+    EXPECT_GE(status.utime, begun);
+  }
   EXPECT_GE(recording.jobs.size(), 2U);
   for (const auto& message : recording.jobs) {
+    EXPECT_GE(message.utime, begun);
     EXPECT_EQ(message.state, "running");
     EXPECT_EQ(message.progress, 0.5);
     EXPECT_EQ(message.sim_time_s, 1.0);

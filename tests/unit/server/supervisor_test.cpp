@@ -165,15 +165,16 @@ TEST_F(SupervisorTest, WhatWaitsForAnExecutorInTroubleSaysSo) {
   ToldExecutor executor;
   executor.own_trouble = "Slurm does not answer";
   Supervisor supervisor(queue_, executor, options());
-  submit('a', "done");
+  for (const char digit : {'a', 'c', 'd'}) submit(digit, "done");
   queue_.submit("elsewhere", 0, std::vector{new_job('b')}, {.executor = std::string(kSlurm)});
   supervisor.step();
   EXPECT_EQ(job('a').reason, "Slurm does not answer");
   EXPECT_EQ(job('b').reason, "") << "that goes to another";
   executor.own_trouble.clear();
   supervisor.step();
-  EXPECT_EQ(job('a').reason, "");
   EXPECT_EQ(job('a').state, kRunning);
+  EXPECT_EQ(job('d').state, kQueued) << "there are two slots";
+  for (const char digit : {'a', 'd'}) EXPECT_EQ(job(digit).reason, "") << digit;
 }
 
 TEST_F(RefusedTest, ARetryEndsThePauseAfterARefusal) {
@@ -457,6 +458,15 @@ TEST_F(SupervisorTest, ARunIsTimedOutAfterAllItsAttemptsTogether) {
   EXPECT_GE(job('a').wall, std::chrono::milliseconds(1500));
   EXPECT_EQ(job('a').attempt, 2);
   EXPECT_THAT(job('a').reason, HasSubstr("its time limit"));
+}
+
+TEST_F(SupervisorTest, TimeThatIsNotWrittenDownYetCountsToo) {
+  SupervisorOptions seldom = options();
+  seldom.counting = std::chrono::hours(1);
+  ToldExecutor executor;
+  Supervisor supervisor(queue_, executor, seldom);
+  queue_.submit("long", 0, std::vector{new_job('a')}, {.time_limit = std::chrono::milliseconds(100)});
+  EXPECT_TRUE(step_until(supervisor, 'a', kStopping));
 }
 
 TEST_F(SupervisorTest, ADeafWorkerBeyondItsTimeLimitIsKilled) {

@@ -29,9 +29,9 @@ class TermsTest : public testing::Test {
                  state == kFailed ? "why" : "");
   }
   /// What may start now, in its order.
-  std::string next() const {
+  std::string next(const ExecutorRole& executor = {}) const {
     std::string digits;
-    for (const Job& each : queue_.next(100)) digits += each.id.front();
+    for (const Job& each : queue_.next(100, executor)) digits += each.id.front();
     return digits;
   }
   void reopen() {
@@ -59,6 +59,14 @@ TEST_F(TermsTest, NoMoreOfASweepRunThanMay) {
   EXPECT_EQ(next(), "cde");
   EXPECT_EQ(job('c').reason, "");
   EXPECT_EQ(queue_.sweep(1)->at_most, 2);
+}
+
+TEST_F(TermsTest, AnExecutorTakesWhatNamesItAndTheDefaultTheRest) {
+  submit("ab");
+  submit("c", {.executor = std::string(kSlurm)});
+  submit("d", {.executor = std::string(kLocal)});
+  EXPECT_EQ(next(), "abd");
+  EXPECT_EQ(next({std::string(kSlurm), false}), "c");
 }
 
 TEST_F(TermsTest, WhatComesAfterASweepWaitsUntilItIsDone) {

@@ -4,9 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <thread>
 
+#include "base/process.h"
 #include "base/slurm_conf.h"
 #include "server/slurm/batch.h"
 #include "server/slurm/slurm_call.h"
@@ -139,16 +141,21 @@ TEST(Command, OneThatSaysTooMuchIsEnded) {
 }
 
 TEST_F(SlurmExecutorTest, WhatWaitsInSlurmIsBounded) {
-  SlurmExecutor executor(options());
+  SlurmOptions of_four = options();
+  of_four.max_pending = 4;
+  SlurmExecutor executor(of_four);
   executor.step();
   std::vector<int> workers;
   while (executor.room() > 0) workers.push_back(executor.start(launch()).value());
-  EXPECT_EQ(workers.size(), 4) << "two tasks of two";
-  list(executor, workers[0], {"PENDING|Priority", "PENDING|Priority"});
-  ASSERT_TRUE(step_until(executor, [&] { return calls("squeue").size() > 2; }));
-  EXPECT_EQ(executor.room(), 0);
-  list(executor, workers[0], {"RUNNING|None", "PENDING|Priority"});
-  EXPECT_TRUE(step_until(executor, [&] { return executor.room() > 0; }));
+  EXPECT_EQ(workers.size(), 8) << "four tasks of two";
+  std::vector<std::string> tasks(4, "PENDING|Priority");
+  for (const std::size_t n_running : {0, 1, 2}) {  // there is room again once half of them run
+    if (n_running > 0) tasks[n_running - 1] = "RUNNING|None";
+    list(executor, workers[0], tasks);
+    const std::size_t before = calls("squeue").size();
+    ASSERT_TRUE(step_until(executor, [&] { return calls("squeue").size() > before + 2; }));
+    EXPECT_EQ(executor.room() > 0, n_running == 2) << n_running;
+  }
 }
 
 TEST_F(SlurmExecutorTest, TheEndOfAWorkerIsWhatItsTaskSays) {
@@ -276,13 +283,17 @@ TEST_F(SlurmExecutorTest, AnotherExecutorFindsTheWorkersByTheirNames) {
     list(executor, workers[0], {"RUNNING|None"});
     ASSERT_TRUE(step_until_says(executor, workers[0], "waits for its turn in Slurm job 7_0"));
   }
-  SlurmExecutor executor(options());
-  EXPECT_FALSE(executor.adopt("0123456789abcdef/0")) << "never written";
-  EXPECT_FALSE(executor.adopt("../../etc/0"));
-  EXPECT_FALSE(executor.adopt(name.substr(0, 17) + "9"));
-  const auto worker = test::good(executor.adopt(name));
-  EXPECT_EQ(executor.name(*worker), name);
-  ASSERT_TRUE(step_until_says(executor, *worker, "waits for its turn in Slurm job 7_0"));
+  for (const bool has_said_its_id : {true, false}) {
+    if (!has_said_its_id) std::filesystem::remove(directory_ / "slurm" / name.substr(0, 16) / "job");
+    SlurmExecutor executor(options());
+    EXPECT_FALSE(executor.adopt("0123456789abcdef/0")) << "never written";
+    EXPECT_FALSE(executor.adopt("../../etc/0"));
+    EXPECT_FALSE(executor.adopt(name.substr(0, 17) + "9"));
+    const auto worker = test::good(executor.adopt(name));
+    EXPECT_EQ(executor.name(*worker), name);
+    ASSERT_TRUE(step_until_says(executor, *worker, "waits for its turn in Slurm job 7_0"));
+    EXPECT_EQ(calls("sbatch").size(), 1);
+  }
 }
 
 TEST_F(SlurmExecutorTest, StoppingOneOfATaskThatRunsLeavesTheOthersAlone) {
@@ -478,6 +489,44 @@ TEST(BatchFiles, WhatIsWrittenIsRead) {
   ASSERT_TRUE(write_stop(folder.stop(1), {2, 5, 7}, Lasting::kNo));
   EXPECT_EQ(read_stop(folder.stop(1)), (std::set{2, 5, 7}));
   EXPECT_TRUE(read_stop(folder.stop(2)).empty());
+}
+
+// The program that Slurm starts, with workers that end by themselves, and signals that come while the first is at work.
+TEST(TaskProgram, DoesItsRunsOneAfterTheOtherUntilItsTimeIsOver) {
+  struct Case {
+    std::vector<std::string> labels;
+    int signal, exit_code;
+    std::vector<int> ends;  ///< exit codes of the workers of which it says how they ended
+  };
+  for (const Case& of : {Case{{"done", "fail"}, 0, 0, {0, 1}}, Case{{"run", "done"}, SIGUSR1, 0, {99}},
+                         Case{{"stops at once", "done"}, SIGTERM, 143, {}}}) {
+    const ScratchFolder directory;
+    const BatchFolder folder{directory.path()};
+    Batch batch{write_fake_worker(directory.path()), {}};
+    std::vector<Launch>& runs = batch.tasks.emplace_back();
+    for (const std::string& label : of.labels) {
+      std::filesystem::create_directory(directory / label);
+      runs.push_back({directory / label,
+                      {"scene", "--out", directory / label, "--job-id", "1", "--sweep-id", "s1", "--label", label},
+                      "heading"});
+    }
+    ASSERT_TRUE(write_batch(folder, batch));
+    setenv("SLURM_ARRAY_TASK_ID", "0", 1);
+    const pid_t task = start_child({.command = {SHAKEN_TASK, directory.path()}}).value();
+    if (of.signal != 0) {
+      const bool listens = of.labels[0] == "run";
+      ASSERT_TRUE(
+          eventually([&] { return std::filesystem::exists(listens ? directory / "run/up" : folder.report(0)); }));
+      if (!listens) std::this_thread::sleep_for(milliseconds(500));  // Slurm's word comes after the worker's end
+      kill(task, of.signal);
+    }
+    EXPECT_EQ(wait_for_child(task).exit_code, of.exit_code) << of.labels[0];
+    const auto report = test::good(read_report(folder.report(0)));
+    std::vector<int> ends;
+    for (const auto& [place, end] : report->ends) ends.push_back(end.exit_code);
+    EXPECT_EQ(ends, of.ends) << of.labels[0];
+  }
+  unsetenv("SLURM_ARRAY_TASK_ID");
 }
 
 TEST(ForgetFilters, NothingHidesTasksAndTheRestStays) {
