@@ -9,6 +9,8 @@
 #include <iterator>
 #include <string>
 
+#include "bench/bench.h"
+
 namespace shaken::bench {
 namespace {
 
@@ -103,6 +105,14 @@ TEST(OrderOfContacts, IsLeftOpenByTooFewReplicas) {
       EXPECT_NE(outcome.note.find("open"), std::string::npos) << outcome.holds << ": " << outcome.note;
     }
   }
+  CLI::App app;
+  Work work;
+  add_hard(app, work);
+  app.parse("hard order --replicas 2 --seconds 0.02 --cases " + kFolder.string());
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(work(), ExitCode::kFailed);
+  EXPECT_NE(testing::internal::GetCapturedStdout().find("\norder: S: difference / mean, 95 % sure: "),
+            std::string::npos);
 }
 
 // The scenes again, the last of them shaken harder by 4 %, whose rods have 8 % more energy.

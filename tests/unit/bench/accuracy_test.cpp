@@ -1,6 +1,9 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <string>
 
 #include "bench/accuracy/errors.h"
 
@@ -90,9 +93,19 @@ TEST(StartCases, BeginApartAndThenHit) {
   }
 }
 
-TEST(StartCases, MembersDiffer) {
+// Errors are compared from one version to the next: each case begins where it did.
+TEST(StartCases, BeginAsTheyDidAndMembersDiffer) {
+  const std::map<std::string, std::string> known{
+      {"rattling", "2b01a83ba4e45b8c in 30 mm"},    {"wedged", "1d3489c2a3fc822b in 30 mm"},
+      {"head-on", "3c377257cb131899 in 30 mm"},     {"glancing", "77991c97bf4d0b10 in 30 mm"},
+      {"crossing", "9e08a8a8e4267ba2 in 30 mm"},    {"dozen", "924bfbe77a088a31 in 20 mm"},
+      {"hundred", "c6b9823b7d4d21a1 in 18.235 mm"},
+  };
   for (const StartCase& start : start_cases()) {
-    EXPECT_NE(start.rods(0)[0].velocity, start.rods(1)[0].velocity) << start.name;
+    const std::vector<Flight> rods = start.rods(1);
+    EXPECT_NE(start.rods(0)[0].velocity, rods[0].velocity) << start.name;
+    const Simulation begun = begin(start, rods, variants().front(), StepperKind::kScheduled, kLongestStep);
+    EXPECT_EQ(fmt::format("{:016x} in {} mm", begun.state_hash(), start.scene.box_side), known.at(start.name));
   }
 }
 
@@ -105,6 +118,29 @@ TEST(StartCases, AreTheSameAtAnyStep) {
   ASSERT_FALSE(coarse.advance_to(4));
   ASSERT_FALSE(fine.advance_to(64));
   EXPECT_LT((coarse.snapshot().position[0] - fine.snapshot().position[0]).norm(), 1e-13);
+}
+
+// One rod that rattles, at its longest steps: errors grow with the step, and those of either stepper are the same.
+TEST(Convergence, IsMeasuredOfEveryStepAgainstOneSolution) {
+  const StartCase& start = start_cases().front();
+  const ConvergenceEffort effort{.steps = {kLongestStep / 4, kLongestStep}, .members = 3};
+  const Json of = measure_convergence(start, variants().at(2), effort);
+  ASSERT_EQ(of.at("rows").size(), 2u);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Json& row = of.at("rows").at(k);
+    EXPECT_EQ(row.at("dt_s"), effort.steps[k]);
+    EXPECT_EQ(row.at("in_trouble"), 0);
+    EXPECT_TRUE(row.at("states_equal").get<bool>());
+  }
+  const auto position = [&](const Json& errors) { return errors.at("position").at("median").get<double>(); };
+  const double fine = position(of.at("rows").at(0).at("error")), coarse = position(of.at("rows").at(1).at("error"));
+  EXPECT_GT(fine, position(of.at("converged").at("error")));
+  EXPECT_GT(coarse, fine);
+  EXPECT_LT(coarse, 0.1);
+  EXPECT_EQ(of.at("converged").at("dt_s"), effort.steps.front() / 64);
+  EXPECT_GT(of.at("converged").at("impulses").get<double>(), 1);
+  EXPECT_TRUE(of.at("converged").contains("from_first"));
+  EXPECT_FALSE(measure_convergence(start, variants().front(), effort).at("converged").contains("from_first"));
 }
 
 }  // namespace

@@ -161,7 +161,12 @@ System a_few_rods() {
 
 TEST(HardHistory, IsThatOfTheRun) {
   constexpr double kSeconds = 0.4;
-  const std::vector<HistoryPoint> history = history_of(a_few_rods(), kSeconds, [](double) {});
+  double done = 0;
+  const std::vector<HistoryPoint> history = history_of(a_few_rods(), kSeconds, [&](double now) {
+    EXPECT_GT(now, done);
+    done = now;
+  });
+  EXPECT_EQ(done, 1);
   ASSERT_EQ(history.size(), static_cast<std::size_t>(kHistoryPoints));
   auto simulation = Simulation::start(a_few_rods());
   ASSERT_TRUE(static_cast<bool>(simulation));

@@ -26,6 +26,7 @@ Contender contender(double cpu) {
   of.speed.rod_seconds = 10;
   of.speed.plate_impulses = 900;
   of.speed.rod_impulses = 100;
+  of.speed.max_overlap = of.scene.system().rod.mid_diameter / 8;
   return of;
 }
 
@@ -98,16 +99,20 @@ TEST(Rates, OfBothSteppersHaveTheirRatio) {
   EXPECT_DOUBLE_EQ(row().at("scheduled").at("ns_per_impulse"), 1e5);
   EXPECT_DOUBLE_EQ(row().at("scheduled").at("impulses_per_rod_second").at("plates"), 90);
   EXPECT_DOUBLE_EQ(row().at("ratio"), 20);
+  EXPECT_DOUBLE_EQ(row().at("max_overlap_of_thickness"), 0.125);
   EXPECT_EQ(row(0xab).at("scheduled").at("state_hash"), "00000000000000ab");
 }
 
 TEST(Rates, SayWhatIsNotTheSteadyState) {
   Conditions conditions;
-  conditions.warm_up = 0.5;
-  const auto text = [&] { return rates_report(conditions, Comparison::kSteppers, Json::array({row()})).text; };
-  EXPECT_THAT(text(), HasSubstr("NOT the steady state"));
-  conditions.warm_up = Conditions::kSteady;
-  EXPECT_THAT(text(), Not(HasSubstr("NOT the steady state")));
+  for (const bool steady : {false, true}) {
+    conditions.warm_up = steady ? Conditions::kSteady : 0.5;
+    const Report report = rates_report(conditions, Comparison::kSteppers, Json::array({row()}));
+    EXPECT_EQ(report.text.find("NOT the steady state") == std::string::npos, steady);
+    EXPECT_EQ(report.json.at("warm_up_s"), conditions.warm_up);
+    EXPECT_EQ(report.json.at("steady"), steady);
+    EXPECT_EQ(report.json.at("repeat"), conditions.effort.repeat);
+  }
 }
 
 TEST(Rates, SayIfTheSteppersDiffer) {

@@ -99,6 +99,7 @@ TEST_F(SmallBox, WorkIsCountedByTheStepper) {
   EXPECT_GT(count(WorkKind::kRodsVisited), 0);
   EXPECT_GE(count(WorkKind::kRodsVisited), count(WorkKind::kRodsHit));
   EXPECT_GT(work.cpu, 0);
+  EXPECT_NE(work.phases[static_cast<std::size_t>(Phase::kSurfaces)], 0);
 }
 
 }  // namespace

@@ -147,7 +147,7 @@ TEST(AskedBy, NothingThatTheStyleDoesNotNeed) {
   EXPECT_TRUE(asked_by(style).field);
 }
 
-std::string problems_of(const char* text) {
+std::string problems_of(const std::string& text) {
   const keys::Loaded<PictureStyle> style = load_style(text, "mine.json", {});
   return style ? "" : to_string(style.error());
 }
@@ -195,7 +195,8 @@ TEST(StyleFile, RefusesWhatContradictsItself) {
   EXPECT_NE(problems_of(R"({"background": "order"})").find("hidden"), std::string::npos);
   EXPECT_NE(problems_of(R"({"view": "follow:x"})").find("follow:N"), std::string::npos);
   EXPECT_NE(problems_of(R"({"view": "orbit:10"})").find("orbit:AZIMUTH,ELEVATION"), std::string::npos);
-  EXPECT_NE(problems_of(R"({"view": "orbit:10,95"})").find("from 1 to 90"), std::string::npos);
+  for (const std::string orbit : {"10,95", "10,0.5", "361,20", "-361,20"})
+    EXPECT_NE(problems_of(R"({"view": "orbit:)" + orbit + "\"}").find("from 1 to 90"), std::string::npos) << orbit;
   EXPECT_NE(problems_of(R"({"style": "deffects"})").find("did you mean defects?"), std::string::npos);
   EXPECT_NE(problems_of(R"([1])").find("object"), std::string::npos);
   EXPECT_NE(problems_of("{").find("mine.json:1"), std::string::npos);

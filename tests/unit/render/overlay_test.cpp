@@ -172,6 +172,8 @@ TEST(Overlay, TheLegendShowsHowManyRodsLeanEachWay) {
 TEST(Overlay, FilmsSayHowFastTheyPlay) {
   EXPECT_EQ(playback_text(0.1), "1/10 speed");
   EXPECT_EQ(playback_text(1.0 / 30), "1/30 speed");
+  EXPECT_EQ(playback_text(1 / 1000.4), "1/1000 speed");
+  EXPECT_EQ(playback_text(1 / 1000.5), "0.001\u00d7 speed");
   EXPECT_EQ(playback_text(0.15), "0.15\u00d7 speed");
   EXPECT_EQ(playback_text(1), "real time");
   EXPECT_EQ(playback_text(6), "6\u00d7 speed");
