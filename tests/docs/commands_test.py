@@ -148,7 +148,7 @@ def type_readme(shell):
     """Its scene, in no time, and what follows it."""
     text = (SOURCE / "README.md").read_text().split("```json\n")[1]
     scene, after = text.split("```", 1)
-    (shell.folder / "scene.json").write_text(scene.replace('"auto"', "0").replace('"60 s"', '"100 ms"'))
+    (shell.folder / "scene.json").write_text(scene.replace('"auto"', "0").replace('"240 s"', '"100 ms"'))
     submit, plot = (line.strip() for line in after.split("\n\n")[1].splitlines()[-2:])
     sweep = re.search(r"sweep (s\d+) .*: 5 points: 5 new", shell.type(submit))
     if not sweep:

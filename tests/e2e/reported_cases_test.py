@@ -224,6 +224,7 @@ class Reported(unittest.TestCase):
         programs.mkdir()
         for program in BIN.iterdir():
             (programs / program.name).symlink_to(program)
+        (programs / "shaken-worker-wide").unlink(missing_ok=True)
         copy = programs / "shaken-worker"  # its siblings are those beside it
         copy.unlink()
         shutil.copy(BIN / "shaken-worker", copy)
