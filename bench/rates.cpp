@@ -230,13 +230,13 @@ std::string work_text(const Json& rows, const std::vector<Column>& scene) {
               ns("rods_bounded"), per_rod_second("places", "rods_placed"), ns("rods_placed")}) +
          with(
              "\nPairs, per rod and simulated second: searches for contacts (of these: touching), pairs that came up "
-             "while their\nbounds held and were not searched, and new bounds (of these: of pairs that came up, by beads, "
+             "while their\nbounds held and were not searched, and new bounds (of these: of pairs that came up, by "
+             "beads, "
              "and too short to\nsave the visit at the next tick).\n",
              {per_rod_second("searches", "pairs_searched"), per_rod_second("touching", "pairs_touching"),
-              ns("pairs_searched"), per_rod_second("apart", "pairs_apart"),
-              per_rod_second("bounds", "pairs_bounded"), ns("pairs_bounded"),
-              per_rod_second("when due", "bounds_when_due"), per_rod_second("by beads", "bounds_by_beads"),
-              per_rod_second("no tick", "bounds_of_no_tick")}) +
+              ns("pairs_searched"), per_rod_second("apart", "pairs_apart"), per_rod_second("bounds", "pairs_bounded"),
+              ns("pairs_bounded"), per_rod_second("when due", "bounds_when_due"),
+              per_rod_second("by beads", "bounds_by_beads"), per_rod_second("no tick", "bounds_of_no_tick")}) +
          with(
              "\nHits, per rod and simulated second, each spent from the budgets of all pairs of the rod, and bounds "
              "that are\nshortened for that.\n",

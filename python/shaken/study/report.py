@@ -24,7 +24,7 @@ from .next_runs import open_questions, open_statements
 from .rules import AGREES, CONSISTENT, CONTRADICTS, DISAGREES, IN_PART, NO_DATA, OPEN, SIGMAS, markdown, text
 from .sets import ORDER
 from .statement import CALIBRATES, HARDLY_FAILS, Statement
-from .statements import STATEMENTS, Verdict, as_table, judged
+from .statements import Verdict, as_table, judged
 from .time_step import differences, prices
 
 
