@@ -42,7 +42,8 @@ def write_wheel(folder: str | Path, content: Mapping[str, bytes], tag: str = "py
              f"{info}/WHEEL": f"Wheel-Version: 1.0\nGenerator: shaken\nRoot-Is-Purelib: {is_pure}\n"
                               f"Tag: {tag}\n".encode()}
     if executable:
-        scripts = "".join(f"{Path(path).name} = shaken.__main__:main\n" for path in executable)
+        scripts = "".join(f"{Path(path).name} = shaken.__main__:main\n" for path in executable
+                          if not path.endswith("-wide"))  # as which others go on by themselves
         files[f"{info}/entry_points.txt"] = f"[console_scripts]\n{scripts}".encode()
 
     def hash_of(data: bytes) -> str:
